@@ -37,7 +37,12 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
             escaped(&row.verdict)
         );
     }
-    let head = Head { title, style: "a { color: var(--accent); }\n.finding-mark { display: inline-block; }\n", ..Head::default() }.html(&[]);
+    let head = Head {
+        title,
+        style: "a { color: var(--accent); }\n.finding-mark { display: inline-block; }\n",
+        ..Head::default()
+    }
+    .html(&[]);
     let (title, subtitle) = (escaped(title), escaped(subtitle));
     format!(
         "{head}<header>\n<h1>{title}</h1>\n<p id=\"subtitle\">{subtitle}</p>\n</header>\n\

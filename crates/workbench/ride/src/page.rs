@@ -44,12 +44,7 @@ pub struct Page {
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(page: &Page) -> String {
-    let head = shared::Head {
-        title: "Ride",
-        subtitle: &page.subtitle,
-        style: STYLE,
-        scripts: shared::COMPILED,
-        policy: "",
-    };
+    let head =
+        shared::Head { title: "Ride", subtitle: &page.subtitle, style: STYLE, scripts: shared::COMPILED, policy: "" };
     shared::assembled(&head, TEMPLATE, page, &[&SHARED[..], &SCRIPTS].concat())
 }
