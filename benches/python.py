@@ -38,7 +38,7 @@ def seconds(function, *arguments):
 
 def rust(profile):
     """The Rust program, built once; returns a function that gives its time of a step [ns]."""
-    build = ["cargo", "build", "--profile", profile, "-p", "moris-batch", "--example", "one_run"]
+    build = ["cargo", "build", "--profile", profile, "-p", "moris-simulation", "--example", "one_run"]
     subprocess.run(build, cwd=ROOT, check=True)
     program = ROOT / "target" / profile / "examples" / "one_run"
     return lambda: float(subprocess.run([program, str(STEPS)], check=True, capture_output=True, text=True).stdout)
@@ -92,7 +92,7 @@ def fmpy():
 
 def table():
     kinds = {
-        "Rust, `moris_batch::Replay`, profile of the FMU": rust("fmu-library"),
+        "Rust, `moris_simulation::Replay`, profile of the FMU": rust("fmu-library"),
         "Rust, the same, profile of the package": rust("release"),
         "Python, `Washout.run` on arrays": arrays(),
         "Python, `Washout.step` one by one": single_steps(),

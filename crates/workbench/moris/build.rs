@@ -19,11 +19,10 @@ const MODULES: [(&str, &str, &str); 2] = [
 const PROFILE: &str = "page-simulation";
 
 /// Directories of the workspace whose files the modules are compiled of.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 11] = [
     "src",
     "crates/interface",
     "crates/simulator/motorcycle",
-    "crates/workbench/batch/src",
     "crates/workbench/measures/src",
     "crates/workbench/page-memory",
     "crates/workbench/page-simulation",

@@ -8,7 +8,7 @@ use plotters::style::{BLACK, RGBColor};
 
 use crate::chart::{Curve, Panel, Stroke, draw};
 use crate::trace::{Sample, Trace};
-use moris_drives::runs::{A, B, C, TOWN};
+use moris_simulation::drives::runs::{A, B, C, TOWN};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
 const BLUE: RGBColor = RGBColor(0, 114, 178);
@@ -176,7 +176,7 @@ fn curve(label: &str, colour: RGBColor, stroke: Stroke, trace: &Trace, value: im
 mod tests {
     use super::*;
     use crate::parameter_set::STRATEGIES;
-    use moris_drives::runs::Manoeuvre;
+    use moris_simulation::drives::runs::Manoeuvre;
 
     /// A run felt a tenth of a second late.
     fn trace(run: &Manoeuvre, parameters: &'static str) -> Trace {

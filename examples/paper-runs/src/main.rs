@@ -7,7 +7,6 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::Parser;
 use moris_build_fmu::workspace;
-use moris_drives::runs::{A, A_BRISK, B, C, Manoeuvre, TOWN};
 use moris_fmu_host::Fmu;
 use moris_paper_runs::curves::write_curves;
 use moris_paper_runs::figures::{write_figures, write_strategies};
@@ -16,6 +15,7 @@ use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTI
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
 use moris_paper_runs::trace::Trace;
+use moris_simulation::drives::runs::{A, A_BRISK, B, C, Manoeuvre, TOWN};
 
 /// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and
 /// draws figures 5 to 9; then compares the strategies. Writes the curves as CSV, too.

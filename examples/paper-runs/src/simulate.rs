@@ -6,7 +6,7 @@ use moris_measures::LimitFlags;
 
 use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};
-use moris_drives::runs::Manoeuvre;
+use moris_simulation::drives::runs::Manoeuvre;
 
 const FLAGS: [&str; 4] = ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
 

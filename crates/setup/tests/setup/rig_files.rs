@@ -13,7 +13,7 @@ pub const RIGS: [&str; 8] =
     ["hobby100", "hobby150", "hobby200", "diy283", "dim330", "moog-like450", "flight091", "flight125"];
 
 pub fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../examples/rigs").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/rigs").join(name)
 }
 
 fn default_text() -> String {

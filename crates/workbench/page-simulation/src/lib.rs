@@ -8,13 +8,13 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
-use moris_batch::{Manoeuvre, Replay};
 use moris_interface::{Group, Reader, slot_count};
 use moris_measures::References;
 use moris_page_memory::{group, respond, with_numbers};
 use moris_report::{Event, Finding, Limits, Measure, Rig, Thinning, events};
 use moris_simulation::capabilities::{AxisAlone, Capabilities};
 use moris_simulation::{Evaluated, Simulation, Unfinished, measures_with};
+use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
 use serde::Serialize;

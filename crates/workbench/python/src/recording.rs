@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use moris::recording::{ConventionOptions, Conventions, Dialect, Recording, Road};
-use moris_batch::Manoeuvre;
 use moris_interface::{Group, slots_of};
+use moris_simulation::Manoeuvre;
 use moris_washout::Input;
 use moris_washout::interface::AngularVelocityFrame;
 use pyo3::prelude::*;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use moris_batch::{Manoeuvre, Replay};
+use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Parameters, Washout};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;

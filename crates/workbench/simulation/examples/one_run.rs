@@ -1,13 +1,13 @@
 //! Time of a step in a run \[ns\], for `benches/python.py`.
 //!
 //! ```sh
-//! cargo run --release -p moris-batch --example one_run -- 5000
+//! cargo run --release -p moris-simulation --example one_run -- 5000
 //! ```
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use moris_batch::{Manoeuvre, Replay};
+use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Parameters, Washout};
 
 /// Runs; the least time of them is that without interruptions by other programs.

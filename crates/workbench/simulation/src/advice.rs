@@ -1,6 +1,6 @@
 //! Advice for the findings: another scale, with and without a preview.
 
-use moris_batch::Manoeuvre;
+use crate::Manoeuvre;
 use moris_measures::shape::Shape;
 use moris_washout::interface::{AutomaticScale, StrategyKind};
 use moris_washout::{ParameterError, Parameters};

@@ -5,7 +5,7 @@
 //! does not change. Heave has a factor of its own. The search simulates with longer internal steps
 //! than the set, as the cues are below 2 Hz, and confirms its result with the set's own.
 
-use moris_batch::{Manoeuvre, Replay};
+use crate::{Manoeuvre, Replay};
 use moris_measures::shape::{Desired, Shape, below_cue_frequency};
 use moris_washout::interface::{STANDARD_GRAVITY, StrategyKind};
 use moris_washout::{ParameterError, Parameters, Washout};

@@ -3,6 +3,7 @@
 //! The workbench and the report's page use it. The page has it as WebAssembly, so that both have
 //! the same numbers and sentences: no threads, no files.
 //!
+//! - [`Replay`] takes a washout through a [`Manoeuvre`]; [`drives`] has computed ones.
 //! - [`Simulation`] steps the washout, [`Unfinished`] part by part; [`preview`] gives it
 //!   the recording's future.
 //! - [`advice`] is what another scale would give.
@@ -17,17 +18,22 @@
 pub mod advice;
 pub mod capabilities;
 pub mod clearance;
+pub mod drives;
 mod evaluated;
 pub mod findings;
 pub mod fit;
 pub mod foreign;
 pub mod frequency_response;
 mod headline;
+mod manoeuvre;
 mod measured;
 pub mod preview;
+pub mod replay;
 mod simulation;
 mod spans;
 
 pub use evaluated::{Evaluated, capitalised};
+pub use manoeuvre::Manoeuvre;
 pub use measured::{measures, measures_with};
+pub use replay::Replay;
 pub use simulation::{Simulation, Unfinished};

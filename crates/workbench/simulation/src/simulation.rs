@@ -1,6 +1,6 @@
 //! Inputs and outputs of the washout in a simulation.
 
-use moris_batch::{Manoeuvre, Replay};
+use crate::{Manoeuvre, Replay};
 use moris_report::{Chart, Limits, Line, Thinning, TiltFlags, tilt_limits};
 use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;

@@ -1,6 +1,6 @@
 //! A replay is the washout stepped by hand, on any number of cores.
 
-use moris_batch::{Manoeuvre, Replay};
+use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Output, Parameters, Washout};
 use nalgebra::Vector3;
 use rayon::prelude::*;

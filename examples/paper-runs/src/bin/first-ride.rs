@@ -5,12 +5,12 @@ use std::fs;
 
 use anyhow::{Context, Result};
 use moris_build_fmu::workspace;
-use moris_drives::runs::TOWN;
 use moris_paper_runs::figures::write_ride;
 use moris_paper_runs::fmu::built;
 use moris_paper_runs::parameter_set::RIDE;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table};
+use moris_simulation::drives::runs::TOWN;
 
 /// Communication step \[s\].
 const STEP: f64 = 0.001;

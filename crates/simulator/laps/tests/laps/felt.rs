@@ -1,7 +1,7 @@
 //! The felt force with and without the memory.
 
-use moris_batch::{Manoeuvre, Replay};
 use moris_laps::{Laps, Preview, Sample};
+use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Washout, presets};
 
 use crate::track::{LAP, STEP, busy_laps, laps, mirrored};

@@ -1,6 +1,6 @@
 //! `moris bench`: washouts compared on fixed drives and rigs.
 //!
-//! - `moris_drives::bench` has the drives, and [`rigs`] the rigs.
+//! - `moris_simulation::drives::bench` has the drives, and [`rigs`] the rigs.
 //! - [`columns`] are the measures, in their order.
 //! - [`run`] computes the rows of a drive on a rig.
 //! - [`table`] writes the rows as CSV, and prints their means.
@@ -17,7 +17,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use clap::builder::PossibleValuesParser;
-use moris_drives::bench::{DRIVES, Drive};
+use moris_simulation::drives::bench::{DRIVES, Drive};
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 

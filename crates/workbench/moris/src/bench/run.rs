@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use moris_drives::bench::{Drive, FRAME};
 use moris_measures::Axes;
 use moris_setup::Setup;
+use moris_simulation::drives::bench::{Drive, FRAME};
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
 use moris_washout::Parameters;

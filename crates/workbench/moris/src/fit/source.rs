@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
-use moris_batch::Manoeuvre;
+use moris_simulation::Manoeuvre;
 use moris_washout::Input;
 use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY};
 

@@ -2,7 +2,7 @@
 //! slopes of the inputs.
 
 use anyhow::{Context, Result};
-use moris_batch::Replay;
+use moris_simulation::Replay;
 use moris_simulation::preview::Previewer;
 use moris_washout::Parameters;
 

@@ -43,9 +43,9 @@ pub mod table;
 
 use std::path::Path;
 
-use moris_batch::{Manoeuvre, Replay};
 pub use moris_simulation::preview;
 use moris_simulation::preview::Previewer;
+use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 

@@ -1,7 +1,7 @@
 //! The washout's commands to the legs on a recording.
 
 use anyhow::{Context, Result};
-use moris_batch::Replay;
+use moris_simulation::Replay;
 use moris_washout::interface::StructureParameters;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Parameters, Rig, Washout};

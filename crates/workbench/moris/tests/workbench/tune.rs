@@ -11,8 +11,8 @@ use moris::simulate::Simulation;
 use moris::tune::cost::{Cost, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
-use moris_batch::Manoeuvre;
 use moris_setup::Setup;
+use moris_simulation::Manoeuvre;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 

@@ -111,7 +111,7 @@ fn a_dead_time_shifts_what_is_felt_by_exactly_that() {
     let mut recording = recording();
     // The lean moves the head without delay.
     let upright = recording.inputs().iter().map(|input| moris_washout::Input { lean: 0.0, ..*input }).collect();
-    recording.manoeuvre = moris_batch::Manoeuvre::new(SAMPLE, upright);
+    recording.manoeuvre = moris_simulation::Manoeuvre::new(SAMPLE, upright);
     let commands = Commands::of(&recording, &Parameters::default(), LONGEST_STEP).unwrap();
     let felt = |dead_time: f64| {
         let platform = Platform::default();

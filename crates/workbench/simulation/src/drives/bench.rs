@@ -1,12 +1,12 @@
 //! The drives of the bench. Their list is part of the bench's version: a change is a new version.
 
-use moris_batch::Manoeuvre;
 use moris_washout::Input;
 use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY as GRAVITY};
 
-use crate::car::{CAR, Course, KART, STEP};
-use crate::runs;
-use crate::smooth::{changes, rise};
+use super::car::{CAR, Course, KART, STEP};
+use super::runs;
+use super::smooth::{changes, rise};
+use crate::Manoeuvre;
 
 /// A drive of the bench.
 #[derive(Clone, Copy, Debug)]

@@ -4,11 +4,11 @@
 //! driver steers for, which is a steering angle by the car's own characteristic, and the
 //! acceleration along the road. Both are functions of time in closed form.
 
-use moris_batch::Manoeuvre;
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
-use crate::smooth::{changes, changes_integral};
+use super::smooth::{changes, changes_integral};
+use crate::Manoeuvre;
 
 /// Time between samples \[s\], and integration steps to each.
 pub const STEP: f64 = 0.01;

@@ -4,8 +4,6 @@
 //! - [`car`] is a single-track car, with a driver's steering and pedals in closed form.
 //! - [`bench`](mod@bench) is the fixed list of drives on which washouts are compared.
 
-#![forbid(unsafe_code)]
-
 pub mod bench;
 pub mod car;
 pub mod runs;

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
-use crate::smooth::{rise, rise_integral, rise_rate};
+use super::smooth::{rise, rise_integral, rise_rate};
 
 /// Time at which run c stops \[s\].
 ///
