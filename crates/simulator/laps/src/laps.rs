@@ -4,7 +4,7 @@ use moris_washout::Preview;
 use serde::{Deserialize, Serialize};
 
 use crate::forecast::{AHEAD, Record, SPACING};
-use crate::line::{CAPACITY, Line};
+use crate::line::{CAPACITY, Line, Point};
 use crate::pass::{NEAR, Pass, SAME_DIRECTION, UNKNOWN, dot};
 use crate::smooth::{LAG, LATEST_LAG, Smooth};
 use crate::ticks::{Sample, TICK, Ticks, distance};
@@ -48,16 +48,51 @@ impl Laps {
         Laps::default()
     }
 
+    /// A memory of these points, the oldest first. The latest ones are kept.
+    pub fn remembering(points: &[Point]) -> Self {
+        let mut laps = Laps::default();
+        let mut run = None;
+        for point in points {
+            if run.replace(point.run).is_some_and(|run| run != point.run) {
+                laps.line.interrupt();
+            }
+            laps.line.push(point);
+        }
+        laps.line.interrupt();
+        laps
+    }
+
+    /// The remembered points, the oldest first.
+    pub fn points(&self) -> impl Iterator<Item = &Point> {
+        self.line.points()
+    }
+
     /// Takes a sample.
     pub fn step(&mut self, sample: &Sample) {
-        let Laps { ticks, smooth, line, passes, forecast, records, until_search, is_given } = self;
-        let mut whole = Whole { smooth, line, passes, forecast, records, until_search, is_given };
+        let (ticks, mut whole) = self.parts();
         if !ticks.push(sample, |tick| {
             whole.smooth.push(tick);
             whole.tick();
         }) {
             whole.interrupt();
         }
+    }
+
+    /// Says that the next sample has nothing to do with those before: another place or ride.
+    pub fn interrupt(&mut self) {
+        let (ticks, mut whole) = self.parts();
+        *ticks = Ticks::default();
+        whole.interrupt();
+    }
+
+    fn parts(&mut self) -> (&mut Ticks, Whole<'_>) {
+        let Laps { ticks, smooth, line, passes, forecast, records, until_search, is_given } = self;
+        (ticks, Whole { smooth, line, passes, forecast, records, until_search, is_given })
+    }
+
+    /// Number of earlier passes of this place that are followed.
+    pub fn passes(&self) -> usize {
+        self.passes.iter().flatten().count()
     }
 
     /// Trust in the preview, from 0 to 1; 0 without one.

@@ -34,14 +34,18 @@
 //! - `line` is the memory: a ring of points, found by place.
 //! - `pass` follows an earlier pass beside the vehicle.
 //! - `forecast` makes the forecast of an axis of them, and compares it with what came.
+//! - `text` writes the memory as text, and reads it.
 
 mod forecast;
 mod laps;
 mod line;
 mod pass;
 mod smooth;
+mod text;
 mod ticks;
 
 pub use laps::Laps;
+pub use line::Point;
 pub use moris_washout::Preview;
+pub use text::NoMemory;
 pub use ticks::Sample;

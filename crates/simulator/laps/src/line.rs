@@ -86,6 +86,12 @@ impl Line {
         self.listed = None;
     }
 
+    /// The kept points, the oldest first.
+    pub fn points(&self) -> impl Iterator<Item = &Point> {
+        let first = self.next.saturating_sub(CAPACITY as u64);
+        (first..self.next).map(|number| &self.points[number as usize % CAPACITY])
+    }
+
     /// A point that is kept.
     pub fn point(&self, number: u64) -> Option<&Point> {
         let is_kept = number < self.next && self.next - number <= CAPACITY as u64;

@@ -46,15 +46,15 @@ struct Glide {
 }
 
 impl Glide {
-    /// The difference now; its slope fades within its own time.
-    fn value(&self) -> Channels {
-        let part = self.elapsed / self.duration;
+    /// The difference at a time since its beginning; its slope fades within its own time.
+    fn value(&self, elapsed: f64) -> Channels {
+        let part = elapsed / self.duration;
         let left = 1.0 - part * part * (3.0 - 2.0 * part);
         Channels::from_fn(|k, _| {
             let slope = self.slope[k];
             let time = SLOPE_TIME.min(self.duration).min(SLOPE_CHANGE * FELT[k] / slope.abs());
-            let passed = if self.elapsed < time { 1.0 - self.elapsed / time } else { 0.0 };
-            self.difference[k] * left + slope * self.elapsed * passed * passed
+            let passed = if elapsed < time { 1.0 - elapsed / time } else { 0.0 };
+            self.difference[k] * left + slope * elapsed * passed * passed
         })
     }
 }
@@ -70,6 +70,14 @@ impl Gate {
         self.glide.is_none()
     }
 
+    /// Difference that will still be added to the source's motion in so many seconds.
+    pub fn difference(&self, ahead: f64) -> Channels {
+        match self.glide.as_ref().map(|glide| (glide, glide.elapsed + ahead)) {
+            Some((glide, elapsed)) if elapsed < glide.duration => glide.value(elapsed),
+            _ => Channels::zeros(),
+        }
+    }
+
     /// Advances by a step to the source's motion at its end, which changes with this slope. Returns
     /// what passes at the step's start and end.
     pub fn advance(&mut self, source: &Motion, slope: &Channels, change: Change, step: f64) -> [Motion; 2] {
@@ -80,7 +88,7 @@ impl Gate {
         if let Some(glide) = &mut self.glide {
             glide.elapsed += step;
             if glide.elapsed < glide.duration {
-                end += glide.value();
+                end += glide.value(glide.elapsed);
             } else {
                 self.glide = None;
             }

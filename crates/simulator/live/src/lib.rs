@@ -14,6 +14,7 @@
 //! | [`spikes`] | samples that no vehicle causes |
 //! | [`gaps`] | times between samples, from which the delay follows |
 //! | [`resampler`] | linear interpolation of irregular samples, with a delay |
+//! | [`road`] | the road as it is learned, and the preview by it |
 //! | [`gate`] | change of the washout's source without a jump |
 //! | [`legs`] | where the legs are before they follow commands |
 //! | [`travel`] | the way between the settled pose and neutral |
@@ -58,6 +59,7 @@ pub mod log;
 pub mod moog;
 pub mod motion;
 pub mod resampler;
+pub mod road;
 pub mod session;
 pub mod signs;
 pub mod source;

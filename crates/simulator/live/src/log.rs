@@ -7,6 +7,7 @@
 use std::fmt::{self, Display, Formatter, Write};
 
 use moris_interface::{Group, Reader, Slot, slots_of};
+use moris_laps::Laps;
 use moris_washout::Parameters;
 use nalgebra::Vector3;
 
@@ -17,6 +18,8 @@ use crate::transitions::Event;
 
 /// First line of a recorded session.
 const FIRST: &str = "moris-live-session,1";
+/// Beginning of a line of the road that is known at first.
+const ROAD: &str = "road,";
 /// Most steps of a session: eleven days.
 const MOST: u64 = 1_000_000_000;
 
@@ -70,12 +73,15 @@ impl Digest {
     }
 }
 
-/// The lines before the events.
-pub fn header(parameters: &Parameters, settings: &Settings) -> String {
+/// The lines before the events. `laps` are those that a session knows that learns the road.
+pub fn header(parameters: &Parameters, settings: &Settings, laps: Option<&Laps>) -> String {
     let mut text = format!("{FIRST}\nsettings,{}\n", serde_json::to_string(settings).unwrap_or_default());
     for (slot, value) in slots_of(parameters).iter().enumerate() {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "parameter,{},{value:?}", name_of(slot));
+    }
+    for line in laps.map(Laps::text).unwrap_or_default().lines() {
+        text += &format!("{ROAD}{line}\n");
     }
     text
 }
@@ -219,6 +225,14 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
         }
     }
     let mut session = Session::new(&Parameters::read(&mut Reader::new(&slots)), &settings)?;
+    let (mut road, mut begin) = (String::new(), 0);
+    while let Some((place, line)) = lines.next_if(|(_, line)| line.starts_with(ROAD)) {
+        begin = if road.is_empty() { place } else { begin };
+        road.extend([&line[ROAD.len()..], "\n"]);
+    }
+    if !road.is_empty() {
+        session.learn(Laps::of_text(&road).map_err(|none| ReplayError::Line(begin + none.line - 1))?);
+    }
     let mut digest = Digest::default();
     let mut steps = 0;
     for (place, line) in lines {

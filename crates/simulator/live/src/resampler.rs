@@ -6,6 +6,7 @@
 use crate::attitude::{between, nearest_angles};
 use crate::gaps::Gaps;
 use crate::motion::{ANGLES, Channels, Motion};
+use nalgebra::Vector3;
 
 /// Samples that are kept: 0.6 s at 400 Hz.
 const KEPT: usize = 256;
@@ -25,15 +26,22 @@ pub struct Resampler {
     /// Place of the newest.
     newest: usize,
     count: usize,
+    /// Samples whose time has not been reached: those that [`Resampler::reached`] has not given.
+    ahead: usize,
     /// Arrival of the newest \[s\].
     arrival: f64,
     gaps: Gaps,
 }
 
+/// A sample with its time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Stamped {
-    time: f64,
-    motion: Motion,
+pub struct Stamped {
+    /// Time \[s\].
+    pub time: f64,
+    /// Motion.
+    pub motion: Motion,
+    /// Place in the world, if it is known \[m\].
+    pub position: Option<Vector3<f64>>,
 }
 
 /// The motion at a time.
@@ -49,13 +57,20 @@ pub struct At {
 
 impl Default for Resampler {
     fn default() -> Self {
-        Resampler { samples: [Stamped::default(); KEPT], newest: 0, count: 0, arrival: 0.0, gaps: Gaps::default() }
+        Resampler {
+            samples: [Stamped::default(); KEPT],
+            newest: 0,
+            count: 0,
+            ahead: 0,
+            arrival: 0.0,
+            gaps: Gaps::default(),
+        }
     }
 }
 
 impl Resampler {
     /// Adds a sample of this time, later than the last one's.
-    pub fn push(&mut self, arrival: f64, time: f64, motion: Motion) {
+    pub fn push(&mut self, arrival: f64, time: f64, motion: Motion, position: Option<Vector3<f64>>) {
         let motion = self.continued(motion);
         if self.count > 0 {
             let passed = arrival - self.arrival;
@@ -65,8 +80,9 @@ impl Resampler {
         }
         self.arrival = arrival;
         self.newest = (self.newest + 1) % KEPT;
-        self.samples[self.newest] = Stamped { time, motion };
+        self.samples[self.newest] = Stamped { time, motion, position };
         self.count = (self.count + 1).min(KEPT);
+        self.ahead = (self.ahead + 1).min(KEPT);
     }
 
     /// Puts a motion in the place of the newest sample's.
@@ -92,7 +108,16 @@ impl Resampler {
 
     /// Forgets all samples: the next one has nothing to do with them.
     pub fn clear(&mut self) {
-        self.count = 0;
+        (self.count, self.ahead) = (0, 0);
+    }
+
+    /// The next sample whose time is now past \[s\]; each is given once.
+    pub fn reached(&mut self, time: f64) -> Option<Stamped> {
+        let next = *self.sample(self.ahead.checked_sub(1)?);
+        (next.time <= time).then(|| {
+            self.ahead -= 1;
+            next
+        })
     }
 
     /// The delay with which this part of the samples of late would not have come too late \[s\].
@@ -149,7 +174,7 @@ mod tests {
             for k in 0..8_000 {
                 let now = f64::from(k) * 1e-3;
                 while next <= now {
-                    resampler.push(now, next, surge(0.5 * next));
+                    resampler.push(now, next, surge(0.5 * next), None);
                     sent += 1;
                     // Every third interval is half as long again.
                     next += if sent % 3 == 0 { 1.5 } else { 0.75 } / rate;
@@ -169,12 +194,29 @@ mod tests {
     fn what_does_not_come_is_held() {
         let mut resampler = Resampler::default();
         assert!(resampler.at(0.0).is_none());
-        resampler.push(1.0, 1.0, surge(1.0));
+        resampler.push(1.0, 1.0, surge(1.0), None);
         assert_eq!(resampler.at(0.5).unwrap().motion, surge(1.0));
-        resampler.push(1.1, 1.1, surge(2.0));
+        resampler.push(1.1, 1.1, surge(2.0), None);
         let held = resampler.at(1.3).unwrap();
         assert_eq!((held.motion, held.held_from), (surge(2.0), Some(1.1)));
         assert_eq!(held.slope, Channels::zeros());
+    }
+
+    #[test]
+    fn each_sample_is_reached_once_and_in_order() {
+        let mut resampler = Resampler::default();
+        assert_eq!(resampler.reached(1.0), None);
+        for k in 1..=3 {
+            resampler.push(0.1 * f64::from(k), 0.1 * f64::from(k), surge(f64::from(k)), Some(Vector3::x()));
+        }
+        let mut reached = |time| resampler.reached(time).map(|sample| sample.motion.0[0]);
+        assert_eq!(
+            [0.05, 0.25, 0.25, 0.25, 0.5, 0.5].map(&mut reached),
+            [None, Some(1.0), Some(2.0), None, Some(3.0), None]
+        );
+        resampler.push(0.6, 0.6, surge(4.0), None);
+        resampler.clear();
+        assert_eq!(resampler.reached(1.0), None);
     }
 
     #[test]
@@ -185,8 +227,8 @@ mod tests {
             motion
         };
         let mut resampler = Resampler::default();
-        resampler.push(0.0, 0.0, turned(3.1));
-        resampler.push(0.1, 0.1, turned(-3.1));
+        resampler.push(0.0, 0.0, turned(3.1), None);
+        resampler.push(0.1, 0.1, turned(-3.1), None);
         let middle = resampler.at(0.05).unwrap();
         assert!((middle.motion.0[8] - std::f64::consts::PI).abs() < 1e-9 && middle.slope[8] < 1.0);
     }

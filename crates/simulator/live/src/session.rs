@@ -1,6 +1,7 @@
 //! The whole: telemetry and events in, commands to the actuators out.
 
 use moris_interface::{Group, Reader, slots_of};
+use moris_laps::Laps;
 use moris_washout::interface::{AngularVelocityFrame, Output};
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::platform::{Geometry, Pose, forward_kinematics};
@@ -11,6 +12,7 @@ use crate::gate::{Change, Gate};
 use crate::legs::{Legs, lengths_within, lowest};
 use crate::motion::{Channels, Motion, Sample};
 use crate::resampler::{At, Resampler};
+use crate::road::Road;
 use crate::signs::{Check, Signs};
 use crate::source::{Health, Source};
 use crate::transitions::{Event, State};
@@ -203,6 +205,8 @@ pub struct Session {
     /// The source's motion and slope at the last step.
     last: Option<(Motion, Channels)>,
     gate: Gate,
+    /// None if no road is learned.
+    road: Option<Road>,
     /// The source has changed since the last step.
     changed: bool,
     /// Time by which the clock has slipped since the last step \[s\].
@@ -265,6 +269,7 @@ impl Session {
             held_from: None,
             last: None,
             gate: Gate::default(),
+            road: None,
             changed: false,
             slipped: 0.0,
             travel: Travel::default(),
@@ -340,6 +345,24 @@ impl Session {
     /// The vehicle's motion that the washout has received last.
     pub fn passed(&self) -> &Motion {
         self.gate.output()
+    }
+
+    /// Learns the road from here on. These laps of it are known.
+    pub fn learn(&mut self, laps: Laps) {
+        self.road = Some(Road::new(laps));
+    }
+
+    /// The road that is learned.
+    pub fn road(&self) -> Option<&Road> {
+        self.road.as_ref()
+    }
+
+    /// A copy that knows no road.
+    pub fn without_road(&mut self) -> Session {
+        let road = self.road.take();
+        let copy = self.clone();
+        self.road = road;
+        copy
     }
 
     /// The washout.
@@ -481,6 +504,7 @@ impl Session {
         let accepted = self.source.receive(arrival, sample);
         if accepted.is_new {
             self.resampler.clear();
+            self.road.as_mut().map(Road::interrupt);
             self.held_from = None;
             self.changed = true;
         }
@@ -490,7 +514,7 @@ impl Session {
                 if accepted.instead {
                     self.resampler.replace(sample.motion);
                 } else {
-                    self.resampler.push(arrival, *time, sample.motion);
+                    self.resampler.push(arrival, *time, sample.motion, sample.position);
                     self.signs.take(*time, sample);
                 }
             }
@@ -507,6 +531,9 @@ impl Session {
             self.source.slip(time);
             self.resampler.slip(time);
             self.held_from = self.held_from.map(|from| from - time);
+            if let Some(road) = &mut self.road {
+                road.slip(time);
+            }
             self.slipped += time;
         }
     }
@@ -526,6 +553,7 @@ impl Session {
             // Values on the way may be refused where both ends are not: the next ones follow.
             let _ = self.washout.retune(&parameters);
         }
+        self.learn_road(now - STEP - self.delay);
         let (at, change) = self.input(now);
         let [start, end] = self.gate.advance(&at.motion, &at.slope, change, STEP);
         let engaged = self.state.is_engaged();
@@ -543,6 +571,21 @@ impl Session {
         let target = self.settings.delay.unwrap_or_else(|| self.resampler.delay(part));
         let most = if self.state.is_engaged() { DELAY_CHANGE * STEP } else { f64::INFINITY };
         self.delay += (target - self.delay).clamp(-most, most);
+    }
+
+    /// Takes the samples up to the washout's present into the road, and previews what is to come.
+    fn learn_road(&mut self, present: f64) {
+        let Some(road) = &mut self.road else { return };
+        let mut is_new = false;
+        while let Some(sample) = self.resampler.reached(present) {
+            road.take(&sample);
+            is_new = true;
+        }
+        if !self.state.follows_telemetry() {
+            road.take_back(&mut self.washout);
+        } else if is_new {
+            road.give(&mut self.washout, &self.gate);
+        }
     }
 
     /// The washout's source at the step's end.

@@ -43,6 +43,10 @@ fn ours() {
     assert_eq!((sample.time, sample.paused, sample.has_angles), (Some(1.5), false, true));
     assert_motion(&sample.motion, [-2.0, 0.5, 9.7], [0.01, 0.02, 0.1], [0.3, 0.2, 0.1], 12.0);
     assert_motion(&decoded("csv", b"0,1,2").motion, [1.0, 2.0, G], [0.0; 3], [0.0; 3], 0.0);
+    let placed = decoded("csv", b"1.5,-2,0.5,9.7,,,,,,,12,0,30,-40\n");
+    assert_eq!((sample.position, placed.position), (None, Some(Vector3::new(30.0, -40.0, 0.0))));
+    let placed = decoded("json", br#"{"ax":-2,"ay":0.5,"x":30,"y":-40,"z":5}"#);
+    assert_eq!(placed.position, Some(Vector3::new(30.0, -40.0, 5.0)));
 
     let packet = hex("
         00 00 00 00 00 00 F8 3F  # time 1.5
@@ -60,6 +64,9 @@ fn ours() {
     let sample = decoded("packed", &packet);
     assert_eq!((sample.time, sample.paused), (Some(1.5), true));
     assert_motion(&sample.motion, [-2.0, 0.5, 10.0], [0.25, -0.5, 1.0], [0.125, -0.25, 3.0], 12.0);
+    let place = [30.0_f64, -40.0, 5.0];
+    let placed = decoded("packed", &[&packet[..], &place.map(f64::to_le_bytes).concat()].concat());
+    assert_eq!((sample.position, placed.position), (None, Some(Vector3::from(place))));
 }
 
 #[test]
@@ -134,17 +141,27 @@ fn forza() {
     assert_motion(&sample.motion, [-4.0, 2.0, G + 0.5], [1.0, 0.25, -0.5], [0.0; 3], 10.0);
     packet[0] = 0;
     assert!(decoded("forza", &packet).paused);
+    // Position: right 1, up 2, forward 3; 12 bytes later in Horizon.
+    for (length, at) in [(232, None), (311, Some(232)), (331, Some(232)), (324, Some(244))] {
+        let mut packet = packet.clone();
+        packet.resize(length, 0);
+        if let Some(at) = at {
+            packet[at..at + 12].copy_from_slice(&hex("00 00 80 3F  00 00 00 40  00 00 40 40"));
+        }
+        assert_eq!(decoded("forza", &packet).position, at.map(|_| Vector3::new(1.0, 3.0, 2.0)), "{length}");
+    }
 }
 
 #[test]
 fn codemasters() {
     let mut packet = vec![0; 264];
     packet[0..4].copy_from_slice(&hex("00 00 20 41")); // 10 s
+    packet[16..28].copy_from_slice(&hex("00 00 80 3F  00 00 00 40  00 00 40 40")); // 1, 2 above, 3
     packet[28..32].copy_from_slice(&hex("00 00 00 41")); // 8 m/s
     packet[136..140].copy_from_slice(&hex("00 00 80 3E")); // lateral 0.25 g
     packet[140..144].copy_from_slice(&hex("00 00 00 BF")); // longitudinal -0.5 g
     let sample = decoded("codemasters", &packet);
-    assert_eq!(sample.time, Some(10.0));
+    assert_eq!((sample.time, sample.position), (Some(10.0), Some(Vector3::new(1.0, 3.0, 2.0))));
     assert_motion(&sample.motion, [-0.5 * G, -0.25 * G, G], [0.0; 3], [0.0; 3], 8.0);
 }
 

@@ -5,6 +5,7 @@ const HEADER = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed";
 
 const machine = new View(byId("view"), page.rig, "motorcycle");
 const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
+const track = new Track(byId("road"), page.track);
 const lamps = new Lamps(byId("lamps"));
 const now = { client: "", number: 0, shared: false, canDrive: false, controls: false, drives: false, names: [], view: null, state: "", messages: 0, recorded: null };
 let paints = {};
@@ -64,7 +65,7 @@ function showLateness(classes) {
   }));
 }
 
-function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames }) {
+function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames, road }) {
   if (!rows) return;
   for (const row of rows) {
     const view = Object.fromEntries(now.names.map((name, i) => [name, row[i]]));
@@ -74,6 +75,7 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told, ho
     now.view = { ...view, lean: 0 };
     lamps.show(now.view, view.time);
   }
+  track.take(road);
   now.messages += 1;
   now.state = state;
   setText("state", state);
@@ -127,10 +129,11 @@ function tick() {
   if (now.view) {
     machine.drawState(machineState(now.view), paints.felt);
     for (const strip of Object.values(strips)) strip.draw(paints);
+    track.draw(paints);
   }
   requestAnimationFrame(tick);
 }
 requestAnimationFrame(tick);
 document.getElementById("alarm").hidden = true;
 /** For checks: what is shown. */
-globalThis.simulationLive = { now, strips, sliders, driving };
+globalThis.simulationLive = { now, strips, sliders, driving, track };

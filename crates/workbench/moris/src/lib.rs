@@ -27,6 +27,7 @@ pub mod build_fmu;
 pub mod fit;
 pub mod frequency_response;
 pub mod help;
+mod learned_road;
 pub mod live;
 pub mod measure;
 mod option_values;

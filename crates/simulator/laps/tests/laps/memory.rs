@@ -196,3 +196,57 @@ fn a_mirrored_track_is_another_one() {
     let given = given.count();
     assert!(given < PER_LAP / 20, "{given}");
 }
+
+#[test]
+fn a_memory_of_a_text_knows_the_road_from_the_first_lap_on() {
+    let learned = after(&laps(1.5, 1.0));
+    let text = learned.text();
+    let mut memory = Laps::of_text(&text).unwrap();
+    assert!(memory.text() == text);
+    assert_eq!((memory.preview().count, memory.trust()), (0, 0.0));
+    let (error, given) = {
+        let samples = laps(1.0, 0.5);
+        let ahead = (1.0 / STEP) as usize;
+        let [mut error, mut force, mut given] = [0.0; 3];
+        for k in 0..samples.len() - ahead {
+            memory.step(&samples[k]);
+            let preview = memory.preview();
+            if preview.count > 0 {
+                given += 1.0 / (samples.len() - ahead) as f64;
+                let truth = samples[k + ahead].force;
+                error += (preview.sway[4] - truth[1]).powi(2);
+                force += truth[1].powi(2);
+            }
+        }
+        (f64::sqrt(error / force), given)
+    };
+    assert!(error < 0.25 && given > 0.9, "{error} {given}");
+    // Another track is not known.
+    let mut elsewhere = Laps::of_text(&text).unwrap();
+    laps(0.5, 1.0).into_iter().map(mirrored).for_each(|sample| elsewhere.step(&sample));
+    assert_eq!(elsewhere.preview().count, 0);
+}
+
+#[test]
+fn a_text_that_is_no_memory_is_refused_with_its_line() {
+    let text = after(&laps(0.1, 1.0)).text();
+    let refused = |text: &str| Laps::of_text(text).unwrap_err().line;
+    assert_eq!(refused(""), 1);
+    assert_eq!(refused("moris-laps,2\n"), 1);
+    let second = text.lines().nth(2).unwrap().to_owned();
+    for wrong in ["", "0,1", "0,nan,0,0,1,0,0,1,0,0", "0,1e99,0,0,1,0,0,1,0,0", "0,0,0,0,1,0,0,1,0,0,0"] {
+        assert_eq!(refused(&text.replacen(&second, wrong, 1)), 3, "{wrong}");
+    }
+}
+
+#[test]
+fn an_interruption_forgets_the_present_place_alone() {
+    let samples = laps(2.4, 1.0);
+    let half = samples.len() - PER_LAP / 2;
+    let mut memory = after(&samples[..half]);
+    assert!(memory.preview().count == 20 && memory.passes() > 0);
+    memory.interrupt();
+    assert_eq!((memory.preview().count, memory.passes()), (0, 0));
+    samples[half..].iter().for_each(|sample| memory.step(sample));
+    assert_eq!(memory.preview().count, 20);
+}

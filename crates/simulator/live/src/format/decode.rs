@@ -40,7 +40,8 @@ impl Format {
             Layout::Json => serde_json::from_slice::<Value>(packet).ok(),
             _ => None,
         };
-        for (quantity, field) in &self.fields {
+        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&packet.len()));
+        for (quantity, field) in self.fields.iter().chain(further.flat_map(|of| &of.fields)) {
             let read = match (&field.at, self.layout) {
                 (FieldAddress::Index(at), Layout::Binary) => number(packet, *at, field.kind, self.byte_order),
                 (FieldAddress::Index(at), Layout::Pairs) => paired(body, *at),
@@ -111,7 +112,7 @@ impl Format {
         Sample {
             time: of(Time),
             motion: Motion::new(force, rates, angles, speed),
-            position: all([X, Y, Z]).then(|| vector([X, Y, Z])),
+            position: (of(X).is_some() && of(Y).is_some()).then(|| vector([X, Y, Z])),
             paused: of(Paused).is_some_and(|paused| paused != 0.0) || of(Running).is_some_and(|running| running == 0.0),
             has_angles: all([Roll, Pitch, Yaw]),
         }

@@ -68,6 +68,19 @@ pub struct Format {
     pub subscribe: Option<Subscribe>,
     /// The fields.
     pub fields: BTreeMap<Quantity, Field>,
+    /// Further fields of packets with some lengths.
+    #[serde(default)]
+    pub of_lengths: Vec<OfLengths>,
+}
+
+/// Fields of packets with some lengths alone.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OfLengths {
+    /// The lengths \[bytes\].
+    pub lengths: Vec<usize>,
+    /// The fields.
+    pub fields: BTreeMap<Quantity, Field>,
 }
 
 /// Layout of a packet.
@@ -215,7 +228,8 @@ impl FromStr for Format {
 
     fn from_str(text: &str) -> Result<Self, FormatError> {
         let format: Format = toml::from_str(text)?;
-        for (quantity, field) in &format.fields {
+        let further = format.of_lengths.iter().flat_map(|of| &of.fields);
+        for (quantity, field) in format.fields.iter().chain(further) {
             let refuse = |reason| Err(FormatError::Field(*quantity, reason));
             match (&field.at, format.layout) {
                 (FieldAddress::Key(_), Layout::Json) => (),
@@ -257,6 +271,14 @@ pub fn shipped(name: &str) -> Option<&'static str> {
 }
 
 impl Format {
+    /// True if some of its packets have the vehicle's place.
+    pub fn has_position(&self) -> bool {
+        let further = self.of_lengths.iter().map(|of| &of.fields);
+        further
+            .chain([&self.fields])
+            .any(|fields| [Quantity::X, Quantity::Y].iter().all(|axis| fields.contains_key(axis)))
+    }
+
     /// The packets that ask the program for values; empty if it sends them by itself.
     pub fn subscriptions(&self) -> Vec<Vec<u8>> {
         let Some(subscribe) = &self.subscribe else { return Vec::new() };

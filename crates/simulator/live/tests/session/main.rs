@@ -3,6 +3,7 @@
 #[path = "../../../../../tests/cases/mod.rs"]
 mod cases;
 mod ride;
+mod road;
 mod sets;
 
 use std::sync::Mutex;
@@ -301,7 +302,7 @@ proptest! {
     #[test]
     fn a_recorded_session_repeats_to_the_bit(events in prop::collection::vec(any_event(), 1..12)) {
         let (parameters, settings) = (presets::parameters(presets::CAR), Settings::default());
-        let mut text = log::header(&parameters, &settings);
+        let mut text = log::header(&parameters, &settings, None);
         let mut session = Session::new(&parameters, &settings).unwrap();
         let mut ride = Ride::default();
         ride.log = Some(String::new());

@@ -46,18 +46,22 @@ mod wire;
 
 use std::fs::File;
 use std::io::{Write, stdin};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
+use moris_laps::Laps;
 use moris_live::frame::{Encoder, Values};
 use moris_live::{STEP, Session, Settings, log, moog};
+use moris_setup::Setup;
+use moris_washout::interface::StrategyKind;
 use rtrb::RingBuffer;
 
+use crate::learned_road;
 use crate::option_values::number_in;
 use crate::setup_options::SetupOptions;
 use commands::COMMANDS;
@@ -178,6 +182,11 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
+    /// Learn the road by the vehicle's position, and preview what comes, with the predictive
+    /// strategy. A file, one for each vehicle and track, is read first and written at the end
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "replay")]
+    learn: Option<Option<PathBuf>>,
+
     /// Add the page's votes between two parameter sets to a file, for tune
     #[arg(long, value_name = "FILE", requires = "page")]
     votes: Option<PathBuf>,
@@ -253,7 +262,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let setup = options.setup.load_to_drive()?;
     let from = options.from.as_deref().unwrap_or_default();
-    let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
+    let input = telemetry::Input::open(from, options)?;
+    let laps = options.learn.as_ref().map(|file| known_laps(file.as_deref(), &input, &setup)).transpose()?;
     // The motorcycle's signs are known, and its falls are like nothing that the test knows.
     let ignore_signs = options.ignore_signs || input.handling() == Some(Handling::Rider);
     // Until the end: another session has no part in this controller.
@@ -292,10 +302,14 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         ..Settings::default()
     };
     let mut session = Session::new(&setup.parameters, &settings)?;
+    let header = log::header(&setup.parameters, &settings, laps.as_ref());
+    let track = laps.as_ref().map(page::track);
+    if let Some(laps) = laps {
+        session.learn(laps);
+    }
     let time_out = options.time_out.or(time_out).map(Duration::from_secs_f64);
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
     if let Some(file) = &mut record {
-        let header = log::header(&setup.parameters, &settings);
         file.write_all(header.as_bytes()).context("cannot record the session")?;
     }
     let votes = options.votes.as_ref().map(|file| File::options().append(true).create(true).open(file));
@@ -310,7 +324,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (urgent, asked_at_once) = RingBuffer::new(64);
     let controls = input.handling().map(|handling| Arc::new(Controls::new(handling)));
     let desk = Arc::new(Desk::new(&setup, votes, [to_loop, urgent], controls.clone(), options.allow_control)?);
-    let page = Start::of(&setup, input.handling());
+    let page = Start::of(&setup, input.handling(), track);
     let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
     let server = options.page.map(open).transpose()?;
     let (shown, showing) = RingBuffer::new(256);
@@ -404,12 +418,25 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(part) = Part::ALL.into_iter().find(|part| shared.failed.has(*part)) {
         bail!("the thread that {} has failed by an error of this program", part.name());
     }
+    if let (Some(Some(file)), Some(road)) = (&options.learn, session.road()) {
+        learned_road::save(file, road.laps())?;
+    }
     if let Some(loss) = summary.loss {
         bail!("the session was in a fault: {loss}");
     }
     kept.unwrap_or(Ok(())).context("cannot record the session")?;
     written?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The laps of the road that are known at first.
+fn known_laps(file: Option<&Path>, input: &telemetry::Input, setup: &Setup) -> Result<Laps> {
+    ensure!(
+        setup.parameters.structure.strategy == StrategyKind::Predictive,
+        "--learn is for the predictive strategy alone; add --strategy predictive"
+    );
+    ensure!(input.has_position(), "--learn needs the vehicle's position, which this source does not send");
+    file.map_or_else(|| Ok(Laps::new()), learned_road::load)
 }
 
 /// Gives the calling thread, which the loop needs on time, its priority.

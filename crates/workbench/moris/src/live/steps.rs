@@ -147,7 +147,7 @@ impl Steps<'_> {
                 state = commands.state;
                 if state == State::Parking {
                     // Its one allocation, of a list of numbers.
-                    let _ = self.parking.push(self.session.clone());
+                    let _ = self.parking.push(self.session.without_road());
                 }
                 self.note(Note::State(commands.time, state), &mut summary);
             }
@@ -360,7 +360,7 @@ mod tests {
             engages: false,
             ends_at: None,
         };
-        let text = header(&Parameters::default(), &settings);
+        let text = header(&Parameters::default(), &settings, None);
         let (summary, digest) = (Summary::default(), Digest::default());
         let wire = Wire::new(0.01, 1.0);
         test(&mut Computed { steps, summary, notes, sent, wire, digest, text, said: Vec::new() })

@@ -13,6 +13,7 @@ use moris_live::{Motion, Sample, State};
 use moris_washout::Input as Sampled;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
+use nalgebra::Vector3;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
@@ -22,7 +23,7 @@ use super::page::Desk;
 use super::ros2::Subscription;
 use super::sender::{Dropped, Followed};
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
-use super::{Shared, pace, tables};
+use super::{Options, Shared, pace, tables};
 use crate::recording::formats::Format as Logger;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 
@@ -71,7 +72,9 @@ impl Input {
     ///
     /// # Errors
     /// The port, the format or the recording cannot be used.
-    pub fn open(from: &str, format: Option<&str>, map: Option<&Path>, listen: bool) -> Result<Input> {
+    pub fn open(from: &str, options: &Options) -> Result<Input> {
+        let Options { format, map, listen, learn, .. } = options;
+        let (format, map, listen) = (format.as_deref(), map.as_deref(), *listen);
         if from == "ride" {
             return Ok(Input::Driven(Box::new(Motorcycle::new()?)));
         }
@@ -86,6 +89,7 @@ impl Input {
             anyhow::ensure!(Path::new(from).exists(), "--from is {from}, but {SOURCES}");
             let format = format.map(logger).transpose()?;
             let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
+            let conventions = conventions.with_position(learn.is_some());
             return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
         };
         let port: u16 = port.parse().ok().with_context(|| format!("--from is {from}, but {SOURCES}"))?;
@@ -109,6 +113,17 @@ impl Input {
     /// True for a source that runs inside this program, whose samples come before their time.
     pub fn is_inside(&self) -> bool {
         matches!(self, Input::Played(_) | Input::Driven(_))
+    }
+
+    /// True if it sends the vehicle's position, or may do so.
+    pub fn has_position(&self) -> bool {
+        match self {
+            Input::Udp(_, format) => format.has_position(),
+            #[cfg(feature = "ros2")]
+            Input::Ros2(_) => false,
+            Input::Played(recording) => recording.road.is_some(),
+            Input::Driven(vehicle) => vehicle.has_position(),
+        }
     }
 
     /// The controls that it has.
@@ -184,14 +199,14 @@ fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared)
         };
         let time = step * sent;
         pace::wait_until(begin + time);
-        let sample = sample(input, recording, time.as_secs_f64());
+        let sample = sample(input, recording, played, time.as_secs_f64());
         let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
         sent += 1;
         played += usize::from(played > 0 || engages(shared));
     }
 }
 
-fn sample(input: &Sampled, recording: &Recording, time: f64) -> Sample {
+fn sample(input: &Sampled, recording: &Recording, number: usize, time: f64) -> Sample {
     let rates = match recording.angular_velocity_frame {
         AngularVelocityFrame::Body => input.angular_velocity,
         AngularVelocityFrame::World => Orientation::new(input.orientation).rotation.tr_mul(&input.angular_velocity),
@@ -199,6 +214,7 @@ fn sample(input: &Sampled, recording: &Recording, time: f64) -> Sample {
     Sample {
         time: Some(time),
         motion: Motion::new(input.specific_force, rates, input.orientation, input.speed),
+        position: recording.road.as_ref().and_then(|road| road.position(number)).map(Vector3::from),
         has_angles: recording.has_orientation,
         ..Sample::default()
     }

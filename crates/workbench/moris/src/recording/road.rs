@@ -24,6 +24,11 @@ impl Road {
         Some(Road { positions, speeds: table.columns.get(&Quantity::Speed).cloned() })
     }
 
+    /// The position at a sample \[m\].
+    pub fn position(&self, number: usize) -> Option<[f64; 3]> {
+        self.positions.get(number).map(|[x, y]| [*x, *y, 0.0])
+    }
+
     /// The previews that are learned on it, as of each sample.
     pub fn learned(&self, inputs: &[Input], step: f64) -> Vec<Preview> {
         let mut laps = Laps::new();

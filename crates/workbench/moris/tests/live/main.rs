@@ -11,6 +11,7 @@ mod moog;
 mod page;
 mod place;
 mod rig;
+mod road;
 #[cfg(feature = "serial")]
 mod serial;
 

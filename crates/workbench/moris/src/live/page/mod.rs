@@ -5,6 +5,7 @@
 //! - `desk` knows who controls, and checks what is asked.
 //! - `pair` has two parameter sets, the way from one to the other, and votes.
 //! - `refusal` is the answer to a request that is refused.
+//! - `track` has the road that is known at first.
 //! - `server` answers requests, each on a thread of its own.
 //!
 //! A browser gets messages as server-sent events, and sends orders by POST. A browser that reads
@@ -16,7 +17,9 @@ mod pair;
 mod refusal;
 mod server;
 mod shown;
+mod track;
 
 pub use desk::{Desk, Order};
 pub use server::{Server, Start};
 pub use shown::{EVERY, Shown};
+pub use track::track;

@@ -16,6 +16,7 @@ use serde::Serialize;
 use super::desk::Desk;
 use super::http::{self, Access, Request};
 use super::refusal::{Refusal, Status};
+use super::track::Track;
 use crate::live::Shared;
 use crate::live::controls::Handling;
 use crate::live::watch::{Part, watch};
@@ -23,10 +24,11 @@ use crate::simulate::simulator::{parameters, sets};
 
 const TEMPLATE: &str = include_str!("../../../page/live.html");
 const STYLE: &str = include_str!("../../../page/live.css");
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 5] = [
     include_str!("../../../page/orders.js"),
     include_str!("../../../page/driving.js"),
     include_str!("../../../page/pair.js"),
+    include_str!("../../../page/track.js"),
     include_str!("../../../page/live.js"),
 ];
 /// Most connections at once that have not shown the token yet: a new one closes the oldest.
@@ -45,17 +47,20 @@ pub struct Start {
     sets: Vec<(String, Vec<(String, f64)>)>,
     subtitle: String,
     handling: Option<Handling>,
+    track: Option<Track>,
 }
 
 impl Start {
-    /// The page of a session with this rig, these parameters and controls.
-    pub fn of(setup: &Setup, handling: Option<Handling>) -> Self {
+    /// The page of a session with this rig, these parameters and controls, and of a road that is
+    /// learned.
+    pub fn of(setup: &Setup, handling: Option<Handling>, track: Option<Track>) -> Self {
         Start {
             rig: (&setup.parameters).into(),
             parameters: parameters(&setup.parameters, &setup.rig_alone),
             sets: sets(),
             subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
             handling,
+            track,
         }
     }
 

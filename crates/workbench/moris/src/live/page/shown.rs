@@ -3,9 +3,11 @@
 use std::collections::VecDeque;
 
 use moris_live::frame::Values;
+use moris_live::road::Road;
 use moris_live::source::Health;
 use moris_live::{Session, State};
 use moris_ride::lamps;
+use serde::Serialize;
 
 use crate::live::lateness::{Classes, Lateness};
 
@@ -63,6 +65,24 @@ pub struct Shown {
     is_lost: bool,
     /// The legs are where they are commanded to be.
     is_located: bool,
+    road: Option<Driven>,
+}
+
+/// The vehicle on a road that is learned.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct Driven {
+    /// Its place along x and y, if it is known \[m\].
+    place: Option<[f64; 2]>,
+    /// Trust in the preview, from 0 to 1.
+    trust: f64,
+    /// Earlier passes of the place that are followed.
+    passes: usize,
+}
+
+impl Driven {
+    fn on(road: &Road) -> Self {
+        Driven { place: road.place(), trust: road.laps().trust(), passes: road.laps().passes() }
+    }
 }
 
 impl Shown {
@@ -80,6 +100,7 @@ impl Shown {
             late: lateness.classes(),
             is_lost,
             is_located: session.is_located(),
+            road: session.road().map(Driven::on),
         }
     }
 }
@@ -96,9 +117,10 @@ pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Optio
     let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
     let (is_lost, is_located) = (last.is_lost, last.is_located);
     let late = serde_json::to_string(&last.late).unwrap_or_default();
+    let road = serde_json::to_string(&last.road).unwrap_or_default();
     Some(format!(
         "{{\"rows\":[{rows}],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"is_lost\":{is_lost},\
-         \"is_located\":{is_located},\"lines\":{lines},{told}}}"
+         \"is_located\":{is_located},\"road\":{road},\"lines\":{lines},{told}}}"
     ))
 }
 

@@ -109,6 +109,10 @@ impl Vehicle for Fmu {
         (!self.controls.is_empty()).then_some(Handling::Inputs)
     }
 
+    fn has_position(&self) -> bool {
+        self.fields.has_position()
+    }
+
     fn sample(&mut self) -> Result<Sample> {
         let mut values = serde_json::Map::new();
         for name in &self.variables {

@@ -25,6 +25,9 @@ pub trait Vehicle: Send {
     /// Kind of the vehicle's controls; none if it drives by itself.
     fn handling(&self) -> Option<Handling>;
 
+    /// True if its samples have its place.
+    fn has_position(&self) -> bool;
+
     /// Makes a step with what is held.
     ///
     /// # Errors

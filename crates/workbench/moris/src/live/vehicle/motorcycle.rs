@@ -1,6 +1,7 @@
 //! The motorcycle that is ridden with the page's controls.
 
 use anyhow::Result;
+use moris_interface::Model;
 use moris_live::{Motion, Sample};
 use moris_ride::{Ridden, RiderCommand, STEP};
 
@@ -35,6 +36,10 @@ impl Vehicle for Motorcycle {
         Some(Handling::Rider)
     }
 
+    fn has_position(&self) -> bool {
+        true
+    }
+
     fn advance(&mut self, command: &RiderCommand) -> Result<()> {
         (0..DIVISIONS).for_each(|_| self.ridden.step(command));
         Ok(())
@@ -48,7 +53,7 @@ impl Vehicle for Motorcycle {
         Ok(Sample {
             time: None,
             motion: Motion::new(now.specific_force, now.angular_velocity, now.orientation, now.speed),
-            position: None,
+            position: Some(self.ridden.motorcycle().output().position),
             paused: self.ridden.has_ended() || is_put_back,
             has_angles: true,
         })

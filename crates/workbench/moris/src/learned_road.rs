@@ -1,0 +1,82 @@
+//! A learned road in a file: one for each vehicle and track.
+
+use std::ffi::OsString;
+use std::fs::{File, remove_file, rename};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use moris_laps::Laps;
+
+/// Largest file \[bytes\]. A full memory has less than 4 MB.
+const LARGEST: u64 = 16_000_000;
+
+/// The road in this file; an empty one if there is no file.
+///
+/// # Errors
+/// The file cannot be read, or is none of a learned road, or its folder is missing.
+pub fn load(file: &Path) -> Result<Laps> {
+    if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
+    }
+    match moris_bounded_files::text(file, LARGEST) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
+        text => {
+            let text = text.with_context(|| file.display().to_string())?;
+            Laps::of_text(&text).with_context(|| file.display().to_string())
+        }
+    }
+}
+
+/// Writes the road to the file, whole or not at all.
+///
+/// # Errors
+/// It cannot be written. The file is as before then.
+pub fn save(file: &Path, laps: &Laps) -> Result<()> {
+    let part = beside(file);
+    write(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file)).map_err(|error| {
+        // Half of a road is of no use; if it cannot be removed, it stays beside the old one.
+        let _ = remove_file(&part);
+        anyhow::Error::new(error).context(format!("cannot keep the road in {}", file.display()))
+    })
+}
+
+/// A file in the same folder, so that it can take the other's place.
+fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_name().map_or_else(OsString::new, OsString::from);
+    name.push(format!(".{}.part", std::process::id()));
+    file.with_file_name(name)
+}
+
+fn write(file: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(file)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_laps::Sample;
+
+    use super::*;
+
+    #[test]
+    fn a_road_is_kept_whole_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("kart.laps");
+        let mut laps = load(&file).unwrap();
+        assert_eq!(laps.points().count(), 0);
+        for k in 0..500 {
+            let position = [f64::from(k), 0.0, 0.0];
+            laps.step(&Sample { step: 0.05, position, speed: Some(20.0), force: [1.0, 2.0] });
+        }
+        save(&file, &laps).unwrap();
+        let again = load(&file).unwrap();
+        assert!(again.text() == laps.text() && again.points().count() > 450);
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        let nowhere = folder.path().join("none").join("kart.laps");
+        assert!(save(&nowhere, &laps).unwrap_err().to_string().starts_with("cannot keep the road in "));
+        std::fs::write(&file, "x,y\n").unwrap();
+        assert!(format!("{:#}", load(&file).unwrap_err()).contains("none of a road"));
+    }
+}
