@@ -60,6 +60,48 @@ pub struct Callbacks {
     pub environment: *mut c_void,
 }
 
+/// Functions of FMI 2.0 that only model exchange needs.
+pub(crate) const OF_MODEL_EXCHANGE: [&str; 10] = [
+    "fmi2EnterEventMode",
+    "fmi2NewDiscreteStates",
+    "fmi2EnterContinuousTimeMode",
+    "fmi2CompletedIntegratorStep",
+    "fmi2SetTime",
+    "fmi2SetContinuousStates",
+    "fmi2GetDerivatives",
+    "fmi2GetEventIndicators",
+    "fmi2GetContinuousStates",
+    "fmi2GetNominalsOfContinuousStates",
+];
+
+/// Value that a function returns which the library lacks.
+pub(crate) trait Absent {
+    /// An error, or nothing.
+    fn absent() -> Self;
+}
+
+impl Absent for c_int {
+    fn absent() -> Self {
+        3
+    }
+}
+
+impl Absent for () {
+    fn absent() -> Self {}
+}
+
+impl<T> Absent for *const T {
+    fn absent() -> Self {
+        std::ptr::null()
+    }
+}
+
+impl<T> Absent for *mut T {
+    fn absent() -> Self {
+        std::ptr::null_mut()
+    }
+}
+
 /// Declares the functions, and how they are found. The functions of another version are declared by
 /// it too.
 macro_rules! api {
@@ -74,12 +116,24 @@ macro_rules! api {
             /// The names of the functions in the library.
             pub const SYMBOLS: &[&str] = &[$(stringify!($symbol)),+];
 
-            /// Finds the functions in a library, which has to live as long as they are used.
+            /// Finds the functions in a library, which has to live as long as they are used. Those of
+            /// model exchange, which a library for co-simulation may lack, fail then.
             pub(crate) fn load(library: &libloading::Library) -> Result<Self, libloading::Error> {
-                Ok(Api {
-                    // SAFETY: under these names, every library has functions of these types.
-                    $( $field: *unsafe { library.get(concat!(stringify!($symbol), "\0").as_bytes()) }?, )+
-                })
+                $(
+                    let $field = {
+                        unsafe extern "C" fn absent($(_: $argument),*) $(-> $result)? {
+                            $crate::api::Absent::absent()
+                        }
+                        type Function = unsafe extern "C" fn($($argument),*) $(-> $result)?;
+                        // SAFETY: under these names, every library has functions of these types.
+                        match unsafe { library.get::<Function>(concat!(stringify!($symbol), "\0").as_bytes()) } {
+                            Ok(function) => *function,
+                            Err(_) if $crate::api::OF_MODEL_EXCHANGE.contains(&stringify!($symbol)) => absent,
+                            Err(error) => return Err(error),
+                        }
+                    };
+                )+
+                Ok(Api { $($field),+ })
             }
         }
     };

@@ -28,6 +28,28 @@ pub struct Variable {
     pub kind: VariableKind,
 }
 
+/// Role of a variable, as a host sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    Input,
+    Output,
+    Parameter,
+    /// Local, calculated or independent.
+    Other,
+}
+
+/// The declaration of a variable, for hosts whose users name it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Declaration {
+    pub causality: Causality,
+    /// Its unit, or that of its type.
+    pub unit: Option<String>,
+    /// The element that declares it, such as Real or Float64.
+    pub element: String,
+    /// True for an array of FMI 3.0.
+    pub is_array: bool,
+}
+
 /// The parts of modelDescription.xml that a host needs.
 #[derive(Debug, Default)]
 pub(crate) struct Description {
@@ -35,7 +57,10 @@ pub(crate) struct Description {
     pub guid: String,
     pub is_fmi3: bool,
     pub model_identifier: String,
+    /// True if an FMU of FMI 2.0 takes slopes of its inputs.
+    pub interpolates_inputs: bool,
     pub variables: HashMap<String, Variable>,
+    pub declarations: HashMap<String, Declaration>,
 }
 
 impl Description {
@@ -45,6 +70,9 @@ impl Description {
         let mut reader = Reader::from_str(xml);
         // The variable whose type is the next element.
         let mut variable = None;
+        // The declared type whose unit is in the next element, and the units of those before.
+        let (mut declared_type, mut units) = (None, HashMap::new());
+        let mut last = None;
         loop {
             let event = reader.read_event().map_err(|error| HostError::Description(error.to_string()))?;
             let (Event::Start(element) | Event::Empty(element)) = event else {
@@ -56,17 +84,51 @@ impl Description {
                     let name = if description.is_fmi3 { "instantiationToken" } else { "guid" };
                     description.guid = attribute(&element, name)?;
                 }
-                b"CoSimulation" => description.model_identifier = attribute(&element, "modelIdentifier")?,
-                b"ScalarVariable" => variable = Some((attribute(&element, "name")?, value_reference(&element)?)),
+                b"CoSimulation" => {
+                    description.model_identifier = attribute(&element, "modelIdentifier")?;
+                    description.interpolates_inputs =
+                        matches!(optional(&element, "canInterpolateInputs")?.as_deref(), Some("true" | "1"));
+                }
+                b"ScalarVariable" => {
+                    let causality = causality(&element)?;
+                    variable = Some((attribute(&element, "name")?, value_reference(&element)?, causality));
+                }
+                b"SimpleType" => declared_type = Some(attribute(&element, "name")?),
+                name if description.is_fmi3 && name.ends_with(b"Type") => {
+                    if let Some(unit) = optional(&element, "unit")? {
+                        units.insert(attribute(&element, "name")?, unit);
+                    }
+                }
+                b"Dimension" if description.is_fmi3 => {
+                    let declaration = last.as_ref().and_then(|name| description.declarations.get_mut(name));
+                    declaration.into_iter().for_each(|declaration: &mut Declaration| declaration.is_array = true);
+                }
                 name if description.is_fmi3 => {
                     let Some(kind) = kind3(name) else { continue };
-                    let value_reference = value_reference(&element)?;
-                    description.variables.insert(attribute(&element, "name")?, Variable { value_reference, kind });
+                    let (name, element_name) = (attribute(&element, "name")?, text(name));
+                    let variable = Variable { value_reference: value_reference(&element)?, kind };
+                    let declaration = Declaration {
+                        causality: causality(&element)?,
+                        unit: unit(&element, &units)?,
+                        element: element_name,
+                        is_array: false,
+                    };
+                    description.variables.insert(name.clone(), variable);
+                    description.declarations.insert(name.clone(), declaration);
+                    last = Some(name);
                 }
                 name => {
                     let Some(kind) = kind(name) else { continue };
-                    let Some((name, value_reference)) = variable.take() else { continue };
-                    description.variables.insert(name, Variable { value_reference, kind });
+                    let Some((variable, value_reference, causality)) = variable.take() else {
+                        if let (Some(name), Some(unit)) = (declared_type.take(), optional(&element, "unit")?) {
+                            units.insert(name, unit);
+                        }
+                        continue;
+                    };
+                    let unit = unit(&element, &units)?;
+                    let declaration = Declaration { causality, unit, element: text(name), is_array: false };
+                    description.declarations.insert(variable.clone(), declaration);
+                    description.variables.insert(variable, Variable { value_reference, kind });
                 }
             }
         }
@@ -91,8 +153,10 @@ fn kind(element_name: &[u8]) -> Option<VariableKind> {
 /// Of the types of FMI 3.0, those that a host of numbers needs.
 fn kind3(element_name: &[u8]) -> Option<VariableKind> {
     match element_name {
-        b"Float64" => Some(VariableKind::Real),
-        b"Int32" => Some(VariableKind::Integer),
+        b"Float64" | b"Float32" => Some(VariableKind::Real),
+        b"Int8" | b"UInt8" | b"Int16" | b"UInt16" | b"Int32" | b"UInt32" | b"Int64" | b"UInt64" => {
+            Some(VariableKind::Integer)
+        }
         name => kind(name).filter(|kind| matches!(kind, VariableKind::Boolean | VariableKind::Enumeration)),
     }
 }
@@ -102,11 +166,34 @@ fn value_reference(element: &BytesStart) -> Result<u32, HostError> {
     text.parse().map_err(|error| HostError::Description(format!("value reference '{text}': {error}")))
 }
 
+fn causality(element: &BytesStart) -> Result<Causality, HostError> {
+    Ok(match optional(element, "causality")?.as_deref() {
+        Some("input") => Causality::Input,
+        Some("output") => Causality::Output,
+        Some("parameter" | "structuralParameter") => Causality::Parameter,
+        _ => Causality::Other,
+    })
+}
+
+/// The unit of a variable: its own, or that of its declared type.
+fn unit(element: &BytesStart, of_types: &HashMap<String, String>) -> Result<Option<String>, HostError> {
+    let own = optional(element, "unit")?;
+    let of_type = optional(element, "declaredType")?.and_then(|name| of_types.get(&name).cloned());
+    Ok(own.or(of_type).filter(|unit| !unit.is_empty()))
+}
+
+fn text(name: &[u8]) -> String {
+    String::from_utf8_lossy(name).into_owned()
+}
+
 fn attribute(element: &BytesStart, name: &str) -> Result<String, HostError> {
+    optional(element, name)?.ok_or_else(|| HostError::Description(format!("an element has no attribute '{name}'")))
+}
+
+fn optional(element: &BytesStart, name: &str) -> Result<Option<String>, HostError> {
     let describe = |error: &dyn std::fmt::Display| HostError::Description(error.to_string());
-    let found = element.try_get_attribute(name).map_err(|error| describe(&error))?;
-    let found = found.ok_or_else(|| describe(&format!("an element has no attribute '{name}'")))?;
-    Ok(found.unescape_value().map_err(|error| describe(&error))?.into_owned())
+    let Some(found) = element.try_get_attribute(name).map_err(|error| describe(&error))? else { return Ok(None) };
+    Ok(Some(found.unescape_value().map_err(|error| describe(&error))?.into_owned()))
 }
 
 /// The variables of a model's library by name, for a library without a description.
@@ -132,19 +219,45 @@ mod tests {
         let xml = r#"<?xml version="1.0" encoding="UTF-8"?>
             <fmiModelDescription fmiVersion="2.0" modelName="A &amp; B" guid="{1}">
               <CoSimulation modelIdentifier="AB"/>
-              <TypeDefinitions><SimpleType name="T"><Enumeration><Item name="a" value="1"/></Enumeration></SimpleType></TypeDefinitions>
+              <TypeDefinitions>
+                <SimpleType name="T"><Enumeration><Item name="a" value="1"/></Enumeration></SimpleType>
+                <SimpleType name="Angle"><Real unit="deg"/></SimpleType>
+              </TypeDefinitions>
               <ModelVariables>
                 <ScalarVariable name="leg[1].&lt;x&gt;" valueReference="7" causality="output"><Real unit="m"/></ScalarVariable>
                 <ScalarVariable name="choice" valueReference="8"><Enumeration declaredType="T" start="1"/></ScalarVariable>
+                <ScalarVariable name="roll" valueReference="9" causality="input"><Real declaredType="Angle"/></ScalarVariable>
               </ModelVariables>
             </fmiModelDescription>"#;
         let description = Description::parse(xml).unwrap();
         assert_eq!((description.guid.as_str(), description.model_identifier.as_str()), ("{1}", "AB"));
-        assert_eq!(description.variables.len(), 2);
+        assert_eq!(description.variables.len(), 3);
+        let declared =
+            |name: &str| (description.declarations[name].causality, description.declarations[name].unit.clone());
+        assert_eq!(declared("leg[1].<x>"), (Causality::Output, Some("m".to_owned())));
+        assert_eq!(declared("choice"), (Causality::Other, None));
+        assert_eq!(declared("roll"), (Causality::Input, Some("deg".to_owned())));
         let leg = Variable { value_reference: 7, kind: VariableKind::Real };
         assert_eq!(description.variables["leg[1].<x>"], leg);
         let choice = Variable { value_reference: 8, kind: VariableKind::Enumeration };
         assert_eq!(description.variables["choice"], choice);
+    }
+
+    #[test]
+    fn reads_units_and_arrays_of_fmi_3() {
+        let xml = r#"<fmiModelDescription fmiVersion="3.0" instantiationToken="1">
+              <CoSimulation modelIdentifier="A"/>
+              <TypeDefinitions><Float64Type name="Length" unit="mm"/></TypeDefinitions>
+              <ModelVariables>
+                <Float64 name="x" valueReference="1" causality="output" declaredType="Length"/>
+                <Float32 name="legs" valueReference="2" causality="output" unit="m"><Dimension start="6"/></Float32>
+                <Int16 name="mode" valueReference="3" causality="parameter"/>
+              </ModelVariables>
+            </fmiModelDescription>"#;
+        let declarations = Description::parse(xml).unwrap().declarations;
+        assert_eq!((declarations["x"].unit.as_deref(), declarations["x"].is_array), (Some("mm"), false));
+        assert!(declarations["legs"].is_array && declarations["legs"].element == "Float32");
+        assert_eq!(declarations["mode"].causality, Causality::Parameter);
     }
 
     #[test]

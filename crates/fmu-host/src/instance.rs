@@ -1,12 +1,18 @@
 //! An instance of an FMU.
 
-use std::ffi::{CString, c_int};
+use std::ffi::{CString, c_int, c_void};
 use std::sync::{Arc, PoisonError};
 
 use crate::api::{Api, CO_SIMULATION, Callbacks, Component};
 use crate::fmu::Loaded;
-use crate::messages::{Messages, log};
+use crate::messages::{self, Messages, log};
 use crate::{Fmu, HostError, Message, Status, VariableKind};
+
+// The memory that an FMU takes from its host, by the functions of C.
+unsafe extern "C" {
+    fn calloc(count: usize, size: usize) -> *mut c_void;
+    fn free(memory: *mut c_void);
+}
 
 /// Declares the functions that set or get variables: a function's name, that of its C function, the
 /// type of the values, and the function that gives their address.
@@ -40,8 +46,13 @@ impl Instance {
         let loaded = fmu.loaded.clone();
         let messages = Box::new(Messages::default());
         let environment = (&raw const *messages).cast_mut().cast();
-        let callbacks =
-            Callbacks { logger: Some(log), allocate_memory: None, free_memory: None, step_finished: None, environment };
+        let callbacks = Callbacks {
+            logger: Some(log),
+            allocate_memory: Some(calloc),
+            free_memory: Some(free),
+            step_finished: None,
+            environment,
+        };
         let name = CString::new(name).map_err(|error| HostError::Instantiate(error.to_string()))?;
         let resources = loaded.resources.as_ref().map_or(std::ptr::null(), |resources| resources.as_ptr());
         // SAFETY: strings and callbacks live during the call, the environment longer than the instance.
@@ -224,9 +235,7 @@ impl Instance {
 
     /// The last messages of the FMU.
     fn last_messages(&self) -> String {
-        let messages = self.messages();
-        let last: Vec<_> = messages.iter().rev().take(3).rev().map(|message| message.text.as_str()).collect();
-        last.join("; ")
+        messages::last(&self.messages)
     }
 }
 

@@ -27,11 +27,11 @@ mod running;
 mod state;
 
 pub use api::{Api, Status};
-pub use description::{Variable, VariableKind, variables_of};
+pub use description::{Causality, Declaration, Variable, VariableKind, variables_of};
 pub use error::HostError;
 pub use example::example_library;
 pub use fmu::Fmu;
 pub use instance::Instance;
 pub use messages::Message;
-pub use running::{Running, Running3};
+pub use running::{Running, Running2, Running3};
 pub use state::State;

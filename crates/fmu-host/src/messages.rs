@@ -44,3 +44,16 @@ pub(crate) unsafe extern "C" fn log(
     let message = Message { status: status.into(), category, text, instance_name };
     messages.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(message);
 }
+
+/// The same for FMI 3.0, whose messages have no arguments.
+pub(crate) unsafe extern "C" fn log3(environment: *mut c_void, status: c_int, category: Text, message: Text) {
+    // SAFETY: as in `log`.
+    unsafe { log(environment, std::ptr::null(), status, category, message, std::ptr::null()) }
+}
+
+/// The last messages, as a clause of an error.
+pub(crate) fn last(messages: &Messages) -> String {
+    let messages = messages.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let last: Vec<_> = messages.iter().rev().take(3).rev().map(|message| message.text.as_str()).collect();
+    last.join("; ")
+}

@@ -2,16 +2,20 @@
 
 use std::ffi::{CString, c_int};
 use std::path::Path;
-use std::ptr::{null, null_mut};
+use std::ptr::null;
 
 use tempfile::TempDir;
 
-use crate::description::Description;
-use crate::{Fmu, HostError, Instance, Status, VariableKind, archive, fmi3};
+use crate::description::{Causality, Declaration, Description};
+use crate::messages::{self, Messages, log3};
+use crate::{Fmu, HostError, Instance, Status, Variable, VariableKind, archive, fmi3};
+
+/// Name of the instance.
+const NAME: &str = "model";
 
 /// A running FMU.
 pub enum Running {
-    Fmi2(Box<Instance>),
+    Fmi2(Box<Running2>),
     Fmi3(Box<Running3>),
 }
 
@@ -26,9 +30,9 @@ impl Running {
         if description.is_fmi3 {
             return Ok(Running::Fmi3(Box::new(Running3::start(description, directory, values)?)));
         }
-        let mut instance = Fmu::open(path)?.instantiate("vehicle")?;
-        instance.initialize(values, None)?;
-        Ok(Running::Fmi2(Box::new(instance)))
+        let mut instance = Fmu::open(path)?.instantiate(NAME)?;
+        accepted(instance.initialize(values, None))?;
+        Ok(Running::Fmi2(Box::new(Running2 { instance, description })))
     }
 
     /// Gets a variable by name; of a Boolean, 0 or 1.
@@ -37,7 +41,7 @@ impl Running {
     /// The FMU rejects the call, or there is no such variable.
     pub fn get(&mut self, name: &str) -> Result<f64, HostError> {
         match self {
-            Running::Fmi2(instance) => instance.get(name),
+            Running::Fmi2(running) => running.instance.get(name),
             Running::Fmi3(running) => running.get(name),
         }
     }
@@ -48,9 +52,23 @@ impl Running {
     /// The FMU rejects the value, or there is no such variable.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
         match self {
-            Running::Fmi2(instance) => instance.set(name, value),
+            Running::Fmi2(running) => accepted(running.instance.set(name, value)),
             Running::Fmi3(running) => running.set(name, value),
         }
+    }
+
+    /// Sets the slope of a real input for the next step, of an FMU that
+    /// [takes slopes](Running::takes_slopes).
+    ///
+    /// # Errors
+    /// The FMU rejects the slope, or there is no such variable.
+    pub fn set_slope(&mut self, name: &str, slope: f64) -> Result<(), HostError> {
+        let variable = self.variable(name).filter(|variable| variable.kind == VariableKind::Real);
+        let (Running::Fmi2(running), Some(variable)) = (self, variable) else {
+            return Err(HostError::NoSuchVariable(name.into()));
+        };
+        let status = running.instance.set_real_input_derivatives(&[variable.value_reference], &[slope]);
+        accepted(running.instance.expect_ok("fmi2SetRealInputDerivatives", status))
     }
 
     /// A step from `time` by `step` \[s\].
@@ -59,10 +77,55 @@ impl Running {
     /// The FMU does not make the step.
     pub fn step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
         match self {
-            Running::Fmi2(instance) => instance.step(time, step),
+            Running::Fmi2(running) => accepted(running.instance.step(time, step)),
             Running::Fmi3(running) => running.step(time, step),
         }
     }
+
+    /// True if the FMU takes slopes of its real inputs, as FMI 2.0 has them.
+    pub fn takes_slopes(&self) -> bool {
+        matches!(self, Running::Fmi2(running) if running.description.interpolates_inputs)
+    }
+
+    /// The declaration of a variable that can be got or set as a number.
+    pub fn declaration(&self, name: &str) -> Option<&Declaration> {
+        self.variable(name)?;
+        self.description().declarations.get(name)
+    }
+
+    /// Names of the variables of this role, sorted.
+    pub fn names(&self, causality: Causality) -> Vec<&str> {
+        let declarations = self.description().declarations.iter();
+        let mut names: Vec<&str> =
+            declarations.filter(|(_, found)| found.causality == causality).map(|(name, _)| name.as_str()).collect();
+        names.sort_unstable();
+        names
+    }
+
+    fn variable(&self, name: &str) -> Option<Variable> {
+        self.description().variables.get(name).copied().filter(|variable| variable.kind != VariableKind::String)
+    }
+
+    fn description(&self) -> &Description {
+        match self {
+            Running::Fmi2(running) => &running.description,
+            Running::Fmi3(running) => &running.description,
+        }
+    }
+}
+
+/// A call that ends with a warning is one that has been done.
+fn accepted(result: Result<(), HostError>) -> Result<(), HostError> {
+    match result {
+        Err(HostError::Call { status: Status::Warning, .. }) => Ok(()),
+        result => result,
+    }
+}
+
+/// A running FMU of FMI 2.0.
+pub struct Running2 {
+    instance: Instance,
+    description: Description,
 }
 
 /// A running FMU of FMI 3.0, freed when it is dropped.
@@ -70,6 +133,8 @@ pub struct Running3 {
     instance: fmi3::Instance,
     library: fmi3::Library,
     description: Description,
+    /// Messages of the FMU; boxed, since the FMU keeps their address.
+    messages: Box<Messages>,
     _directory: TempDir,
 }
 
@@ -85,11 +150,22 @@ impl Drop for Running3 {
     }
 }
 
-fn expect_ok(function: &'static str, status: c_int) -> Result<(), HostError> {
-    match status.into() {
-        Status::Ok | Status::Warning => Ok(()),
-        status => Err(HostError::Call { function, status, messages: String::new() }),
-    }
+/// Types of FMI 3.0, each with its functions and Rust's type.
+macro_rules! numbers {
+    ($to:ident $($arguments:tt)*) => {
+        $to! { $($arguments)*
+            "Float32" get_float32 set_float32 f32;
+            "Int8" get_int8 set_int8 i8;
+            "UInt8" get_uint8 set_uint8 u8;
+            "Int16" get_int16 set_int16 i16;
+            "UInt16" get_uint16 set_uint16 u16;
+            "Int32" get_int32 set_int32 i32;
+            "UInt32" get_uint32 set_uint32 u32;
+            "Int64" get_int64 set_int64 i64;
+            "UInt64" get_uint64 set_uint64 u64;
+            "Enumeration" get_int64 set_int64 i64;
+        }
+    };
 }
 
 impl Running3 {
@@ -97,9 +173,11 @@ impl Running3 {
         let path = archive::library_path_of(directory.path(), &archive::platform3(), &description.model_identifier)?;
         let library = fmi3::Library::open(&path)?;
         let text = |text: &str| CString::new(text).map_err(|error| HostError::Description(error.to_string()));
-        let (name, token) = (text("vehicle")?, text(&description.guid)?);
+        let (name, token) = (text(NAME)?, text(&description.guid)?);
         let resources = text(&format!("{}/", directory.path().join("resources").display()))?;
-        // SAFETY: the texts live during the call; there are no callbacks.
+        let messages = Box::new(Messages::default());
+        let environment = (&raw const *messages).cast_mut().cast();
+        // SAFETY: the texts live during the call, the environment longer than the instance.
         let instance = unsafe {
             let instantiate = library.api().instantiate_co_simulation;
             instantiate(
@@ -107,67 +185,91 @@ impl Running3 {
                 token.as_ptr(),
                 resources.as_ptr(),
                 0,
-                0,
+                1,
                 0,
                 0,
                 null(),
                 0,
-                null_mut(),
-                None,
+                environment,
+                Some(log3),
                 None,
             )
         };
-        let mut running = Running3 { instance, library, description, _directory: directory };
+        let mut running = Running3 { instance, library, description, messages, _directory: directory };
         if instance.is_null() {
-            return Err(HostError::Instantiate("it gives no instance".into()));
+            return Err(HostError::Instantiate(messages::last(&running.messages)));
         }
         // SAFETY: the FMU's instance.
         let status = unsafe { (running.library.api().enter_initialization_mode)(instance, 0, 0.0, 0.0, 0, 0.0) };
-        expect_ok("fmi3EnterInitializationMode", status)?;
+        running.expect_ok("fmi3EnterInitializationMode", status)?;
         values.iter().try_for_each(|(name, value)| running.set(name, *value))?;
         // SAFETY: the FMU's instance.
-        expect_ok("fmi3ExitInitializationMode", unsafe { (running.library.api().exit_initialization_mode)(instance) })?;
+        let status = unsafe { (running.library.api().exit_initialization_mode)(instance) };
+        running.expect_ok("fmi3ExitInitializationMode", status)?;
         Ok(running)
     }
 
-    fn find(&self, name: &str) -> Result<([u32; 1], VariableKind), HostError> {
-        match self.description.variables.get(name) {
-            Some(variable) if variable.kind != VariableKind::String => Ok(([variable.value_reference], variable.kind)),
+    fn expect_ok(&self, function: &'static str, status: c_int) -> Result<(), HostError> {
+        match status.into() {
+            Status::Ok | Status::Warning => Ok(()),
+            status => Err(HostError::Call { function, status, messages: messages::last(&self.messages) }),
+        }
+    }
+
+    /// Value reference, kind, and the type's name.
+    fn find(&self, name: &str) -> Result<([u32; 1], VariableKind, &str), HostError> {
+        match (self.description.variables.get(name), self.description.declarations.get(name)) {
+            (Some(variable), Some(declaration)) if variable.kind != VariableKind::String && !declaration.is_array => {
+                Ok(([variable.value_reference], variable.kind, &declaration.element))
+            }
             _ => Err(HostError::NoSuchVariable(name.into())),
         }
     }
 
     fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
-        let (reference, kind) = self.find(name)?;
+        let (reference, kind, element) = self.find(name)?;
         let (instance, api, reference) = (self.instance, self.library.api(), reference.as_ptr());
+        macro_rules! setters {
+            ($($element:literal $get:ident $set:ident $type:ty;)+) => {
+                match element {
+                    $( $element => {
+                        let rounded = if kind == VariableKind::Real { value } else { value.round() } as $type;
+                        (api.$set)(instance, reference, 1, &raw const rounded, 1)
+                    } )+
+                    "Boolean" => (api.set_boolean)(instance, reference, 1, &u8::from(value != 0.0), 1),
+                    _ => (api.set_float64)(instance, reference, 1, &raw const value, 1),
+                }
+            };
+        }
         // SAFETY: the FMU's instance, and one value for one reference.
-        let status = unsafe {
-            match kind {
-                VariableKind::Real => (api.set_float64)(instance, reference, 1, &raw const value, 1),
-                VariableKind::Boolean => (api.set_boolean)(instance, reference, 1, &u8::from(value != 0.0), 1),
-                VariableKind::Enumeration => (api.set_int64)(instance, reference, 1, &(value.round() as i64), 1),
-                _ => (api.set_int32)(instance, reference, 1, &(value.round() as i32), 1),
-            }
-        };
-        expect_ok("fmi3Set", status)
+        let status = unsafe { numbers!(setters) };
+        self.expect_ok("fmi3Set", status)
     }
 
     fn get(&mut self, name: &str) -> Result<f64, HostError> {
-        let (reference, kind) = self.find(name)?;
+        let (reference, _, element) = self.find(name)?;
         let (instance, api, reference) = (self.instance, self.library.api(), reference.as_ptr());
-        let (mut real, mut boolean, mut long, mut int) = (0.0, 0_u8, 0_i64, 0_i32);
-        // SAFETY: the FMU's instance, and one value for one reference.
-        let (status, value) = unsafe {
-            match kind {
-                VariableKind::Real => ((api.get_float64)(instance, reference, 1, &raw mut real, 1), real),
-                VariableKind::Boolean => {
-                    ((api.get_boolean)(instance, reference, 1, &raw mut boolean, 1), f64::from(boolean))
+        macro_rules! getters {
+            ($($element:literal $get:ident $set:ident $type:ty;)+) => {
+                match element {
+                    $( $element => {
+                        let mut value = <$type>::default();
+                        ((api.$get)(instance, reference, 1, &raw mut value, 1), value as f64)
+                    } )+
+                    "Boolean" => {
+                        let mut value = 0;
+                        ((api.get_boolean)(instance, reference, 1, &raw mut value, 1), f64::from(value))
+                    }
+                    _ => {
+                        let mut value = 0.0;
+                        ((api.get_float64)(instance, reference, 1, &raw mut value, 1), value)
+                    }
                 }
-                VariableKind::Enumeration => ((api.get_int64)(instance, reference, 1, &raw mut long, 1), long as f64),
-                _ => ((api.get_int32)(instance, reference, 1, &raw mut int, 1), f64::from(int)),
-            }
-        };
-        expect_ok("fmi3Get", status)?;
+            };
+        }
+        // SAFETY: the FMU's instance, and one value for one reference.
+        let (status, value) = unsafe { numbers!(getters) };
+        self.expect_ok("fmi3Get", status)?;
         Ok(value)
     }
 
@@ -178,6 +280,6 @@ impl Running3 {
             let do_step = self.library.api().do_step;
             do_step(self.instance, time, step, 1, &raw mut event, &raw mut terminate, &raw mut early, &raw mut last)
         };
-        expect_ok("fmi3DoStep", status)
+        self.expect_ok("fmi3DoStep", status)
     }
 }
