@@ -116,8 +116,8 @@ macro_rules! api {
             /// The names of the functions in the library.
             pub const SYMBOLS: &[&str] = &[$(stringify!($symbol)),+];
 
-            /// Finds the functions in a library, which has to live as long as they are used. Those of
-            /// model exchange, which a library for co-simulation may lack, fail then.
+            /// Finds the functions in a library, which has to live as long as they are used. Those
+            /// of model exchange, which a library for co-simulation may lack, fail then.
             pub(crate) fn load(library: &libloading::Library) -> Result<Self, libloading::Error> {
                 $(
                     let $field = {

@@ -17,8 +17,8 @@
 //! - [`help`] writes shell completions and man pages.
 //! - [`schema`] writes schemas of the files, for editors.
 //!
-//! [`recording`] reads recordings for all commands. The crate `moris-setup`
-//! reads rigs and parameters.
+//! [`recording`] reads recordings for all commands, and [`washout_fmu`] steps another washout's
+//! FMU. The crate `moris-setup` reads rigs and parameters.
 
 #![forbid(unsafe_code)]
 
@@ -44,6 +44,7 @@ mod status;
 pub mod text_table;
 pub mod tune;
 pub mod votes;
+pub mod washout_fmu;
 pub mod worst_case;
 
 /// Version, and the commit where it is known.

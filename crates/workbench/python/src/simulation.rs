@@ -1,11 +1,13 @@
 //! Simulations of recordings, their measures and bounds.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use moris::measure::host::Host;
 use moris::recording::Recording;
 use moris::recording::preview::LONGEST_PREVIEW;
 use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fit, page};
+use moris::washout_fmu::WashoutFmu;
 use moris_interface::{Group, guid, slots_of};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
@@ -90,7 +92,8 @@ impl PySimulation {
         Ok(PySimulation { recording, outcome, judged: None })
     }
 
-    /// Judges the motion that another washout computed, with the bound if it is asked for.
+    /// Judges the motion that another washout computed, or computes as an FMU with a map, with the
+    /// bound if it is asked for.
     #[staticmethod]
     #[allow(clippy::too_many_arguments)]
     fn judged(
@@ -101,10 +104,16 @@ impl PySimulation {
         name: &str,
         bound: bool,
         parts: [Option<Bound<PyAny>>; 4],
+        washout: Option<[PathBuf; 2]>,
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, None)?;
         let recording = Arc::clone(&recording.inner);
-        let (motion, notes) = judged::motion(py, &parts, &recording)?;
+        let (motion, notes) = match washout {
+            Some([file, map]) => py
+                .detach(|| WashoutFmu::with_map(&file, &map)?.motion(&recording))
+                .map_err(|reason| error::recording(py, format!("{}: {reason:#}", file.display())))?,
+            None => judged::motion(py, &parts, &recording)?,
+        };
         let outcome = py.detach(|| Outcome::foreign(&recording, &setup, name, &motion, notes.clone()));
         let mut outcome = outcome.map_err(|reason| error::recording(py, reason.to_string()))?;
         if bound {

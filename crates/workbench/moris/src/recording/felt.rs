@@ -20,10 +20,30 @@ struct Names<const N: usize> {
 }
 
 /// Dimension of a column.
-#[derive(Clone, Copy)]
-enum Kind {
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A dimension of recordings.
     Of(Dimension),
+    /// A length of the platform, which has other units than a position on the road.
     Length,
+}
+
+impl Kind {
+    /// The factor of a unit to SI; none if it is no unit of this dimension.
+    pub fn factor(self, unit: &str) -> Option<f64> {
+        match self {
+            Kind::Length => LENGTHS.iter().find(|(spelling, _)| *spelling == unit).map(|(_, factor)| *factor),
+            Kind::Of(dimension) => dimension.spelled(unit).map(|unit| unit.in_si),
+        }
+    }
+
+    /// Its units, as messages list them.
+    pub fn units(self) -> String {
+        match self {
+            Kind::Length => LENGTHS.map(|(spelling, _)| spelling).join(", "),
+            Kind::Of(dimension) => dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", "),
+        }
+    }
 }
 
 const FORCE: Names<3> = Names {
@@ -295,17 +315,6 @@ impl<const N: usize> Names<N> {
 /// The factor of a column to SI, by the unit in its title.
 fn factor(header: &Header, place: usize, kind: Kind) -> Result<f64, String> {
     let Some(unit) = header.unit_text(place) else { return Ok(1.0) };
-    let unknown = |units: &[&str]| {
-        format!("column {} has the unit {unit}; write one of {}", header.shown(place), units.join(", "))
-    };
-    match kind {
-        Kind::Length => {
-            let found = LENGTHS.iter().find(|(spelling, _)| *spelling == unit);
-            found.map(|(_, factor)| *factor).ok_or_else(|| unknown(&LENGTHS.map(|(spelling, _)| spelling)))
-        }
-        Kind::Of(dimension) => dimension
-            .spelled(unit)
-            .map(|unit| unit.in_si)
-            .ok_or_else(|| unknown(&dimension.units().map(|unit| unit.word).collect::<Vec<_>>())),
-    }
+    kind.factor(unit)
+        .ok_or_else(|| format!("column {} has the unit {unit}; write one of {}", header.shown(place), kind.units()))
 }

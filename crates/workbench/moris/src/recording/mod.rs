@@ -51,6 +51,7 @@ use moris_washout::{Input, Parameters};
 
 use axes::convert;
 use checks::{consistency, dead, outliers, unusual};
+pub(crate) use columns::units;
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};

@@ -40,6 +40,7 @@ use crate::recording::felt::FeltTable;
 use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
+use crate::washout_fmu::WashoutFmu;
 pub use bounds::AxisBound;
 pub use moris_simulation::findings::{fit, fits_the_rig, is_better_than_rest};
 pub use moris_simulation::{Simulation, measures};
@@ -87,6 +88,15 @@ pub struct Options {
     /// scale and on the rig of the first parameters
     #[arg(long, value_name = "FILE")]
     felt: Vec<PathBuf>,
+
+    /// Another washout as an FMU for co-simulation of FMI 2.0 or 3.0, which is stepped through the
+    /// recording. Its poses, legs or felt forces are judged as those of --felt
+    #[arg(long, value_name = "FMU", requires = "map")]
+    washout: Option<PathBuf>,
+
+    /// Map of the inputs and outputs of --washout, in TOML. docs/your-washout.md has an example
+    #[arg(long, value_name = "FILE", requires = "washout")]
+    map: Option<PathBuf>,
 
     /// Directory for the reports and the tables of outputs
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
@@ -277,29 +287,51 @@ struct Case {
     preview: f64,
     /// True with a preview that is learned.
     learns: bool,
-    /// The file of another washout's motion; none: the parameters are simulated.
-    felt: Option<PathBuf>,
+    /// Another washout's motion; none: the parameters are simulated.
+    foreign: Option<Foreign>,
+}
+
+/// Source of another washout's motion.
+enum Foreign {
+    /// A file with its motion.
+    Felt(PathBuf),
+    /// Its FMU.
+    Fmu(WashoutFmu),
+}
+
+impl Foreign {
+    fn file(&self) -> &Path {
+        match self {
+            Foreign::Felt(file) => file,
+            Foreign::Fmu(fmu) => &fmu.file,
+        }
+    }
+
+    fn motion(&self, recording: &Recording) -> Result<(ForeignMotion, Vec<String>)> {
+        match self {
+            Foreign::Felt(file) => FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg),
+            Foreign::Fmu(fmu) => fmu.motion(recording),
+        }
+    }
 }
 
 impl Case {
     fn of(setup: Setup) -> Self {
-        Case { setup, preview: 0.0, learns: false, felt: None }
+        Case { setup, preview: 0.0, learns: false, foreign: None }
     }
 
     fn outcome(&self, recording: &Recording, progress: impl FnMut()) -> Result<Outcome> {
         if self.learns {
             return Outcome::learned(recording, &self.setup, progress);
         }
-        let Some(file) = &self.felt else {
+        let Some(foreign) = &self.foreign else {
             return Outcome::previewed(recording, &self.setup, self.preview, progress)?
                 .advised(recording, self.preview);
         };
-        let table = FeltTable::read(file)?;
-        let motion = table.motion(recording).map_err(anyhow::Error::msg);
-        let judged = motion.and_then(|(motion, notes)| {
+        let judged = foreign.motion(recording).and_then(|(motion, notes)| {
             Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)
         });
-        judged.with_context(|| file.display().to_string())
+        judged.with_context(|| foreign.file().display().to_string())
     }
 }
 
@@ -307,11 +339,14 @@ impl Case {
 /// and the motions of other washouts.
 fn cases(options: &Options) -> Result<Vec<Case>> {
     let first = options.setup.load()?;
-    let judged = |file: &PathBuf| Case {
-        felt: Some(file.clone()),
-        ..Case::of(Setup { parameters_name: source::name(file), ..first.clone() })
+    let judged = |foreign: Foreign| {
+        let parameters_name = source::name(foreign.file());
+        Case { foreign: Some(foreign), ..Case::of(Setup { parameters_name, ..first.clone() }) }
     };
-    let judged: Vec<Case> = options.felt.iter().map(judged).collect();
+    let fmu = options.washout.as_ref().zip(options.map.as_ref());
+    let fmu = fmu.map(|(file, map)| WashoutFmu::with_map(file, map)).transpose()?;
+    let felt = options.felt.iter().map(|file| Foreign::Felt(file.clone()));
+    let judged: Vec<Case> = felt.chain(fmu.map(Foreign::Fmu)).map(judged).collect();
     let mut cases = vec![Case::of(first)];
     for other in &options.compare {
         let setup = Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?;
@@ -430,7 +465,7 @@ fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
             }
             match tables.insert(name.clone(), recording) {
                 Some(other) if other == recording => bail!(
-                    "{} would be simulated twice, or with two --compare or --felt of the same name, and both written into {name}; name \
+                    "{} would be simulated twice, or with two --compare, --felt or --washout of the same name, and both written into {name}; name \
                      each once, and rename one of two files of the same name",
                     recording.display()
                 ),

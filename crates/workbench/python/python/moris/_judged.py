@@ -22,6 +22,8 @@ def measure(
     felt_rate: Series | None = None,
     pose: Series | None = None,
     legs: Series | None = None,
+    washout: str | PathLike[str] | None = None,
+    washout_map: str | PathLike[str] | None = None,
     rig: Rig | None = None,
     parameters: ParameterSet | None = None,
     name: str | None = None,
@@ -36,6 +38,8 @@ def measure(
     pose: the platform's origin in the base frame and its roll, pitch and yaw, (N, 6) [m], [rad].
     Each is an array with a row for each sample of the recording, or n rows a step. Each may be a table, a dict or a file, too,
         with the columns that docs/your-washout.md lists. Other times are interpolated, which a finding says.
+    washout: an FMU for co-simulation of FMI 2.0 or 3.0, stepped through the recording in place of series. washout_map: the file
+        with its inputs and outputs, as docs/your-washout.md describes it.
     rig, parameters: as for Washout; of the parameters, the head, the washout location and the scale count.
     name: in the report; by default the file's. bound: compute the least error that any controller could reach, too.
 
@@ -49,8 +53,13 @@ def measure(
     given = (felt_force, felt_rate, pose, legs)
     paths = [Path(part).stem for part in given if isinstance(part, (str, PathLike))]
     parts = [_part(part) for part in given]
+    fmu = None
+    if washout is not None:
+        if washout_map is None or any(part is not None for part in given):
+            raise TypeError("a washout needs its washout_map, and no felt_force, felt_rate, pose or legs")
+        fmu, paths = [washout, washout_map], [Path(washout).stem]
     name = name or (paths[0] if paths else "another washout")
-    return Simulation(_moris.Simulation.judged(recording._native, rig, parameters, name, bound, parts), recording)
+    return Simulation(_moris.Simulation.judged(recording._native, rig, parameters, name, bound, parts, fmu), recording)
 
 
 def _part(part: Any) -> Any:

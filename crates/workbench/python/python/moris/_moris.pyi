@@ -122,6 +122,7 @@ class Simulation:
         name: str,
         bound: bool,
         parts: Sequence[Any],
+        washout: Sequence[str | PathLike[str]] | None,
     ) -> Simulation: ...
     @property
     def rig_name(self) -> str: ...

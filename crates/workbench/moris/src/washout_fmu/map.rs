@@ -1,0 +1,231 @@
+//! The map of a washout FMU's variables.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use moris_bounded_files::TEXT;
+use moris_washout::motion::orientation::Orientation;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{Input, interface::AngularVelocityFrame, interface::STANDARD_GRAVITY};
+use serde::Deserialize;
+
+use crate::recording::felt::Kind;
+use crate::recording::units::Dimension;
+
+/// Shortest and longest step \[s\].
+const STEPS: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
+
+/// The map of a washout FMU's variables, as its file has it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Map {
+    /// Communication step \[s\]; that of the recording if none is given.
+    pub step: Option<f64>,
+    /// Gravity in `ax ay az`.
+    #[serde(default)]
+    gravity: Gravity,
+    /// Values of parameters and inputs at the start.
+    #[serde(default)]
+    pub start: BTreeMap<String, f64>,
+    /// Inputs that take the recording's quantities.
+    pub inputs: BTreeMap<Quantity, Place>,
+    /// Outputs, by the columns of a table of felt motion, or constants.
+    pub outputs: BTreeMap<String, OutputPlace>,
+}
+
+/// Gravity in the specific force that the washout takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Gravity {
+    /// As an accelerometer measures: +g upward at rest.
+    #[default]
+    Included,
+    /// Zero at rest: the vehicle's acceleration.
+    Removed,
+}
+
+/// A quantity of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quantity {
+    Ax,
+    Ay,
+    Az,
+    Wx,
+    Wy,
+    Wz,
+    Roll,
+    Pitch,
+    Yaw,
+    Speed,
+    Lean,
+}
+
+/// A variable, with its unit and sign.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// Name of the FMU's variable.
+    pub at: String,
+    /// Unit of the FMU's variable; that of its model description if none is given, and else of SI.
+    pub unit: Option<String>,
+    /// Factor; a negative one turns the axis round.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Added last, in SI units.
+    #[serde(default)]
+    pub offset: f64,
+}
+
+/// A variable, or a constant in SI units.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "an output is a number, or a table of at, unit, scale and offset")]
+pub enum OutputPlace {
+    Constant(f64),
+    Variable(Place),
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// The columns of a table of felt motion, each with its dimension: all of a group, or none.
+const GROUPS: [(&[&str], &[Kind]); 5] = [
+    (&["ax", "ay", "az"], &[Kind::Of(Dimension::Force); 3]),
+    (&["wx", "wy", "wz"], &[Kind::Of(Dimension::Rate); 3]),
+    (&["x", "y", "z"], &[Kind::Length; 3]),
+    (&["roll", "pitch", "yaw"], &[Kind::Of(Dimension::Angle); 3]),
+    (&["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"], &[Kind::Length; 6]),
+];
+
+impl Map {
+    /// The map in a file.
+    ///
+    /// # Errors
+    /// It cannot be read, has unknown words, or its outputs are no whole motion.
+    pub fn read(file: &Path) -> Result<Self> {
+        let shown = || file.display().to_string();
+        let text = moris_bounded_files::text(file, TEXT).with_context(shown)?;
+        let map: Map = toml::from_str(&text).with_context(shown)?;
+        map.check().with_context(shown)?;
+        Ok(map)
+    }
+
+    fn check(&self) -> Result<()> {
+        if let Some(step) = self.step {
+            ensure!(STEPS.contains(&step), "step is {step}, but must be from 0.0001 to 0.5 s");
+        }
+        ensure!(!self.inputs.is_empty(), "[inputs] is empty; the washout needs the motion, such as ax, ay and az");
+        for (name, place) in &self.outputs {
+            if self.kind(name).is_none() {
+                let known: Vec<&str> = GROUPS.iter().flat_map(|(names, _)| *names).copied().collect();
+                bail!("[outputs] has {name}, but must have some of {}", known.join(", "));
+            }
+            if let OutputPlace::Constant(value) = place {
+                ensure!(value.is_finite(), "{name} is {value}, but must be a finite number");
+            }
+        }
+        let has = |name: &&str| self.outputs.contains_key(*name);
+        for (names, _) in GROUPS {
+            if let (true, Some(missing)) = (names.iter().any(has), names.iter().find(|name| !has(name))) {
+                bail!("[outputs] lacks {missing}: give all of {}; a constant is a number", names.join(", "));
+            }
+        }
+        if has(&"x") != has(&"roll") {
+            bail!("[outputs] must have all of x, y, z, roll, pitch, yaw, or none; a constant is a number, as yaw = 0");
+        }
+        if !["ax", "x", "leg1"].iter().any(has) {
+            bail!("[outputs] has nothing to judge; give x, y, z, roll, pitch, yaw, or leg1 to leg6, or ax, ay, az");
+        }
+        for (name, place) in self.places() {
+            let is_usable = place.scale.is_finite() && place.scale != 0.0 && place.offset.is_finite();
+            ensure!(is_usable, "{name}: scale must be a number other than zero, and offset a number");
+        }
+        Ok(())
+    }
+
+    /// All variables, by the quantities.
+    fn places(&self) -> impl Iterator<Item = (String, &Place)> {
+        let inputs = self.inputs.iter().map(|(quantity, place)| (quantity.name().to_owned(), place));
+        let outputs = self.outputs.iter().filter_map(|(name, place)| match place {
+            OutputPlace::Constant(_) => None,
+            OutputPlace::Variable(place) => Some((name.clone(), place)),
+        });
+        inputs.chain(outputs)
+    }
+
+    /// The dimension of an output.
+    pub fn kind(&self, output: &str) -> Option<Kind> {
+        let of = |(names, kinds): (&[&str], &[Kind])| Some(kinds[names.iter().position(|name| *name == output)?]);
+        GROUPS.into_iter().find_map(of)
+    }
+
+    /// The value of a quantity at an input, in SI units and body axes.
+    pub fn value(&self, quantity: Quantity, input: &Input, frame: AngularVelocityFrame) -> f64 {
+        let to_body = || Orientation::new(input.orientation).rotation.transpose();
+        let force = || match self.gravity {
+            Gravity::Included => input.specific_force,
+            Gravity::Removed => input.specific_force - to_body() * (Vector3::z() * STANDARD_GRAVITY),
+        };
+        let rate = || match frame {
+            AngularVelocityFrame::Body => input.angular_velocity,
+            AngularVelocityFrame::World => to_body() * input.angular_velocity,
+        };
+        match quantity {
+            Quantity::Ax => force().x,
+            Quantity::Ay => force().y,
+            Quantity::Az => force().z,
+            Quantity::Wx => rate().x,
+            Quantity::Wy => rate().y,
+            Quantity::Wz => rate().z,
+            Quantity::Roll => input.orientation.roll,
+            Quantity::Pitch => input.orientation.pitch,
+            Quantity::Yaw => input.orientation.yaw,
+            Quantity::Speed => input.speed,
+            Quantity::Lean => input.lean,
+        }
+    }
+}
+
+impl Quantity {
+    /// Its name in maps.
+    pub fn name(self) -> &'static str {
+        ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"][self as usize]
+    }
+
+    /// Its dimension.
+    pub fn kind(self) -> Kind {
+        Kind::Of(match self {
+            Quantity::Ax | Quantity::Ay | Quantity::Az => Dimension::Force,
+            Quantity::Wx | Quantity::Wy | Quantity::Wz => Dimension::Rate,
+            Quantity::Roll | Quantity::Pitch | Quantity::Yaw | Quantity::Lean => Dimension::Angle,
+            Quantity::Speed => Dimension::Speed,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str) -> String {
+        let read = || -> Result<()> { toml::from_str::<Map>(text)?.check() };
+        format!("{:#}", read().unwrap_err())
+    }
+
+    #[test]
+    fn a_map_that_is_no_whole_motion_is_refused() {
+        let outputs = |text: &str| error(&format!("inputs.ax = {{ at = \"u\" }}\n[outputs]\n{text}"));
+        assert!(outputs("x = 0\ny = 0").contains("lacks z"));
+        assert!(outputs("x = 0\ny = 0\nz = 1").contains("yaw = 0"));
+        assert!(outputs("wx = 0\nwy = 0\nwz = 0").contains("nothing to judge"));
+        assert!(outputs("heave = 0").contains("has heave, but must have some of ax, ay"));
+        assert!(
+            outputs("x = { at = \"x\", scale = 0 }\ny = 0\nz = 1\nroll = 0\npitch = 0\nyaw = 0").contains("x: scale")
+        );
+        assert!(error("[inputs]\nsurge = { at = \"u\" }\n[outputs]").contains("unknown variant `surge`"));
+        assert!(error("step = 2\ninputs.ax = { at = \"u\" }\n[outputs]").contains("0.0001 to 0.5 s"));
+        assert!(error("[inputs]\n[outputs]").contains("[inputs] is empty"));
+    }
+}
