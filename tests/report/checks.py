@@ -560,9 +560,18 @@ def tuned(browser, **options):
         yield page
 
 
+def control(page, name):
+    """The field of a parameter."""
+    return page.locator(f"[id='parameter-{name}']")
+
+
+def slider_of(page, name):
+    return page.locator(f".parameter:has([id='parameter-{name}']) input[type=range]")
+
+
 def move(page, name, place):
     """Moves a slider to a place and lets it go."""
-    slider = page.get_by_role("slider", name=name, exact=True)
+    slider = slider_of(page, name)
     slider.evaluate("(slider, place) => ['input', 'change'].forEach((kind) => { slider.value = place; slider.dispatchEvent(new Event(kind)); })", place)
     settled(page)
 
@@ -616,7 +625,7 @@ def the_page_simulates_as_the_command(browser):
     with tuned(browser) as page:
         move(page, "scale.specificForce.x", 300)
         assert_same(page, of_command("--parameters", saved(page)), "a scale")
-        page.get_by_label("strategy", exact=True).select_option(label="predictive")
+        control(page, "strategy").select_option(label="predictive")
         move(page, "predictive.weightPosition", 260)
         file = saved(page)
         assert 'strategy = "predictive"' in file.read_text().replace('"strategy"', "strategy"), file.read_text()
@@ -647,7 +656,7 @@ NOTED = """() => {
 def noted(browser):
     """The ride's page with the predictive strategy, and its worker's messages noted from now on."""
     with tuned(browser) as page:
-        page.get_by_label("strategy", exact=True).select_option(label="predictive")
+        control(page, "strategy").select_option(label="predictive")
         settled(page)
         page.locator(".chart").first.scroll_into_view_if_needed()
         # What waits while a slider moves comes after 250 ms.
@@ -724,7 +733,7 @@ def the_rig_is_judged_as_by_the_command(browser):
         page.locator("#tuning").get_by_text("free of singularities").scroll_into_view_if_needed()
         page.screenshot(path=PICTURES / "rig.png")
         # Legs that do not reach neutral.
-        field = page.get_by_label("rig.neutralHeight", exact=True).and_(page.get_by_role("spinbutton"))
+        field = control(page, "rig.neutralHeight")
         field.fill("2")
         field.press("Enter")
         settled(page)
@@ -758,8 +767,8 @@ def the_start_is_the_original(browser):
 def changes_are_undone_and_compared(browser):
     """By keyboard: a slider, undo, the original beside the changed run."""
     with tuned(browser) as page:
-        slider = page.get_by_role("slider", name="scale.specificForce.x", exact=True)
-        field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+        slider = slider_of(page, "scale.specificForce.x")
+        field = control(page, "scale.specificForce.x")
         slider.focus()
         start = field.input_value()
         page.keyboard.press("ArrowLeft")
@@ -787,9 +796,40 @@ def changes_are_undone_and_compared(browser):
         field.press("Enter")
         settled(page)
         assert page.evaluate("simulationReport.tuning.values[simulationReport.tuning.slots.get('scale.specificForce.x')]") == 0.5
-        page.get_by_label("Find another parameter").fill("damping splitter.x")
-        assert page.get_by_role("slider", name="splitter.x.zeta1", exact=True).is_visible()
+        page.get_by_label("Find a parameter").fill("damping splitter.x")
+        assert slider_of(page, "splitter.x.zeta1").is_visible()
         page.screenshot(path=PICTURES / "panel.png")
+
+
+@check
+def parameters_are_named_and_found_in_plain_words(browser):
+    """Words for what one wants find parameters; those without effect are grey and say why; numbers have four digits at most."""
+    with tuned(browser) as page:
+        visible = "() => [...document.querySelectorAll('#tuning .parameter')].filter((one) => one.checkVisibility()).map((one) => one.querySelector('.variable')?.textContent)"
+        for word, expected in (("smooth", "input.cutoff"), ("gentle", "softLimit.pace"), ("surge", "scale.specificForce.x"), ("gentle", "tilt.rateLimit")):
+            page.get_by_label("Find a parameter").fill(word)
+            assert expected in page.evaluate(visible), (word, page.evaluate(visible))
+        assert "scale.specificForce.x" not in page.evaluate(visible)
+        page.get_by_label("Find a parameter").fill("nothing has this")
+        assert page.get_by_text("No parameter has this").is_visible() and not page.evaluate(visible)
+        page.get_by_label("Find a parameter").fill("")
+        label = page.locator("label[for='parameter-scale.specificForce.x']")
+        assert label.inner_text() == "Size of surge"
+        control(page, "strategy").select_option(label="predictive")
+        settled(page)
+        idle = page.locator(".parameter.idle:has([id='parameter-splitter.x.omega1'])")
+        assert "no effect with strategy predictive" in idle.inner_text()
+        long = page.evaluate("[...document.querySelectorAll('#tuning .parameter input[type=number], #tuning .end')].map((one) => one.value ?? one.textContent)")
+        too_long = [text for text in long if sum(c.isdigit() for c in text.lstrip("0.-\u2212").split("e")[0]) > 4]
+        assert not too_long, too_long
+
+
+@check
+def the_machine_keeps_its_proportions_when_the_panel_opens(browser):
+    with tuned(browser) as page:
+        page.evaluate("new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)))")
+        picture, box = page.evaluate("(() => { const v = document.getElementById('view'), b = v.getBoundingClientRect(); return [v.width / v.height, b.width / b.height]; })()")
+        near(picture, box, 0.02, "width over height")
 
 
 def shown_run(page):
@@ -800,7 +840,7 @@ def shown_run(page):
 def variants_are_kept_by_name(browser):
     """Kept, chosen, compared, renamed and deleted; the panel and the saved file are the shown one's."""
     with tuned(browser) as page:
-        field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+        field = control(page, "scale.specificForce.x")
         name, runs = page.get_by_label("Name", exact=True), page.locator("#runs button")
         values = {}
         for kept, place in (("strong one", 300), ("weak", 100)):
@@ -844,8 +884,8 @@ def parameters_that_cannot_be_used_are_said_to_be(browser):
     with tuned(browser) as page:
         move(page, "scale.specificForce.x", 200)
         before = page.evaluate("simulationReport.runs()[1].measures")
-        page.get_by_label("Find another parameter").fill("head.torsoLength")
-        field = page.get_by_label("head.torsoLength", exact=True).and_(page.get_by_role("spinbutton"))
+        page.get_by_label("Find a parameter").fill("head.torsoLength")
+        field = control(page, "head.torsoLength")
         field.fill("9")
         field.press("Enter")
         settled(page)
@@ -899,7 +939,7 @@ def the_keyboard_is_enough(browser):
         row.focus()
         page.keyboard.press("Enter")
         near(page.evaluate("simulationReport.now.time"), float(row.inner_text().split()[0]), 0.01, "time of the second row")
-        page.get_by_role("slider", name="scale.specificForce.x", exact=True).focus()
+        slider_of(page, "scale.specificForce.x").focus()
         page.keyboard.press("ArrowLeft")
         settled(page)
         page.get_by_label("Name", exact=True).focus()

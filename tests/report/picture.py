@@ -24,11 +24,11 @@ SIZE = {"width": 1366, "height": 768}
 def tune(page):
     """Opens the panel, keeps a variant, and changes the scale of surge."""
     page.locator("#tuning summary").click()
-    page.get_by_label("strategy", exact=True).select_option(label="predictive")
+    page.locator("#parameter-strategy").select_option(label="predictive")
     page.wait_for_timeout(2000)
     page.get_by_label("Name", exact=True).fill("planned")
     page.get_by_role("button", name="Keep").click()
-    field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+    field = page.locator("[id='parameter-scale.specificForce.x']")
     field.fill("0.5")
     field.press("Enter")
     page.wait_for_timeout(2000)

@@ -74,6 +74,26 @@ def keys_open_the_throttle_lean_and_brake(browser):
         wait(page, "document.getElementById('message').textContent === 'Paused'")
 
 
+@check
+def a_held_throttle_stays_on_the_road_and_the_first_bend_is_announced(browser):
+    with opened(browser) as page:
+        said = page.evaluate("""() => {
+            const { now, engine, frame } = simulationRide;
+            const said = new Set();
+            now.isHeld = true;
+            for (let k = 0; k < 6000; k += 1) {
+                const commands = { throttle: 1, brake: 0, stick: 0, isHelped: true };
+                if (k % 25 === 0) {
+                    frame(0.02, commands);
+                    said.add(document.getElementById("message").textContent);
+                } else engine.advance(0.02, commands);
+            }
+            return [...said];
+        }""")
+        assert any(text.startswith("Bend to the ") and text.endswith("km/h") for text in said), said
+        assert view(page, "stage") == "riding", view(page, "stage")
+
+
 @check_everywhere
 def a_gamepad_rides(browser):
     """A pad that the test moves: triggers, stick and start."""

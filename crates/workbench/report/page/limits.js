@@ -7,8 +7,6 @@ const KINDS = {
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };
 const LANE = 20;
-/** Rows of the list that a print has; the style sheet leaves out the others. */
-const PRINTED = 40;
 
 /** How long a flag was up: it speaks of the step before its sample. */
 function timeLimited(run, flags) {
@@ -46,7 +44,8 @@ class TimeLine {
   /** Fills the list; a long one takes a while. */
   showList() {
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
-    this.printed.textContent = this.events.length > PRINTED ? `The first ${PRINTED} of ${this.events.length}.` : "";
+    // A print has the summary alone.
+    this.printed.textContent = this.events.length > 0 ? `${this.events.length} times in all; the page lists them with their reasons.` : "";
   }
 
   row(event) {

@@ -269,6 +269,8 @@ setUpPlayer();
 letTurn(view, drawMachine);
 select(report.selected);
 addEventListener("resize", redraw);
+// The panel takes height from the picture, which keeps its proportions.
+new ResizeObserver(drawMachine).observe(byId("view"));
 // A print is as wide as its paper and in light colours. The definitions are in it if the reader wants them.
 const folded = [];
 addEventListener("beforeprint", () => {

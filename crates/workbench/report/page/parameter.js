@@ -6,7 +6,9 @@ const WIDE = 100;
 
 /** With at most three digits, so that a chosen value is one that a person would write. */
 const rounded = (value) => Number(value.toPrecision(3));
-const inWords = (value) => withMinus(String(Number(value.toPrecision(6))));
+/** With at most four digits, as shown; the value keeps all of its digits. */
+const brief = (value) => String(Number(value.toPrecision(4)));
+const inWords = (value) => withMinus(brief(value));
 
 /** The values with a strategy and the set of its name below the parameters that are given, as the command's --strategy. */
 function withStrategy({ parameters, sets }, values, value) {
@@ -25,9 +27,12 @@ class ParameterControl {
   constructor(parameter, value, changed, done) {
     this.parameter = parameter;
     const id = `parameter-${parameter.name}`;
-    const label = element("label", { for: id, title: parameter.text }, [parameter.name]);
+    this.plain = plainWords(parameter) || parameter.name;
+    const label = element("label", { for: id, title: parameter.text }, [this.plain]);
     const unit = parameter.unit ? [" ", element("span", { class: "unit" }, [parameter.unit])] : [];
-    const name = element("span", { class: "name" }, [label, ...unit]);
+    const variable = this.plain === parameter.name ? [] : [element("small", { class: "variable" }, [parameter.name])];
+    this.note = element("small", { class: "idle-note" });
+    const name = element("span", { class: "name" }, [label, ...unit, ...variable, this.note]);
     this.element = element("div", { class: "parameter" }, [name, ...this.controls(id, changed, done)]);
     this.show(value);
   }
@@ -57,8 +62,8 @@ class ParameterControl {
   }
 
   track(changed, done) {
-    const { name, text, slider: [low, high], start } = this.parameter;
-    this.slider = element("input", { type: "range", min: "0", max: String(STEPS), step: "1", "aria-label": name, title: text });
+    const { text, slider: [low, high], start } = this.parameter;
+    this.slider = element("input", { type: "range", min: "0", max: String(STEPS), step: "1", "aria-label": this.plain, title: text });
     this.slider.addEventListener("input", () => {
       changed(this.valueAt(Number(this.slider.value)));
     });
@@ -95,11 +100,17 @@ class ParameterControl {
   show(value) {
     const { kind, unit, start } = this.parameter;
     if (kind === "boolean") this.field.checked = value !== 0;
-    else this.field.value = String(value);
+    else this.field.value = kind === "enumeration" ? String(value) : brief(value);
     if (this.slider) {
       this.slider.value = String(this.placeOf(value));
       this.slider.setAttribute("aria-valuetext", `${inWords(value)} ${unit}, start ${inWords(start)}`);
     }
     this.element.classList.toggle("changed", value !== start);
+  }
+
+  /** Shows that the parameter has no effect now, and why; an empty reason: it has one. */
+  showIdle(reason) {
+    this.element.classList.toggle("idle", Boolean(reason));
+    this.note.textContent = reason;
   }
 }

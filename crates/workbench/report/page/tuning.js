@@ -67,11 +67,11 @@ class Tuning {
     this.verdict = new RigVerdict();
     this.message = element("p", { class: "summary", role: "status" });
     this.groups = element("div");
-    this.search = element("input", { type: "search", id: "search", placeholder: "name or description" });
+    this.search = element("input", { type: "search", id: "search", placeholder: "as smooth, gentle, strong" });
     this.found = element("div");
     this.search.addEventListener("input", () => this.showFound());
     const tools = element("div", { class: "tools" }, [this.undoButton, this.redoButton, this.resetButton, this.saveButton, this.copyButton]);
-    const search = element("p", { class: "search" }, [element("label", { for: "search" }, ["Find another parameter"]), " ", this.search]);
+    const search = element("p", { class: "search" }, [element("label", { for: "search" }, ["Find a parameter"]), " ", this.search]);
     this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.variants.element, this.message, search, this.found, this.groups]));
     this.box.addEventListener("keydown", (event) => {
       const isText = event.target === this.search || event.target === this.variants.name;
@@ -103,12 +103,20 @@ class Tuning {
     this.message.textContent = text;
   }
 
-  /** True for parameters that have no effect now: those of other strategies, and of orders that are not used. */
-  isIdle(name) {
+  /** Why a parameter has no effect now; nothing if it has one. */
+  idleReason(name) {
+    const strategies = this.parameters[this.slots.get("strategy")].items;
+    return idleReason(name, strategies, (other) => {
+      const slot = this.slots.get(other);
+      const { kind, items } = this.parameters[slot];
+      return kind === "enumeration" ? items[this.values[slot] - 1] : this.values[slot];
+    });
+  }
+
+  /** True for parameters of other strategies, which are shown only when they are searched for. */
+  isElsewhere(name) {
     const [first] = name.split(".");
-    if (this.parameters[this.slots.get("strategy")].items.includes(first)) return first !== this.strategy;
-    if (!/^(splitter|angular)\..*\.omega2$/.test(name)) return false;
-    return this.values[this.slots.get(`${first}.order`)] === 2;
+    return this.parameters[this.slots.get("strategy")].items.includes(first) && first !== this.strategy;
   }
 
   control(slot) {
@@ -120,43 +128,61 @@ class Tuning {
     return this.controls.get(slot).element;
   }
 
-  /** Shows the parameters that have an effect. Controls that stay keep the focus. */
+  /** Shows the parameters of the strategy. Controls that stay keep the focus. */
   showControls() {
-    const effective = this.parameters.map(({ name }) => Number(this.isIdle(name))).join("");
-    if (effective !== this.effective) this.buildControls();
-    this.effective = effective;
+    if (this.strategy !== this.shownStrategy) this.buildControls();
+    this.shownStrategy = this.strategy;
     this.showState();
   }
 
   buildControls() {
     const headings = new Map([["Strategy", []], ["Scales", []], ["Break frequencies", []], ["Tilt limits", []]]);
     this.parameters.forEach(({ name, group }, slot) => {
-      if (!group || this.isIdle(name)) return;
+      if (!group || this.isElsewhere(name)) return;
       if (!headings.has(group)) headings.set(group, []);
-      headings.get(group).push(this.control(slot));
+      headings.get(group).push(slot);
     });
     const focused = document.activeElement;
-    const ofRig = headings.get("Rig");
+    const ofRig = headings.get("Rig") ?? [];
     headings.delete("Rig");
-    const parts = [...headings].filter(([, rows]) => rows.length > 0);
-    const rig = [element("h3", {}, ["Rig"]), this.verdict.state, ...ofRig, element("div", { class: "tools" }, [this.saveRigButton]), this.verdict.details];
-    this.groups.replaceChildren(...parts.flatMap(([heading, rows]) => [element("h3", {}, [heading]), ...rows]), ...rig);
+    this.sections = [...headings].filter(([, slots]) => slots.length > 0).map(([heading, slots]) => ({ head: element("h3", {}, [heading]), slots }));
+    const rows = (slots) => slots.map((slot) => this.control(slot));
+    const rig = [element("h3", {}, ["Rig"]), this.verdict.state, ...rows(ofRig), element("div", { class: "tools" }, [this.saveRigButton]), this.verdict.details];
+    this.groups.replaceChildren(...this.sections.flatMap(({ head, slots }) => [head, ...rows(slots)]), ...rig);
+    this.sections.push({ slots: ofRig });
     this.showFound();
     if (this.box.contains(focused)) focused.focus();
   }
 
+  /** Shows what has all the words of the search: of the groups, and of all other parameters. */
   showFound() {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const fits = ({ name, text, is_free: isFree, group }) => isFree && (!group || this.isIdle(name))
-      && words.every((word) => `${name} ${text}`.toLowerCase().includes(word));
-    const slots = words.length === 0 ? [] : [...this.parameters.keys()].filter((slot) => fits(this.parameters[slot]));
-    const more = slots.length - MOST_FOUND;
-    const note = words.length === 0 ? "" : slots.length === 0 ? "No other parameter has this in its name or description." : more > 0 ? `${more} more` : "";
-    this.found.replaceChildren(...slots.slice(0, MOST_FOUND).map((slot) => this.control(slot)), element("p", { class: "summary" }, [note]));
+    const fits = (slot) => words.every((word) => searched(this.parameters[slot]).includes(word));
+    for (const { head, slots } of this.sections) {
+      for (const slot of slots) this.control(slot).hidden = !fits(slot);
+      if (head) head.hidden = !slots.some(fits);
+    }
+    const grouped = new Set(this.sections.flatMap(({ slots }) => slots));
+    const isOther = (slot) => this.parameters[slot].is_free && !grouped.has(slot) && fits(slot);
+    // First those that have an effect, and of these the ones that are called so.
+    const isCalled = (slot) => words.every((word) => plainWords(this.parameters[slot]).toLowerCase().includes(word));
+    const rank = (slot) => 2 * Number(Boolean(this.idleReason(this.parameters[slot].name))) + Number(!isCalled(slot));
+    const others = words.length === 0 ? [] : [...this.parameters.keys()].filter(isOther).sort((a, b) => rank(a) - rank(b));
+    const more = others.length - MOST_FOUND;
+    const isFound = others.length > 0 || [...grouped].some(fits);
+    const note = !isFound ? "No parameter has this in its name or description." : more > 0 ? `${more} more` : "";
+    this.found.replaceChildren(...others.slice(0, MOST_FOUND).map((slot) => this.control(slot)), element("p", { class: "summary" }, [note]));
+    for (const slot of others) this.control(slot).hidden = false;
+    this.showIdle();
+  }
+
+  showIdle() {
+    for (const [slot, control] of this.controls) control.showIdle(this.idleReason(this.parameters[slot].name));
   }
 
   showState() {
     for (const [slot, control] of this.controls) control.show(this.values[slot]);
+    this.showIdle();
     const isStart = this.values.every((value, slot) => value === this.parameters[slot].start);
     this.undoButton.disabled = this.history.length === 0;
     this.redoButton.disabled = this.future.length === 0;

@@ -25,7 +25,7 @@ const WORKER: &str = concat!("\"use strict\";\n", include_str!("../page/module.j
 pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
 /// Scripts for any page with a machine and parameters, in the order of their dependencies.
-const SHARED: [&str; 10] = [
+const SHARED: [&str; 11] = [
     include_str!("../page/payload.js"),
     include_str!("../page/module.js"),
     include_str!("../page/format.js"),
@@ -35,6 +35,7 @@ const SHARED: [&str; 10] = [
     include_str!("../page/machine.js"),
     include_str!("../page/camera.js"),
     include_str!("../page/view.js"),
+    include_str!("../page/words.js"),
     include_str!("../page/parameter.js"),
 ];
 

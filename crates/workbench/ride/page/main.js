@@ -68,6 +68,16 @@ function showLaps({ laps }) {
   }
 }
 
+/** What is said of the bend ahead: of the first one always, later where the speed is too much for it. */
+function announced(view) {
+  if (view.stage !== "riding") return "";
+  const bend = road.bendAhead(view.distance);
+  now.isPastFirst = view.distance > 1 && (now.isPastFirst || now.hasBend && !bend);
+  now.hasBend = Boolean(bend);
+  if (!bend || now.isPastFirst && view.speed < bend.advised + 1) return "";
+  return `Bend to the ${bend.side} in ${20 * Math.ceil(bend.ahead / 20)} m: ${fixed(3.6 * bend.advised, 0)} km/h`;
+}
+
 function showNumbers(view) {
   setText("speed", fixed(3.6 * view.speed, 0));
   setText("advised", view.stage === "riding" ? `advised ${fixed(3.6 * view.advised, 0)} km/h` : "");
@@ -76,7 +86,7 @@ function showNumbers(view) {
   setText("lap-number", `lap ${view.laps + 1}`);
   const exchange = view.is_exchanging ? "The strategy changes: the cue fades, and comes back" : "";
   const toast = now.time < now.toastUntil ? now.toast : "";
-  setText("message", now.isPaused ? "Paused" : MESSAGES[view.stage] || exchange || toast);
+  setText("message", now.isPaused ? "Paused" : MESSAGES[view.stage] || exchange || toast || announced(view));
   byId("save").disabled = view.time < 1;
   lamps.show(view, now.time);
 }

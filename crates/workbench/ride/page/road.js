@@ -7,6 +7,9 @@ const FAR = 280;
 const NEAR = 0.4;
 /** Deceleration of a rider before a bend, as the motorcycle's [m/s2]. */
 const BRAKING = 2.5;
+/** Curvature from which a bend has boards and is announced [1/m], and how far ahead [m]. */
+const SHARP = 0.018;
+const ANNOUNCED = 160;
 /** Time by which the eye looks ahead [s], the part of the turn that it takes, and its largest [rad]. */
 const LOOK = { ahead: 0.9, part: 0.5, most: 0.4, time: 0.25 };
 
@@ -34,6 +37,20 @@ class Road {
     return round === 0 ? found : { ...found, yaw: found.yaw + round * (this.points[this.laps].yaw - this.points[0].yaw) };
   }
 
+  /** The next sharp bend ahead: its side, how far it is, and the advised speed in it; nothing if there is none, or in one. */
+  bendAhead(distance) {
+    const here = Math.floor(distance / this.spacing);
+    const isSharp = (k) => Math.abs(this.bends[(k % this.laps + this.laps) % this.laps]) > SHARP;
+    if (isSharp(here)) return null;
+    for (let k = here + 1; (k - here) * this.spacing < ANNOUNCED; k += 1) {
+      if (!isSharp(k)) continue;
+      let advised = Infinity;
+      for (let at = k; isSharp(at) && at < k + this.laps; at += 1) advised = Math.min(advised, this.point(at).advised);
+      return { side: this.bends[k % this.laps] > 0 ? "left" : "right", ahead: (k - here) * this.spacing, advised };
+    }
+    return null;
+  }
+
   /** So far to the left of a point of the centre. */
   beside(k, left) {
     const { x, y, yaw } = this.point(k);
@@ -46,7 +63,7 @@ class Road {
     for (let k = 0; k < this.laps; k += 4) {
       const bend = this.bends[k];
       const outside = (this.halfWidth + 1.6) * -Math.sign(bend);
-      if (Math.abs(bend) > 0.018) made.push({ k, at: this.beside(k, outside), kind: "board", size: 1.2, side: Math.sign(bend) });
+      if (Math.abs(bend) > SHARP) made.push({ k, at: this.beside(k, outside), kind: "board", size: 1.2, side: Math.sign(bend) });
       else if (k % 12 === 0) for (const side of [1, -1]) made.push({ k, at: this.beside(k, side * (this.halfWidth + 0.8)), kind: "post", size: 1 });
     }
     return made;

@@ -18,7 +18,7 @@ pub struct RiderCommand {
     pub brake: f64,
     /// From -1, left, to 1, right: the lean that the rider aims at.
     pub stick: f64,
-    /// True if the rider keeps to the road.
+    /// True if the rider keeps to the road, and to the advised speed at most.
     pub is_helped: bool,
 }
 
@@ -54,6 +54,7 @@ impl Ridden {
     pub fn step(&mut self, command: &RiderCommand) {
         let RiderCommand { throttle, brake, stick, is_helped } = *command;
         let lean = rider::lean(stick, is_helped, &self.0);
+        let [throttle, brake] = rider::pedals([throttle, brake], is_helped && !self.has_ended(), &self.0);
         self.0.step(&Controls { throttle, brake, lean, ..Controls::default() }, STEP);
     }
 

@@ -1,4 +1,4 @@
-//! From the player's stick to the commanded lean.
+//! From the player's stick, throttle and brake to the rider's commands.
 
 use moris_motorcycle::path::follower::Follower;
 use moris_motorcycle::{Model, Motorcycle, Output};
@@ -10,6 +10,12 @@ const LEAN_BESIDE_HELP: f64 = 0.3;
 const AHEAD: f64 = 0.5;
 /// Natural frequency with which the help returns to the middle of the road \[rad/s\].
 const RETURN: f64 = 0.8;
+/// Throttle for each m/s below the advised speed, and brake for each above it, at which the help
+/// holds the speed \[s/m\].
+const THROTTLE: f64 = 0.3;
+const BRAKE: f64 = 0.25;
+/// Most of the brake that the help pulls.
+const MOST_BRAKE: f64 = 0.7;
 
 /// The commanded lean for a stick from -1 to 1, to the right \[rad\].
 ///
@@ -22,6 +28,16 @@ pub fn lean(stick: f64, is_helped: bool, motorcycle: &Motorcycle) -> f64 {
         }
         _ => LEAN * stick,
     }
+}
+
+/// Throttle and brake of a player. The help closes the throttle at the advised speed, here and
+/// where the motorcycle will soon be, and brakes above it.
+pub fn pedals([throttle, brake]: [f64; 2], is_helped: bool, motorcycle: &Motorcycle) -> [f64; 2] {
+    let Some(follower) = motorcycle.follower().filter(|_| is_helped) else { return [throttle, brake] };
+    let now = motorcycle.output();
+    let advised = [0.0, AHEAD].map(|time| follower.planned_speed(now.path_distance + time * now.speed));
+    let missing = advised[0].min(advised[1]) - now.speed;
+    [throttle.min((THROTTLE * missing).max(0.0)), brake.max((-BRAKE * missing).clamp(0.0, MOST_BRAKE))]
 }
 
 fn help(now: &Output, follower: &Follower, gravity: f64) -> f64 {

@@ -78,6 +78,18 @@ fn a_lap_with_help_stays_on_the_road_and_has_ratings() {
     }
 }
 
+/// Who holds the throttle and does nothing else stays on the road with help, and leaves it without.
+#[test]
+fn a_held_throttle_with_help_stays_on_the_road() {
+    for is_helped in [true, false] {
+        let mut ride = ride();
+        go(&mut ride, 200.0, |_| RiderCommand { throttle: 1.0, is_helped, ..RiderCommand::default() });
+        let expected = if is_helped { Stage::Riding } else { Stage::OffRoad };
+        assert_eq!(ride.stage(), expected, "at {} m", output(&ride).path_distance);
+        assert!(!is_helped || !ride.laps().is_empty());
+    }
+}
+
 /// The file's samples through a washout of its own give what was felt in the ride.
 #[test]
 fn the_file_of_a_ride_gives_the_same_cues() {

@@ -20,18 +20,19 @@ pub struct Entry {
     error: f64,
 }
 
+/// Heads of the figures. Errors come first: they stand beside the verdict on a small screen, too.
 const HEADS: [&str; 11] = [
-    "duration s",
+    "sensed error, surge m/s²",
+    "sway m/s²",
+    "heave m/s²",
+    "all axes m/s²",
     "limits active %",
     "soft limits active %",
     "stroke used %",
     "shake m/s²",
     "jolt m/s²",
     "peak m/s²",
-    "sensed error, surge m/s²",
-    "sway m/s²",
-    "heave m/s²",
-    "all axes m/s²",
+    "duration s",
 ];
 
 impl Entry {
@@ -57,8 +58,7 @@ impl Entry {
         let errors = measures.sensed_force.each_ref().map(|axis| axis.as_ref().map(|fidelity| fidelity.rms_error));
         let error = errors.iter().flatten().map(|error| error * error).sum::<f64>().sqrt();
         let figure = |value: Option<f64>| or_undefined(value.map(|value| format!("{value:.2}")));
-        let first = [
-            format!("{:.1}", recording.manoeuvre.duration()),
+        let limits = [
             format!("{:.1}", 100.0 * limited),
             format!("{:.1}", 100.0 * effort.soft_limited),
             format!("{:.0}", 100.0 * effort.stroke_used),
@@ -71,7 +71,14 @@ impl Entry {
             file: Some(page.file_name().unwrap_or_default().to_string_lossy().into_owned()),
             is_good: outcome.evaluated().is_good(),
             verdict: outcome.evaluated().verdict(),
-            cells: first.into_iter().chain(comfort).chain(errors.map(figure)).chain([figure(Some(error))]).collect(),
+            cells: errors
+                .map(figure)
+                .into_iter()
+                .chain([figure(Some(error))])
+                .chain(limits)
+                .chain(comfort)
+                .chain([format!("{:.1}", recording.manoeuvre.duration())])
+                .collect(),
         };
         Entry { row, limited, error }
     }
