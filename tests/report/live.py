@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "examples"))
 from vehicle import line  # noqa: E402
 
-wait = waiter("simulationLive", "now, strips, sliders, driving")
+wait = waiter("simulationLive", "now, strips, sliders, driving, machine, latenessInWords")
 
 
 def drive(port, ended):
@@ -111,6 +111,45 @@ def sliders_change_parameters_and_say_what_cannot_be(browser):
 
 
 @check
+def lateness_is_said_in_words(browser):
+    with live() as address, opened(browser, address) as page:
+        wait(page, "document.getElementById('late-steps').textContent.length > 0")
+        said = page.evaluate("""[[], [[0.05, 900], [1, 100]], [[0.05, 99990], [2, 9], [5, 1]], [[0.05, 90], [20, 10]]].map(simulationLive.latenessInWords)""")
+    assert said == [
+        ["No step yet.", False],
+        ["On time: every step began within 1.00 ms.", False],
+        ["Nearly always on time: 0.010 % of the steps began more than 1 ms late, the latest within 5.0 ms.", False],
+        ["Late: 10 % of the steps began more than 1 ms late, the latest within 20.0 ms. Other programs take this computer's time.", True],
+    ]
+
+
+@check
+def a_car_is_drawn_for_a_car_and_curves_have_a_time_axis(browser):
+    with live("--parameters", "car") as address, opened(browser, address) as page:
+        assert page.evaluate("simulationLive.machine.mockUp.wheels.length") == 4
+        assert not page.locator("#scene").is_visible()
+        wait(page, "now.view.time > 6")
+        ink = """(canvas) => {
+            const high = Math.round(10 * canvas.height / canvas.getBoundingClientRect().height);
+            return canvas.getContext('2d').getImageData(0, canvas.height - high, canvas.width, high).data.some((value) => value > 0);
+        }"""
+        wait(page, "strips.sway.points.length > 100")
+        assert page.locator("#surge").evaluate(ink) and page.locator("#sway").evaluate(ink)
+
+
+@check
+def angles_have_their_degrees(browser):
+    with live() as address, opened(browser, address) as page:
+        field = page.locator("[id='parameter-tilt.angleLimit']")
+        field.fill("0.2")
+        field.press("Enter")
+        wait(page, "sliders.values[sliders.slots.get('tilt.angleLimit')] === 0.2")
+        unit = lambda name: page.locator(f"div.parameter:has([id='parameter-{name}']) .unit").inner_text()  # noqa: E731
+        assert unit("tilt.angleLimit") == "rad = 11.5\u00b0" and unit("splitter.x.omega1") == "rad/s"
+        assert unit("tilt.rateLimit").startswith("rad/s = ") and unit("tilt.rateLimit").endswith("\u00b0/s")
+
+
+@check
 def a_second_page_looks_only(browser):
     with live() as address, opened(browser, address) as first, opened(browser, address) as second:
         assert "controls" in first.locator("#role").inner_text() and "looks only" in second.locator("#role").inner_text()
@@ -152,7 +191,10 @@ def arrow_keys_ride_the_motorcycle(browser):
         wait(page, "now.state === 'engaging'")
         assert page.locator("#driving").is_visible()
         page.keyboard.down("ArrowUp")
+        before = picture(page, "#ahead")
         wait(page, "now.view.speed > 5")
+        assert picture(page, "#ahead") != before and float(page.locator("#speed").inner_text()) > 10
+        assert page.evaluate("simulationLive.machine.mockUp.wheels.length") == 2
         page.keyboard.up("ArrowUp")
         wait(page, "driving.held.throttle === 0")
         page.locator("#helped").uncheck()

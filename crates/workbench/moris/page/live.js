@@ -3,11 +3,12 @@
 const RECORDED = ["time", "desired_x", "desired_y", "desired_z", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
 const HEADER = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed";
 
-const machine = new View(byId("view"), page.rig, "motorcycle");
+const machine = new View(byId("view"), page.rig, page.vehicle);
+const road = page.road && new Road(byId("ahead"), page.road.points.map(([x, y, yaw, advised]) => ({ x, y, yaw, advised })), page.road.half_width);
 const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
 const track = new Track(byId("road"), page.track);
 const lamps = new Lamps(byId("lamps"));
-const now = { client: "", number: 0, shared: false, canDrive: false, controls: false, drives: false, names: [], view: null, state: "", messages: 0, recorded: null };
+const now = { client: "", number: 0, shared: false, canDrive: false, controls: false, drives: false, names: [], view: null, place: null, placed: 0, state: "", messages: 0, recorded: null };
 let paints = {};
 
 /** A refusal, for a while. */
@@ -56,7 +57,44 @@ function showRole(holder) {
   for (const button of document.querySelectorAll("#commands button")) button.disabled = !now.controls && !ALWAYS.includes(button.dataset.event);
 }
 
+/** Longest time that the road goes on without a message [s]. */
+const LONGEST = 0.2;
+
+/** The view with the place on the road, which goes on between messages. */
+function ridden(at) {
+  const { view, place } = now;
+  const far = view.speed * Math.min(LONGEST, Math.max(0, at - now.placed) / 1000);
+  return { ...view, ...place, x: place.x + far * Math.cos(place.yaw), y: place.y + far * Math.sin(place.yaw), distance: place.distance + far };
+}
+
+function drawRoad(at, seconds) {
+  const view = ridden(at);
+  road.draw(view, false, paints.scene, seconds);
+  setText("speed", fixed(3.6 * view.speed, 0));
+  setText("advised", `advised ${fixed(3.6 * view.advised, 0)} km/h`);
+  byId("advised").classList.toggle("over", view.speed > view.advised + 1);
+}
+
+/** Part of the steps that may be late before that is a warning. */
+const FEW = 1e-3;
+
+/** What counts of steps by their lateness mean, and whether it is a warning. A step takes 1 ms. */
+function latenessInWords(classes) {
+  const taken = classes.filter(([, count]) => count > 0);
+  if (!taken.length) return ["No step yet.", false];
+  const sum = (some) => some.reduce((total, [, count]) => total + count, 0);
+  const [most] = taken[taken.length - 1];
+  const share = sum(taken.filter(([end]) => end > 1)) / sum(taken);
+  if (share === 0) return [`On time: every step began within ${fixed(most, 2)} ms.`, false];
+  const part = share < 1e-4 ? "fewer than 0.01 %" : `${significant(100 * share, 2)} %`;
+  const late = `${part} of the steps began more than 1 ms late, the latest within ${fixed(most, 1)} ms.`;
+  return share > FEW ? [`Late: ${late} Other programs take this computer's time.`, true] : [`Nearly always on time: ${late}`, false];
+}
+
 function showLateness(classes) {
+  const [words, isLate] = latenessInWords(classes);
+  setText("late-steps", words);
+  byId("late-steps").classList.toggle("late", isLate);
   const most = Math.max(...classes.map(([, count]) => count), 1);
   byId("late").tBodies[0].replaceChildren(...classes.filter(([, count]) => count > 0).map(([end, count]) => {
     const share = Math.log(1 + count) / Math.log(1 + most);
@@ -65,7 +103,7 @@ function showLateness(classes) {
   }));
 }
 
-function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames, road }) {
+function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames, road: learned, place }) {
   if (!rows) return;
   for (const row of rows) {
     const view = Object.fromEntries(now.names.map((name, i) => [name, row[i]]));
@@ -75,7 +113,8 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told, ho
     now.view = { ...view, lean: 0 };
     lamps.show(now.view, view.time);
   }
-  track.take(road);
+  track.take(learned);
+  Object.assign(now, { place, placed: performance.now() });
   now.messages += 1;
   now.state = state;
   setText("state", state);
@@ -91,7 +130,8 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told, ho
   if (now.messages % 12 === 1) {
     byId("journal").replaceChildren(...lines.map((line) => element("li", {}, [line])));
     showLateness(late);
-    setText("late-frames", `Frames leave ${lateFrames.map((late) => fixed(late / 1000, 1)).join(" ms late, at most ")} ms.`);
+    const [last, latest] = lateFrames.map((late) => fixed(late / 1000, 1));
+    setText("late-frames", `The last frame left ${last} ms after its step, the latest of all ${latest} ms.`);
   }
 }
 
@@ -115,18 +155,23 @@ function connect() {
   });
 }
 
-const readPaints = () => { paints = resolved(STRIP); };
+const readPaints = () => { paints = { ...resolved(STRIP), scene: resolved(SCENE) }; };
 readPaints();
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readPaints);
 addLegend(byId("legend"));
+byId("scene").hidden = !road;
 letTurn(machine, () => {});
 for (const button of document.querySelectorAll("#place button")) button.addEventListener("click", async () => say(await send({ legs: button.dataset.legs }) || `At the next start: ${button.textContent}.`));
 byId("record").addEventListener("click", record);
 listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record, ...pair.keys, [DRIVING_KEY]: () => driving.beginAgain() });
 connect();
 
-function tick() {
+let before = performance.now();
+function tick(at) {
+  const seconds = Math.max(0, at - before) / 1000;
+  before = at;
   if (now.view) {
+    if (road && now.place) drawRoad(at, seconds);
     machine.drawState(machineState(now.view), paints.felt);
     for (const strip of Object.values(strips)) strip.draw(paints);
     track.draw(paints);
@@ -136,4 +181,4 @@ function tick() {
 requestAnimationFrame(tick);
 document.getElementById("alarm").hidden = true;
 /** For checks: what is shown. */
-globalThis.simulationLive = { now, strips, sliders, driving, track };
+globalThis.simulationLive = { now, strips, sliders, driving, track, machine, latenessInWords };

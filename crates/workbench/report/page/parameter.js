@@ -10,6 +10,12 @@ const rounded = (value) => Number(value.toPrecision(3));
 const brief = (value) => String(Number(value.toPrecision(4)));
 const inWords = (value) => withMinus(brief(value));
 
+/** The unit of a value; of an angle with its degrees, as the curves have them. Frequencies are no angles. */
+function withDegrees({ unit, text }, value) {
+  const [, rest] = /^rad(\/s2?)?$/.test(unit) && !/frequency|decay/.test(text) ? unit.split("rad") : [];
+  return rest === undefined ? unit : `${unit} = ${inWords(rounded(value * DEGREES))}\u00b0${rest.replace("2", "\u00b2")}`;
+}
+
 /** The values with a strategy and the set of its name below the parameters that are given, as the command's --strategy. */
 function withStrategy({ parameters, sets }, values, value) {
   const strategy = parameters.findIndex(({ name }) => name === "strategy");
@@ -29,7 +35,8 @@ class ParameterControl {
     const id = `parameter-${parameter.name}`;
     this.plain = plainWords(parameter) || parameter.name;
     const label = element("label", { for: id, title: parameter.text }, [this.plain]);
-    const unit = parameter.unit ? [" ", element("span", { class: "unit" }, [parameter.unit])] : [];
+    this.unit = element("span", { class: "unit" });
+    const unit = parameter.unit ? [" ", this.unit] : [];
     const variable = this.plain === parameter.name ? [] : [element("small", { class: "variable" }, [parameter.name])];
     this.note = element("small", { class: "idle-note" });
     const name = element("span", { class: "name" }, [label, ...unit, ...variable, this.note]);
@@ -105,6 +112,7 @@ class ParameterControl {
       this.slider.value = String(this.placeOf(value));
       this.slider.setAttribute("aria-valuetext", `${inWords(value)} ${unit}, start ${inWords(start)}`);
     }
+    this.unit.textContent = withDegrees(this.parameter, value);
     this.element.classList.toggle("changed", value !== start);
   }
 

@@ -6,11 +6,6 @@ const MESSAGES = {
   fallen: "Fallen. R or Restart for another try",
   returning: "The platform goes back to neutral …",
 };
-const SCENE = {
-  sky: "--sky", haze: "--haze", grass: "--grass", farGrass: "--far-grass", hill: "--hill", farHill: "--far-hill", verge: "--verge",
-  tarmac: "--tarmac", tarmacToo: "--tarmac-too", line: "--line", fast: "--leg-near", tooFast: "--too-fast", tyre: "--ink-on-road", trunk: "--trunk",
-  leaves: "--leaves", needles: "--needles", tank: "--tank", bar: "--bar", grip: "--grip", dial: "--dial",
-};
 
 const clock = (seconds) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
 

@@ -13,6 +13,13 @@ const ANNOUNCED = 160;
 /** Time by which the eye looks ahead [s], the part of the turn that it takes, and its largest [rad]. */
 const LOOK = { ahead: 0.9, part: 0.5, most: 0.4, time: 0.25 };
 
+/** Colours of a road. */
+const SCENE = {
+  sky: "--sky", haze: "--haze", grass: "--grass", farGrass: "--far-grass", hill: "--hill", farHill: "--far-hill", verge: "--verge",
+  tarmac: "--tarmac", tarmacToo: "--tarmac-too", line: "--line", fast: "--leg-near", tooFast: "--too-fast", tyre: "--ink-on-road", trunk: "--trunk",
+  leaves: "--leaves", needles: "--needles", tank: "--tank", bar: "--bar", grip: "--grip", dial: "--dial",
+};
+
 /** A number from 0 to 1 that depends on a whole one. */
 const scattered = (k) => { const wave = Math.sin(12.9898 * k) * 43758.5453; return wave - Math.floor(wave); };
 

@@ -1,6 +1,9 @@
 // A curve of the last seconds: the desired force, and the felt one over it.
 
 const STRIP_TIME = 15;
+/** Time between the marks of the axis [s], and the height that they take. */
+const STRIP_MARKS = 5;
+const STRIP_FOOT = 14;
 /** Force at the ends of the axis, at least [m/s2]. */
 const STRIP_FORCE = 4;
 
@@ -26,13 +29,22 @@ class Strip {
     const most = this.points.reduce((found, [, desired, felt]) => Math.max(found, Math.abs(desired), Math.abs(felt)), STRIP_FORCE);
     const end = 2 * Math.ceil(most / 2);
     const xOf = (time) => 30 + (width - 32) * (1 - (last - time) / STRIP_TIME);
-    const yOf = (value) => height / 2 - value / end * (height / 2 - 7);
+    const foot = height - STRIP_FOOT;
+    const yOf = (value) => foot / 2 - value / end * (foot / 2 - 7);
     context.textAlign = "right";
     context.textBaseline = "middle";
     context.fillStyle = paints.muted;
     for (const value of [-end, 0, end]) {
       drawSegment(context, [30, yOf(value)], [width, yOf(value)], value === 0 ? paints.axis : paints.rule, 1);
       context.fillText(fixed(value, 0), 25, yOf(value));
+    }
+    context.textAlign = "center";
+    for (let time = STRIP_MARKS * Math.ceil((last - STRIP_TIME) / STRIP_MARKS); time <= last; time += STRIP_MARKS) {
+      if (time < 0) continue;
+      drawSegment(context, [xOf(time), 0], [xOf(time), foot], paints.rule, 1);
+      const label = `${fixed(time, 0)} s`;
+      const half = 0.5 * context.measureText(label).width;
+      context.fillText(label, Math.min(width - half, Math.max(30 + half, xOf(time))), foot + 0.5 * STRIP_FOOT);
     }
     context.beginPath();
     context.rect(30, 0, width - 30, height);

@@ -1,6 +1,7 @@
 //! The course in the plane: the centre of the road, for drawing, and places beside it.
 
 use moris_motorcycle::path::follower::Follower;
+use serde::Serialize;
 
 /// Distance between two points of the centre \[m\].
 pub const SPACING: f64 = 2.0;
@@ -21,6 +22,28 @@ impl PlanePose {
         let (sin, cos) = self.yaw.sin_cos();
         PlanePose { x: self.x + ahead * cos - left * sin, y: self.y + ahead * sin + left * cos, yaw: self.yaw + turned }
     }
+}
+
+/// The road, for drawing.
+#[derive(Clone, Debug, Serialize)]
+pub struct RoadMap {
+    /// Points of the centre: x, y, heading, and the speed that a rider plans there.
+    pub points: Vec<[f64; 4]>,
+    /// Half of the width \[m\].
+    pub half_width: f64,
+}
+
+/// Place of the motorcycle on the road, for drawing, in m, rad and m/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RoadPlace {
+    pub x: f64,
+    pub y: f64,
+    pub yaw: f64,
+    /// Distance along the centre.
+    pub distance: f64,
+    pub steer: f64,
+    /// Speed that a rider plans there.
+    pub advised: f64,
 }
 
 /// The closed course of the ride, sampled along its centre line.
@@ -65,6 +88,11 @@ impl Circuit {
     /// The points of the centre, the last at the place of the first, and the advised speeds there.
     pub fn points(&self) -> impl Iterator<Item = (&PlanePose, f64)> {
         self.centre.iter().zip(self.advised.iter().copied())
+    }
+
+    /// The road, so wide on each side of the centre.
+    pub fn map(&self, half_width: f64) -> RoadMap {
+        RoadMap { points: self.points().map(|(at, advised)| [at.x, at.y, at.yaw, advised]).collect(), half_width }
     }
 
     /// The place of a motorcycle at a distance along the centre, so far to the left of it and

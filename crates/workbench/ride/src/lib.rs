@@ -19,7 +19,7 @@ mod ridden;
 mod ride;
 mod rider;
 
-pub use course::{Circuit, PlanePose};
+pub use course::{Circuit, PlanePose, RoadMap, RoadPlace};
 pub use recording::{Rating, Recording};
 pub use ridden::{Ridden, RiderCommand};
 pub use ride::{HALF_WIDTH, Lap, Ride, STEP, Stage};

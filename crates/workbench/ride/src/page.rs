@@ -12,12 +12,14 @@ pub const SHARED: [&str; 2] = [include_str!("../page/strip.js"), include_str!(".
 
 /// The script for throttle, brake and stick by keys, buttons, a gamepad or a phone's tilt.
 pub const CONTROLS: &str = include_str!("../page/controls.js");
+/// The script for the road from the rider's eye.
+pub const ROAD: &str = include_str!("../page/road.js");
 
 /// The scripts in the order of their dependencies.
 const SCRIPTS: [&str; 5] = [
     include_str!("../page/engine.js"),
     CONTROLS,
-    include_str!("../page/road.js"),
+    ROAD,
     include_str!("../page/panel.js"),
     include_str!("../page/main.js"),
 ];

@@ -5,7 +5,7 @@ use moris_motorcycle::Motorcycle;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters, Washout};
 
-use crate::course::{Circuit, PlanePose};
+use crate::course::Circuit;
 use crate::lamps;
 use crate::recording::{Rating, Recording};
 use crate::ridden::{Ridden, RiderCommand};
@@ -14,8 +14,6 @@ use crate::ridden::{Ridden, RiderCommand};
 pub const STEP: f64 = 0.001;
 /// Half of the road's width \[m\].
 pub const HALF_WIDTH: f64 = 4.0;
-/// Speed above which the ride has begun \[m/s\].
-const MOVING: f64 = 0.05;
 
 /// The platform counts as neutral within these distances and speeds, in m, rad and s.
 const NEUTRAL: f64 = 2e-3;
@@ -50,7 +48,6 @@ pub struct Lap {
 #[derive(Clone, Debug)]
 pub struct Ride {
     ridden: Ridden,
-    course: Circuit,
     parameters: Parameters,
     washout: Washout,
     /// The washout that follows as soon as the platform is at neutral.
@@ -59,7 +56,6 @@ pub struct Ride {
     disengaged: f64,
     input: Input,
     stage: Stage,
-    place: PlanePose,
     recording: Recording,
     /// Steps since the ride has begun.
     steps: u64,
@@ -80,17 +76,14 @@ impl Ride {
         let ridden = Ridden::new()?;
         let input = ridden.input(true);
         let washout = Washout::new(&parameters)?.starting_with(&input);
-        let Some(follower) = ridden.motorcycle().follower() else { unreachable!("the course is a path") };
         let felt = washout.output().felt_specific_force;
         Ok(Ride {
-            course: Circuit::new(follower),
             ridden,
             parameters,
             next: None,
             disengaged: 0.0,
             input,
             stage: Stage::Ready,
-            place: PlanePose::default(),
             recording: Recording::new(STEP, input, [felt.x, felt.y]),
             steps: 0,
             laps: Vec::new(),
@@ -147,12 +140,7 @@ impl Ride {
     /// # Errors
     /// It is out of range.
     pub fn set_friction(&mut self, friction: f64) -> Result<(), ParameterError> {
-        self.ridden.set_friction(friction)?;
-        // The speed that a rider plans depends on it.
-        if let Some(follower) = self.motorcycle().follower() {
-            self.course = Circuit::new(follower);
-        }
-        Ok(())
+        self.ridden.set_friction(friction)
     }
 
     /// Ends the ride; the next one is ready when the platform is at neutral.
@@ -163,7 +151,6 @@ impl Ride {
         if !matches!(self.stage, Stage::Ready | Stage::Returning) {
             self.next = Some(Box::new(Washout::new(&self.parameters)?));
             self.ridden = self.ridden.restarted()?;
-            self.place = PlanePose::default();
             self.stage = Stage::Returning;
         }
         Ok(())
@@ -185,20 +172,13 @@ impl Ride {
             Stage::Riding if now.off_path => Stage::OffRoad,
             stage => stage,
         };
-        self.place = if self.stage == Stage::Riding {
-            self.course.at(now.path_distance, now.path_deviation, now.path_heading)
-        } else {
-            // Off the path the model counts no distance along it.
-            let turned = if now.speed > MOVING { now.angular_velocity.z * STEP } else { 0.0 };
-            self.place.moved(now.speed * STEP, now.lateral_velocity * STEP, turned)
-        };
     }
 
     fn record(&mut self) {
         let felt = self.washout.output().felt_specific_force;
         self.recording.push(&self.input, [felt.x, felt.y]);
         self.steps += 1;
-        let laps = self.motorcycle().output().path_distance / self.course.length();
+        let laps = self.motorcycle().output().path_distance / self.course().length();
         if laps as usize > self.laps.len() {
             let from = self.laps.last().map_or(0, |lap| lap.samples[1] - 1);
             self.laps.push(Lap {
@@ -247,7 +227,7 @@ impl Ride {
     }
 
     pub fn course(&self) -> &Circuit {
-        &self.course
+        self.ridden.course()
     }
 
     pub fn motorcycle(&self) -> &Motorcycle {
@@ -287,9 +267,9 @@ impl Ride {
             ("is_exchanging", f64::from(self.next.is_some() && self.stage != Stage::Returning)),
             ("distance", bike.path_distance),
             ("deviation", bike.path_deviation),
-            ("x", self.place.x),
-            ("y", self.place.y),
-            ("yaw", self.place.yaw),
+            ("x", self.ridden.place().x),
+            ("y", self.ridden.place().y),
+            ("yaw", self.ridden.place().yaw),
             ("roll", bike.orientation.roll),
             ("pitch", bike.orientation.pitch),
             ("speed", bike.speed),

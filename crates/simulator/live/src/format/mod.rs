@@ -45,6 +45,9 @@ pub struct Format {
     pub note: String,
     /// Layout of a packet.
     pub layout: Layout,
+    /// Vehicle of the program.
+    #[serde(default)]
+    pub vehicle: Vehicle,
     /// Port to which the program sends by default.
     pub port: Option<u16>,
     /// Lengths that a packet may have \[bytes\]; any if empty.
@@ -95,6 +98,17 @@ pub enum Layout {
     Csv,
     /// An object; `at` is the key.
     Json,
+}
+
+/// Vehicle of a source.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Vehicle {
+    /// One that leans into its turns, or any.
+    #[default]
+    Motorcycle,
+    /// One that does not lean.
+    Car,
 }
 
 /// Byte order of numbers.

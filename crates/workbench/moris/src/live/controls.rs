@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use moris_ride::RiderCommand;
+use moris_ride::{RiderCommand, RoadPlace};
 use serde::Serialize;
 
 /// Time without word from the page after which the controls are released.
@@ -25,6 +25,8 @@ pub enum Handling {
 pub struct Controls {
     pub handling: Handling,
     held: Mutex<Held>,
+    /// Place of the vehicle, if it is on a road.
+    place: Mutex<Option<RoadPlace>>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,7 +40,7 @@ struct Held {
 impl Controls {
     /// Controls that nobody holds.
     pub fn new(handling: Handling) -> Self {
-        Controls { handling, held: Mutex::default() }
+        Controls { handling, held: Mutex::default(), place: Mutex::default() }
     }
 
     fn lock(&self) -> MutexGuard<'_, Held> {
@@ -61,6 +63,16 @@ impl Controls {
         let mut held = self.lock();
         (held.command, held.until) = (*command, now + SILENT);
         Ok(())
+    }
+
+    /// Shows where the vehicle is.
+    pub fn show(&self, place: Option<RoadPlace>) {
+        *self.place.lock().unwrap_or_else(PoisonError::into_inner) = place;
+    }
+
+    /// Place of the vehicle, if it is on a road.
+    pub fn place(&self) -> Option<RoadPlace> {
+        *self.place.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Releases them. A rider who is helped stays so.

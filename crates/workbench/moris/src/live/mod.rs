@@ -324,7 +324,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (urgent, asked_at_once) = RingBuffer::new(64);
     let controls = input.handling().map(|handling| Arc::new(Controls::new(handling)));
     let desk = Arc::new(Desk::new(&setup, votes, [to_loop, urgent], controls.clone(), options.allow_control)?);
-    let page = Start::of(&setup, input.handling(), track);
+    let page = Start::of(&setup, &input, track);
     let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
     let server = options.page.map(open).transpose()?;
     let (shown, showing) = RingBuffer::new(256);

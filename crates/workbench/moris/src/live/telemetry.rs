@@ -8,8 +8,10 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 use clap::ValueEnum;
-use moris_live::format::Format;
+use moris_live::format::{Format, Vehicle as Kind};
 use moris_live::{Motion, Sample, State};
+use moris_report::Vehicle as Shape;
+use moris_ride::RoadMap;
 use moris_washout::Input as Sampled;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
@@ -26,6 +28,7 @@ use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Options, Shared, pace, tables};
 use crate::recording::formats::Format as Logger;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
+use crate::simulate::vehicle as drawn;
 
 /// Time by which samples of a source inside are there before they are needed.
 pub const BEFORE: Duration = Duration::from_millis(5);
@@ -134,6 +137,23 @@ impl Input {
             Input::Ros2(_) => None,
             Input::Udp(..) | Input::Played(_) => None,
         }
+    }
+
+    /// Shape in which the vehicle is drawn, with parameters of this name.
+    pub fn shape(&self, parameters_name: &str) -> Shape {
+        let own = match self {
+            Input::Udp(_, format) => (format.vehicle == Kind::Car).then_some(Shape::Car),
+            #[cfg(feature = "ros2")]
+            Input::Ros2(_) => None,
+            Input::Played(recording) => Some(drawn::vehicle(recording, parameters_name)),
+            Input::Driven(vehicle) => vehicle.shape(),
+        };
+        own.unwrap_or_else(|| drawn::of_parameters(parameters_name))
+    }
+
+    /// The road on which the vehicle is ridden.
+    pub fn road(&self) -> Option<RoadMap> {
+        if let Input::Driven(vehicle) = self { vehicle.road() } else { None }
     }
 
     /// Passes samples on until all has ended. `controls` are those of [`Input::handling`].

@@ -17,7 +17,7 @@ pub mod output_table;
 pub mod page;
 pub(crate) mod simulator;
 pub mod summary;
-mod vehicle;
+pub(crate) mod vehicle;
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -196,10 +196,13 @@ impl Desk {
             }
             let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
+            let place = self.controls.as_ref().and_then(|controls| controls.place());
+            let place = serde_json::to_string(&place).unwrap_or_default();
             let mut inner = self.lock();
             inner.advance_transition(pace::now());
             let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
-            let status = format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}]", inner.status);
+            let status =
+                format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}", inner.status);
             if let Some(text) = shown::message(&taken, &lines, &status) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, |shown| shown.state);

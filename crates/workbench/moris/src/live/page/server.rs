@@ -8,8 +8,8 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use moris_report::{Parameter, Rig, shared};
-use moris_ride::page as ride;
+use moris_report::{Parameter, Rig, Vehicle, shared};
+use moris_ride::{RoadMap, page as ride};
 use moris_setup::Setup;
 use serde::Serialize;
 
@@ -19,6 +19,7 @@ use super::refusal::{Refusal, Status};
 use super::track::Track;
 use crate::live::Shared;
 use crate::live::controls::Handling;
+use crate::live::telemetry::Input;
 use crate::live::watch::{Part, watch};
 use crate::simulate::simulator::{parameters, sets};
 
@@ -47,19 +48,23 @@ pub struct Start {
     sets: Vec<(String, Vec<(String, f64)>)>,
     subtitle: String,
     handling: Option<Handling>,
+    vehicle: Vehicle,
+    road: Option<RoadMap>,
     track: Option<Track>,
 }
 
 impl Start {
-    /// The page of a session with this rig, these parameters and controls, and of a road that is
+    /// The page of a session with this rig, these parameters and telemetry, and of a road that is
     /// learned.
-    pub fn of(setup: &Setup, handling: Option<Handling>, track: Option<Track>) -> Self {
+    pub fn of(setup: &Setup, input: &Input, track: Option<Track>) -> Self {
         Start {
             rig: (&setup.parameters).into(),
             parameters: parameters(&setup.parameters, &setup.rig_alone),
             sets: sets(),
             subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
-            handling,
+            handling: input.handling(),
+            vehicle: input.shape(&setup.parameters_name),
+            road: input.road(),
             track,
         }
     }
@@ -72,7 +77,7 @@ impl Start {
             scripts: "",
             policy: "connect-src 'self'",
         };
-        shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &[ride::CONTROLS], &SCRIPTS].concat())
+        shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &[ride::CONTROLS, ride::ROAD], &SCRIPTS].concat())
     }
 }
 

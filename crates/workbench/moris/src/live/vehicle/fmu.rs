@@ -7,7 +7,8 @@ use anyhow::{Context, Result, ensure};
 use moris_bounded_files::TEXT;
 use moris_fmu_host::Running;
 use moris_live::Sample;
-use moris_live::format::{FieldAddress, Format};
+use moris_live::format::{FieldAddress, Format, Vehicle as Kind};
+use moris_report::Vehicle as Shape;
 use moris_ride::RiderCommand;
 use serde::Deserialize;
 
@@ -111,6 +112,10 @@ impl Vehicle for Fmu {
 
     fn has_position(&self) -> bool {
         self.fields.has_position()
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        (self.fields.vehicle == Kind::Car).then_some(Shape::Car)
     }
 
     fn sample(&mut self) -> Result<Sample> {

@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use anyhow::Result;
 use moris_live::Sample;
-use moris_ride::RiderCommand;
+use moris_report::Vehicle as Shape;
+use moris_ride::{RiderCommand, RoadMap, RoadPlace};
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
@@ -27,6 +28,21 @@ pub trait Vehicle: Send {
 
     /// True if its samples have its place.
     fn has_position(&self) -> bool;
+
+    /// Shape in which it is drawn; none for one that the parameters name.
+    fn shape(&self) -> Option<Shape> {
+        None
+    }
+
+    /// The road on which it is ridden.
+    fn road(&self) -> Option<RoadMap> {
+        None
+    }
+
+    /// Its place on the road.
+    fn place(&self) -> Option<RoadPlace> {
+        None
+    }
 
     /// Makes a step with what is held.
     ///
@@ -71,6 +87,7 @@ pub fn drive(
             shared.played.store(true, Ordering::Relaxed);
             return;
         };
+        controls.inspect(|controls| controls.show(vehicle.place()));
         let sample = Sample { time: Some(time.as_secs_f64()), ..sample };
         let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
     }

@@ -3,7 +3,8 @@
 use anyhow::Result;
 use moris_interface::Model;
 use moris_live::{Motion, Sample};
-use moris_ride::{Ridden, RiderCommand, STEP};
+use moris_report::Vehicle as Shape;
+use moris_ride::{Ridden, RiderCommand, RoadMap, RoadPlace, STEP};
 
 use super::{Handling, Vehicle};
 
@@ -38,6 +39,18 @@ impl Vehicle for Motorcycle {
 
     fn has_position(&self) -> bool {
         true
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        Some(Shape::Motorcycle)
+    }
+
+    fn road(&self) -> Option<RoadMap> {
+        Some(self.ridden.road())
+    }
+
+    fn place(&self) -> Option<RoadPlace> {
+        Some(self.ridden.road_place())
     }
 
     fn advance(&mut self, command: &RiderCommand) -> Result<()> {
