@@ -1,5 +1,9 @@
 """Another washout as an FMU, stepped and judged by the package."""
 
+import re
+import subprocess
+import sys
+
 import moris
 import numpy as np
 import pytest
@@ -40,6 +44,21 @@ def test_our_fmu_is_the_simulation_to_the_bit(dyadic, fmu, tmp_path, strategy):
     assert np.allclose(own["actuator.length"], judged["actuator.length"], rtol=0, atol=1e-12)
     assert "MorisWashout on default rig" in judged.name
     assert judged.fits is True and not any("do not change" in finding for finding in judged.findings)
+
+
+def test_the_example_has_the_motion_of_the_script_in_the_page(tmp_path, monkeypatch):
+    subprocess.run(["cargo", "run", "--quiet", "--package", "moris-11_own_washout_as_fmu"], cwd=ROOT, check=True)
+    subprocess.run([sys.executable, ROOT / "examples" / "recording.py", tmp_path / "ride.csv"], check=True)
+    page = (ROOT / "docs" / "your-washout.md").read_text()
+    script = next(text for text in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "poses.append" in text)
+    monkeypatch.chdir(tmp_path)
+    found = {}
+    exec(script, found)  # noqa: S102
+    example = ROOT / "examples" / "11_own_washout_as_fmu" / "map.toml"
+    twin = moris.measure(found["ride"], washout=ROOT / "target" / "fmu" / "ReidNahon.fmu", washout_map=example)
+    for name in POSE:
+        assert np.abs(found["mine"][name] - twin[name]).max() < 1e-9, name
+    assert found["mine"]["platform.position"].std() > 1e-3
 
 
 def test_units_and_signs_are_those_of_the_map(dyadic, fmu, tmp_path):
