@@ -152,8 +152,7 @@ def crates(options):
 def sbom(options):
     """the bill of materials: every package that is compiled into what is released"""
     libraries = [f"moris-{folder.name}" for folder in sorted((ROOT / "crates" / "fmus").iterdir())]
-    # moris compiles its page's simulation by its build script.
-    released = [*CRATES, *libraries, "moris", "moris-page-simulation", "moris-python"]
+    released = [*CRATES, *libraries, "moris", "moris-python"]
     bill = bill_of_materials("moris", version(), released)
     file = options.output / f"moris-{version()}.cdx.json"
     file.write_text(json.dumps(bill, indent=1) + "\n", encoding="utf-8", newline="\n")

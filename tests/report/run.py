@@ -3,7 +3,7 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and those of `moris ride` and
+The pages are those of crates/workbench/pages/examples/pages.rs, one of `moris simulate`, and those of `moris ride` and
 `moris live`. In Firefox the most important checks are run. Without a browser or Playwright its checks are not run, and that is
 said; with --require it is an error. With --install all are installed first (apt and pip; for Debian). Pictures are left in
 target/report/.
@@ -92,7 +92,7 @@ def main():
         print("report pages: not run")
         return
     pages = WORK / "pages"
-    compile_and_run = ["cargo", "run", "--release", "--package", "moris-report", "--example", "pages", "--"]
+    compile_and_run = ["cargo", "run", "--release", "--package", "moris-pages", "--example", "pages", "--"]
     check_call(*([os.environ["MORIS_PAGES"]] if "MORIS_PAGES" in os.environ else compile_and_run), pages)
     moris = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--release", "--quiet", "--package", "moris", "--"]
     write_ride(pages / "ride.csv")

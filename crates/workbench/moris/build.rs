@@ -11,23 +11,20 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
-/// Packages, the files of their modules, and what is missing without one.
-const MODULES: [(&str, &str, &str); 2] = [
-    ("moris-page-simulation", "page_simulation", "the report's page will not simulate"),
-    ("moris-ride", "ride", "there will be no ride"),
-];
+const PACKAGE: &str = "moris-pages";
+/// Examples of the package that are modules, and what is missing without one.
+const MODULES: [(&str, &str); 2] =
+    [("page_simulation", "the report's page will not simulate"), ("page_ride", "there will be no ride")];
 const PROFILE: &str = "page-simulation";
 
 /// Directories of the workspace whose files the modules are compiled of.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 9] = [
     "src",
     "crates/interface",
     "crates/simulator/motorcycle",
     "crates/workbench/measures/src",
-    "crates/workbench/page-memory",
-    "crates/workbench/page-simulation",
-    "crates/workbench/report/src",
-    "crates/workbench/ride/src",
+    "crates/workbench/pages/modules",
+    "crates/workbench/pages/src",
     "crates/workbench/simulation",
     "Cargo.lock",
     "Cargo.toml",
@@ -53,8 +50,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
     let is_installed = is_installed()?;
-    for (package, name, missing) in MODULES {
-        let module = if is_installed { compile(&root, &out, package, missing)? } else { Vec::new() };
+    for (name, missing) in MODULES {
+        let module = if is_installed { compile(&root, &out, name, missing)? } else { Vec::new() };
         fs::write(out.join(name).with_extension("wasm"), module)?;
     }
     Ok(())
@@ -98,15 +95,15 @@ fn is_installed() -> Result<bool, Box<dyn Error>> {
     Ok(printed(&["--print", "target-libdir", "--target", TARGET])?.exists())
 }
 
-/// A package's module, compiled in a directory of its own, because this build holds the lock of its
+/// A module, compiled in a directory of its own, because this build holds the lock of its
 /// own. All profiles share it.
-fn compile(root: &Path, out: &Path, package: &str, missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+fn compile(root: &Path, out: &Path, name: &str, missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
     let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
     let mut command = Command::new(variable("CARGO")?);
-    command.current_dir(root).args(["rustc", "--locked", "--offline", "--package", package, "--profile", PROFILE]);
+    command.current_dir(root).args(["rustc", "--locked", "--offline", "--package", PACKAGE, "--profile", PROFILE]);
     // Alone this kind of library is optimised as a whole.
-    command.args(["--lib", "--crate-type", "cdylib", "--target", TARGET, "--target-dir"]).arg(&directory);
+    command.args(["--example", name, "--target", TARGET, "--target-dir"]).arg(&directory);
     for name in OF_THE_HOST {
         command.env_remove(name);
     }
@@ -119,10 +116,10 @@ fn compile(root: &Path, out: &Path, package: &str, missing: &str) -> Result<Vec<
     let output = command.output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        println!("cargo::warning={missing}, because {package} does not compile: {}", last_lines(&said));
+        println!("cargo::warning={missing}, because {name} does not compile: {}", last_lines(&said));
         return Ok(Vec::new());
     }
-    Ok(fs::read(directory.join(TARGET).join(PROFILE).join(package.replace('-', "_")).with_extension("wasm"))?)
+    Ok(fs::read(directory.join(TARGET).join(PROFILE).join("examples").join(name).with_extension("wasm"))?)
 }
 
 /// The last lines of a message as one.

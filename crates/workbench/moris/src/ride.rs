@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_ride::page::{Page, html};
+use moris_pages::ride::page::{Page, html};
 
 use crate::setup_options::SetupOptions;
 use crate::simulate::simulator::{parameters, sets};
 
-/// The compiled package `moris-ride`; empty where it was not compiled.
-const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ride.wasm"));
+/// The WebAssembly of `moris_pages::ride`; empty where it was not compiled.
+const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
 
 /// Write a page in which you ride the motorcycle, with the platform beside it
 ///
@@ -45,7 +45,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         rig: (&setup.parameters).into(),
         parameters: parameters(&setup.parameters, &setup.rig_alone),
         sets: sets(),
-        half_width: moris_ride::HALF_WIDTH,
+        half_width: moris_pages::ride::HALF_WIDTH,
     });
     let file = &options.output;
     fs::write(file, page).with_context(|| format!("cannot write {}", file.display()))?;

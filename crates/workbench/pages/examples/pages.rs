@@ -1,5 +1,5 @@
 //! Writes pages for tests, and their data as plain JSON:
-//! `cargo run -p moris-report --example pages -- DIRECTORY`.
+//! `cargo run -p moris-pages --example pages -- DIRECTORY`.
 //!
 //! The recording shows all parts of a report: all axes, and each kind of limit.
 
@@ -7,9 +7,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_report::{
-    Better, Chart, Cues, Finding, LimitHistory, Line, Measure, Report, Run, Vehicle, Weight, html, tilt_limits,
-};
+use moris_pages::report::{Better, Chart, Cues, LimitHistory, Line, Measure, Report, Run, Vehicle, html};
+use moris_simulation::{Finding, Weight, tilt_limits};
 use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 

@@ -3,11 +3,10 @@
 
 use std::cell::RefCell;
 
-use moris_page_memory::{group, respond, write};
+use moris_pages::memory::{group, respond, write};
 use serde_json::json;
 
-use crate::ridden::RiderCommand;
-use crate::ride::Ride;
+use moris_pages::ride::{Ride, RiderCommand};
 
 thread_local! {
     static RIDE: RefCell<Option<Ride>> = RefCell::default();

@@ -1,7 +1,7 @@
 //! Simulation of a recording in a report's page: plain functions over linear memory.
 //!
-//! The page writes [numbers](moris_page_memory::numbers) and calls [`record`] once. For each set of
-//! parameters it calls [`begin`], then [`advance`] and [`part`] until all samples are simulated,
+//! The page writes [numbers](moris_pages::memory::numbers) and calls [`record`] once. For each set
+//! of parameters it calls [`begin`], then [`advance`] and [`part`] until all samples are simulated,
 //! then [`finish`]. Curves are so in the page while further samples are simulated, and before the
 //! measures. Texts are JSON.
 
@@ -10,10 +10,10 @@ use std::ops::Range;
 
 use moris_interface::{Group, Reader, slot_count};
 use moris_measures::References;
-use moris_page_memory::{group, respond, with_numbers};
-use moris_report::{Event, Finding, Limits, Measure, Rig, Thinning, events};
+use moris_pages::memory::{group, respond, with_numbers};
+use moris_pages::report::{Event, Measure, Rig, Thinning, events, felt_chart, run};
 use moris_simulation::capabilities::{AxisAlone, Capabilities};
-use moris_simulation::{Evaluated, Simulation, Unfinished, measures_with};
+use moris_simulation::{Evaluated, Finding, Limits, Simulation, Unfinished, measures_with};
 use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
@@ -190,8 +190,8 @@ impl Recorded {
         let holds = self.holds(&simulation.parameters);
         let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && holds));
         let samples = simulation.inputs.len();
-        let run = Evaluated { simulation: &simulation, measures: &measures, bounds, advice: None }
-            .run("", &Thinning::new(samples, samples));
+        let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds, advice: None };
+        let run = run(&evaluated, "", &Thinning::new(samples, samples));
         CURVES.set(run.limited.tilt.iter().map(|&flag| f32::from(u8::from(flag))).collect());
         let events = events(&run, &Rig::from(&simulation.parameters));
         serde_json::to_string(&Evaluation {
@@ -256,7 +256,7 @@ fn verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> 
 }
 
 fn chart_head(simulation: &Simulation, axis: usize) -> ChartHead {
-    let chart = simulation.felt_chart(axis, &Thinning::new(1, 1));
+    let chart = felt_chart(simulation, axis, &Thinning::new(1, 1));
     let label = chart.lines.first().map(|line| line.label.clone()).unwrap_or_default();
     ChartHead { title: chart.title, quantity: chart.quantity, label }
 }

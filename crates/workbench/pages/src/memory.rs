@@ -14,7 +14,7 @@ thread_local! {
 
 /// Memory for so many numbers, which the page writes.
 // SAFETY: no other function of the module has the name.
-#[unsafe(no_mangle)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn numbers(count: usize) -> *mut f64 {
     NUMBERS.with_borrow_mut(|numbers| {
         numbers.clear();
@@ -25,14 +25,14 @@ pub extern "C" fn numbers(count: usize) -> *mut f64 {
 
 /// Address of the text.
 // SAFETY: no other function of the module has the name.
-#[unsafe(no_mangle)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn text() -> *const u8 {
     TEXT.with_borrow(|text| text.as_ptr())
 }
 
 /// Length of the text in bytes.
 // SAFETY: no other function of the module has the name.
-#[unsafe(no_mangle)]
+#[cfg_attr(target_arch = "wasm32", unsafe(no_mangle))]
 pub extern "C" fn text_length() -> usize {
     TEXT.with_borrow(String::len)
 }

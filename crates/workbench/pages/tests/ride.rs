@@ -1,8 +1,8 @@
 //! The ride, natively: what a player's commands do.
 
 use moris_motorcycle::{Model, Output};
-use moris_ride::page::{Page, html};
-use moris_ride::{HALF_WIDTH, Lap, Ride, RiderCommand, STEP, Stage};
+use moris_pages::ride::page::{Page, html};
+use moris_pages::ride::{HALF_WIDTH, Lap, Ride, RiderCommand, STEP, Stage};
 use moris_washout::interface::StrategyKind;
 use moris_washout::{Input, Parameters, Washout, presets};
 

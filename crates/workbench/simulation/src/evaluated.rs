@@ -1,10 +1,6 @@
-//! A simulation with its measures: rows, findings and the run of a report.
+//! A simulation with its measures: rows and findings.
 
-use std::array;
-
-use moris_measures::{Axes, Better, Measures, Row, bound_rows};
-use moris_report::{Cues, LimitHistory, Measure, Run, Thinning};
-use moris_washout::Output;
+use moris_measures::{Axes, Measures, Row, bound_rows};
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::Simulation;
@@ -55,69 +51,11 @@ impl Evaluated<'_> {
     pub fn desired_rate_rms(&self, axis: usize) -> f64 {
         rms(self.simulation.desired_rates().iter().map(|rate| rate[axis]))
     }
-
-    /// The run of a report, without further charts and without advice: the page simulates other
-    /// parameters, and searches for none.
-    pub fn run(&self, name: &str, thinning: &Thinning) -> Run {
-        let Simulation { inputs, outputs, step, parameters, .. } = self.simulation;
-        let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
-        let desired_rates = self.simulation.desired_rates();
-        let tilt_limits = self.simulation.tilt_limits();
-        let leans = inputs.iter().any(|input| input.lean != 0.0);
-        let without_advice = Evaluated { advice: None, ..*self };
-        Run {
-            name: name.to_owned(),
-            verdict: without_advice.headline(),
-            findings: without_advice.findings(),
-            times: thinning.at_times(|k| k as f64 * step),
-            desired: Cues {
-                specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
-                angular_velocity: array::from_fn(|axis| thinning.extremes(|k| desired_rates[k][axis])),
-            },
-            felt: Cues {
-                specific_force: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_specific_force[axis])),
-                angular_velocity: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_angular_velocity[axis])),
-            },
-            // A pose is that of one time.
-            position: array::from_fn(|axis| thinning.at_times(|k| outputs[k].position[axis])),
-            orientation: array::from_fn(|axis| thinning.at_times(|k| outputs[k].orientation.to_vector()[axis])),
-            legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].length[leg])),
-            tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
-            tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
-            lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
-            limited: LimitHistory {
-                tilt: thinning.any(|k| tilt_limits.iter().flatten().any(|flags| flags[k])),
-                tilt_by: tilt_limits.each_ref().map(|axis| axis.each_ref().map(|flags| thinning.any(|k| flags[k]))),
-                soft: thinning.any(|k| outputs[k].soft_limited),
-                safety: thinning.any(|k| outputs[k].safety_active),
-                actuator: thinning.any(|k| outputs[k].actuator_limited),
-            },
-            limits: parameters.into(),
-            measures: self.rows().into_iter().map(measure).collect(),
-            charts: Vec::new(),
-        }
-    }
 }
 
 fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
     (values.map(|value| value * value).sum::<f64>() / count).sqrt()
-}
-
-fn measure(row: Row) -> Measure {
-    Measure {
-        group: capitalised(&row.subject),
-        name: row.name.to_owned(),
-        value: row.value,
-        unit: row.unit.to_owned(),
-        better: match row.better {
-            Better::Less => moris_report::Better::Less,
-            Better::More => moris_report::Better::More,
-            Better::Neither => moris_report::Better::Neither,
-        },
-        definition: row.definition.to_owned(),
-        source: row.source.to_owned(),
-    }
 }
 
 /// A text with its first letter in upper case.

@@ -5,11 +5,11 @@ use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 use moris_measures::shape::AxisShape;
-use moris_report::{Finding, Limits, TiltLimit, Weight};
 use moris_washout::Output;
 
 use crate::spans::Spans;
 use crate::{Evaluated, Simulation};
+use crate::{Finding, Limits, TiltLimit, Weight};
 
 /// Least RMS of the desired motion that counts as desired, of forces \[m/s2\]
 /// and of rates \[rad/s\].

@@ -1,9 +1,8 @@
 //! The verdict of a simulation: one sentence on the most important finding, one on what to change.
 
-use moris_report::{Finding, Weight};
-
 use crate::Evaluated;
 use crate::findings::{INVERTED, RIGHT_SHAPE, fits_freely, fits_the_rig, is_better_than_rest};
+use crate::{Finding, Weight};
 
 /// Jolt and shake from which they are the verdict \[m/s2\].
 const JOLTS: f64 = 1.0;

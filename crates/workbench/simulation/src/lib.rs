@@ -11,7 +11,7 @@
 //! - [`foreign`] makes the same of the motion that another washout computed.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
-//! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
+//! - [`Evaluated`] has the measures and the sentences about them.
 
 #![forbid(unsafe_code)]
 
@@ -20,20 +20,26 @@ pub mod capabilities;
 pub mod clearance;
 pub mod drives;
 mod evaluated;
+mod finding;
 pub mod findings;
 pub mod fit;
 pub mod foreign;
 pub mod frequency_response;
 mod headline;
+mod limits;
 mod manoeuvre;
 mod measured;
 pub mod preview;
 pub mod replay;
 mod simulation;
 mod spans;
+mod tilt_limits;
 
 pub use evaluated::{Evaluated, capitalised};
+pub use finding::{Finding, Weight};
+pub use limits::Limits;
 pub use manoeuvre::Manoeuvre;
 pub use measured::{measures, measures_with};
 pub use replay::Replay;
 pub use simulation::{Simulation, Unfinished};
+pub use tilt_limits::{TiltFlags, TiltLimit, tilt_limits};

@@ -1,7 +1,6 @@
 //! Inputs and outputs of the washout in a simulation.
 
 use crate::{Manoeuvre, Replay};
-use moris_report::{Chart, Limits, Line, Thinning, TiltFlags, tilt_limits};
 use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
@@ -11,6 +10,7 @@ use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
 use crate::foreign::Foreign;
 use crate::preview::Previewer;
+use crate::{Limits, TiltFlags, tilt_limits};
 
 /// Every input and output of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -145,20 +145,6 @@ impl Simulation {
             }
         };
         LocationFrame::new(&self.parameters.structure, input.lean).to_location_axes(in_body)
-    }
-
-    /// The felt force on an axis without gravity, for the chart of the least possible error.
-    pub fn felt_chart(&self, axis: usize, thinning: &Thinning) -> Chart {
-        Chart {
-            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
-            quantity: "specific force without gravity [m/s²]".to_owned(),
-            times: Vec::new(),
-            lines: vec![Line {
-                label: "felt".to_owned(),
-                values: thinning.extremes(|k| self.felt_without_gravity(k)[axis]),
-            }],
-            limits: Vec::new(),
-        }
     }
 
     /// The felt specific force at a sample as a deviation from rest \[m/s2\].

@@ -4,7 +4,7 @@
 //! Noise of the recording alone makes it lag by thousandths of a degree in nearly every step. A
 //! limit therefore counts only where the tilt itself is at it.
 
-use crate::data::Limits;
+use crate::Limits;
 
 /// A limit of tilt coordination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Curves of size against shape, as SVG.
 
 use moris_measures::shape::Shape;
-use moris_report::escaped;
+use moris_pages::report::escaped;
 use moris_simulation::fit::Fit;
 
 use super::fitted::{Fitted, Strategy};

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use moris_ride::{RiderCommand, RoadPlace};
+use moris_pages::ride::{RiderCommand, RoadPlace};
 use serde::Serialize;
 
 /// Time without word from the page after which the controls are released.

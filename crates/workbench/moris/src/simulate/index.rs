@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use moris_report::{IndexRow, index_html};
+use moris_pages::report::{IndexRow, index_html};
 
 use super::{Outcome, listed};
 use crate::recording::Recording;

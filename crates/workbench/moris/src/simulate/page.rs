@@ -1,6 +1,7 @@
 //! The report's data.
 
-use moris_report::{Chart, Finding, Line, Report, ReportError, Run, Simulator, Thinning, Weight};
+use moris_pages::report::{Chart, Line, Report, ReportError, Run, Simulator, Thinning, felt_chart};
+use moris_simulation::{Finding, Weight};
 
 use super::vehicle::vehicle;
 use super::{Outcome, listed, simulator};
@@ -27,7 +28,7 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>
     let mut most = samples.min(MOST_SAMPLES);
     loop {
         let report = report(recording, outcomes, most / outcomes.len());
-        let page = moris_report::html(&report)?;
+        let page = moris_pages::report::html(&report)?;
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
             let is_foreign = outcomes[0].simulation.foreign.is_some();
             let simulator = simulator::of(recording, &outcomes[0], command).filter(|_| !is_foreign);
@@ -45,7 +46,7 @@ fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> Re
     let mut page_of = |samples: usize| {
         let inputs = inputs.iter().map(|series| series[..samples].to_vec()).collect();
         report.simulator = Some(Simulator { inputs, ..simulator.clone() });
-        moris_report::html(&report)
+        moris_pages::report::html(&report)
     };
     let mut samples = simulator.samples;
     let mut with_inputs = page_of(samples)?;
@@ -112,7 +113,7 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
 }
 
 fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
-    let run = outcome.evaluated().run(&outcome.setup.parameters_name, thinning);
+    let run = moris_pages::report::run(&outcome.evaluated(), &outcome.setup.parameters_name, thinning);
     Run { charts: bound_charts(outcome, thinning), ..run }
 }
 
@@ -122,7 +123,7 @@ fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
         let bound = outcome.bounds[axis].as_ref()?;
         let line = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), values };
         let best = |k: usize| bound.bound.trajectory.felt(k as f64 * outcome.simulation.step);
-        let mut chart = outcome.simulation.felt_chart(axis, thinning);
+        let mut chart = felt_chart(&outcome.simulation, axis, thinning);
         chart.lines.insert(0, line("desired", thinning.extremes(|k| bound.desired[k])));
         chart.lines.push(line("best possible", thinning.extremes(best)));
         Some(chart)

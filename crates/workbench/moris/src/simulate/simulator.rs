@@ -1,7 +1,7 @@
 //! Data with which the report's page can simulate the recording with other parameters.
 
 use moris_interface::{Group as _, Kind, Row, slots_of};
-use moris_report::{Parameter, ParameterKind, Simulator};
+use moris_pages::report::{Parameter, ParameterKind, Simulator};
 use moris_setup::SETS;
 use moris_washout::Parameters;
 use moris_washout::interface::{Rig, StrategyKind};
@@ -10,7 +10,7 @@ use super::Outcome;
 use crate::recording::Recording;
 use crate::tune::space::{Group, ranges};
 
-/// The compiled package `moris-page-simulation`; empty where it was not compiled.
+/// The WebAssembly of the report's page; empty where it was not compiled.
 const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
 
 /// True if pages can simulate.

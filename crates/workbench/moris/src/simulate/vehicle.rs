@@ -1,6 +1,6 @@
 //! The vehicle of a recording, which the report draws on the platform.
 
-use moris_report::Vehicle;
+use moris_pages::report::Vehicle;
 use moris_washout::Input;
 
 use crate::recording::Recording;

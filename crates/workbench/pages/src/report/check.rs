@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::data::{LimitHistory, Report, Run};
+use crate::report::data::{LimitHistory, Report, Run};
 
 /// Why no page can be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -95,7 +95,7 @@ fn series_of(run: &Run) -> Vec<(String, usize)> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::data::{Chart, Cues, Line, Rig};
+    use crate::report::data::{Chart, Cues, Line, Rig};
 
     /// The smallest report that there can be: two samples of one run.
     pub(crate) fn smallest() -> Report {

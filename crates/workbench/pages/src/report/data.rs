@@ -3,12 +3,12 @@
 //! All quantities are in SI units and in the frames of the washout: x forward, y left, z up;
 //! positive pitch is nose down. Every series of a [`Run`] has one value for each of its times.
 
+use moris_simulation::{Finding, Limits, TiltFlags};
 use moris_washout::Parameters;
 use serde::Serialize;
 
-use crate::encode::{curve, curves, flags, times};
-use crate::simulator::Simulator;
-use crate::tilt_limits::TiltFlags;
+use crate::report::encode::{curve, curves, flags, times};
+use crate::report::simulator::Simulator;
 
 /// The whole page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -39,26 +39,6 @@ pub enum Vehicle {
     #[default]
     Motorcycle,
     Car,
-}
-
-/// A sentence about the run, and how much it matters.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Finding {
-    pub weight: Weight,
-    pub text: String,
-}
-
-/// Severity of a finding.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Weight {
-    /// As it should be.
-    Good,
-    /// Worth knowing.
-    #[default]
-    Note,
-    /// Something limits the cues, or is doubtful about the data.
-    Warning,
 }
 
 /// The Stewart platform.
@@ -164,43 +144,6 @@ pub struct LimitHistory {
     /// True while the actuator guard limits a leg.
     #[serde(serialize_with = "flags")]
     pub actuator: Vec<bool>,
-}
-
-/// The limits that the run was made under. The legs' stroke is the rig's.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Limits {
-    /// Limit of the tilt's angle \[rad\].
-    pub tilt_angle: f64,
-    /// Limit of the tilt's rate \[rad/s\].
-    pub tilt_rate: f64,
-    /// Limit of the tilt's acceleration \[rad/s2\].
-    pub tilt_acceleration: f64,
-    /// Limits of the safety units about neutral, along x, y and z \[m\].
-    pub safety_position: [f64; 3],
-    /// Velocity limits of the safety units along x, y and z \[m/s\].
-    pub safety_velocity: [f64; 3],
-    /// Acceleration limits of the safety units along x, y and z \[m/s2\].
-    pub safety_acceleration: [f64; 3],
-    /// Speed limit of the legs \[m/s\].
-    pub actuator_velocity: f64,
-    /// Acceleration limit of the legs \[m/s2\].
-    pub actuator_acceleration: f64,
-}
-
-impl From<&Parameters> for Limits {
-    fn from(parameters: &Parameters) -> Self {
-        let Parameters { tilt, safety, rig, .. } = parameters;
-        Limits {
-            tilt_angle: tilt.angle_limit,
-            tilt_rate: tilt.rate_limit,
-            tilt_acceleration: tilt.acceleration_limit,
-            safety_position: safety.position_limit.into(),
-            safety_velocity: safety.velocity_limit.into(),
-            safety_acceleration: safety.acceleration_limit.into(),
-            actuator_velocity: rig.velocity_limit,
-            actuator_acceleration: rig.acceleration_limit,
-        }
-    }
 }
 
 /// One row of the table of measures.

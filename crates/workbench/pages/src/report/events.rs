@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::data::{LimitHistory, Rig, Run};
-use crate::tilt_limits::TiltLimit;
+use crate::report::data::{LimitHistory, Rig, Run};
+use moris_simulation::TiltLimit;
 
 /// A stretch of time in which something was limited.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -219,7 +219,7 @@ fn limits_reached(reached: &[&Utilisation]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::Limits;
+    use moris_simulation::Limits;
 
     const RIG: Rig = Rig {
         base: [[0.0; 3]; 6],

@@ -1,6 +1,6 @@
 //! A page that lists the pages of several recordings.
 
-use crate::page::{Head, escaped};
+use crate::report::page::{Head, escaped};
 
 /// A recording in the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -4,9 +4,8 @@
 //! were active, and a table of measures. Beside them the platform moves in 3D.
 //!
 //! The input is a [`Report`]; [`html`] returns the page's text. The page needs no network and no
-//! other file. It contains its data, and the scripts and styles of `crates/workbench/report/page/`.
-
-#![forbid(unsafe_code)]
+//! other file. It contains its data, and the scripts and styles of
+//! `crates/workbench/pages/page/report/`.
 
 mod check;
 mod data;
@@ -14,21 +13,21 @@ mod encode;
 mod events;
 mod index;
 mod page;
+mod run;
 mod simulator;
 mod thinning;
-mod tilt_limits;
 
 /// Parts of the page for pages of other packages.
 pub mod shared {
-    pub use crate::encode::bytes;
-    pub use crate::page::{COMPILED, Head, assembled};
+    pub use crate::report::encode::bytes;
+    pub use crate::report::page::{COMPILED, Head, assembled};
 }
 
 pub use check::{ReportError, check};
-pub use data::{Better, Chart, Cues, Finding, LimitHistory, Limits, Line, Measure, Report, Rig, Run, Vehicle, Weight};
+pub use data::{Better, Chart, Cues, LimitHistory, Line, Measure, Report, Rig, Run, Vehicle};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::{escaped, html};
+pub use run::{felt_chart, run};
 pub use simulator::{Parameter, ParameterKind, Simulator};
 pub use thinning::Thinning;
-pub use tilt_limits::{TiltFlags, TiltLimit, tilt_limits};

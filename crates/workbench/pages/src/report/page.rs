@@ -5,56 +5,60 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
-use crate::check::{ReportError, check};
-use crate::data::Report;
-use crate::events::{Event, events};
+use crate::report::check::{ReportError, check};
+use crate::report::data::Report;
+use crate::report::events::{Event, events};
 
 /// Every page: what stands before its own template, its heading, and what follows.
-const HEAD: &str = include_str!("../page/head.html");
-const HEADING: &str = include_str!("../page/heading.html");
-const END: &str = include_str!("../page/scripts.html");
+const HEAD: &str = include_str!("../../page/report/head.html");
+const HEADING: &str = include_str!("../../page/report/heading.html");
+const END: &str = include_str!("../../page/report/scripts.html");
 
-const TEMPLATE: &str = include_str!("../page/page.html");
+const TEMPLATE: &str = include_str!("../../page/report/page.html");
 /// The style of a report, whose colours the scripts name.
-const STYLE: &str = include_str!("../page/style.css");
+const STYLE: &str = include_str!("../../page/report/style.css");
 /// Runs before the other scripts, and says if one of them fails.
-const ALARM: &str = include_str!("../page/alarm.js");
-const WORKER: &str = concat!("\"use strict\";\n", include_str!("../page/module.js"), include_str!("../page/worker.js"));
+const ALARM: &str = include_str!("../../page/report/alarm.js");
+const WORKER: &str = concat!(
+    "\"use strict\";\n",
+    include_str!("../../page/report/module.js"),
+    include_str!("../../page/report/worker.js")
+);
 
 /// The source of scripts for a page with a WebAssembly.
 pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
 /// Scripts for any page with a machine and parameters, in the order of their dependencies.
 const SHARED: [&str; 11] = [
-    include_str!("../page/payload.js"),
-    include_str!("../page/module.js"),
-    include_str!("../page/format.js"),
-    include_str!("../page/dom.js"),
-    include_str!("../page/palette.js"),
-    include_str!("../page/vector.js"),
-    include_str!("../page/machine.js"),
-    include_str!("../page/camera.js"),
-    include_str!("../page/view.js"),
-    include_str!("../page/words.js"),
-    include_str!("../page/parameter.js"),
+    include_str!("../../page/report/payload.js"),
+    include_str!("../../page/report/module.js"),
+    include_str!("../../page/report/format.js"),
+    include_str!("../../page/report/dom.js"),
+    include_str!("../../page/report/palette.js"),
+    include_str!("../../page/report/vector.js"),
+    include_str!("../../page/report/machine.js"),
+    include_str!("../../page/report/camera.js"),
+    include_str!("../../page/report/view.js"),
+    include_str!("../../page/report/words.js"),
+    include_str!("../../page/report/parameter.js"),
 ];
 
 /// The report's own scripts, likewise.
 const SCRIPTS: [&str; 14] = [
-    include_str!("../page/data.js"),
-    include_str!("../page/thin.js"),
-    include_str!("../page/chart.js"),
-    include_str!("../page/limits.js"),
-    include_str!("../page/gauges.js"),
-    include_str!("../page/measures.js"),
-    include_str!("../page/overlay.js"),
-    include_str!("../page/roughest.js"),
-    include_str!("../page/panels.js"),
-    include_str!("../page/simulator.js"),
-    include_str!("../page/variants.js"),
-    include_str!("../page/rig.js"),
-    include_str!("../page/tuning.js"),
-    include_str!("../page/main.js"),
+    include_str!("../../page/report/data.js"),
+    include_str!("../../page/report/thin.js"),
+    include_str!("../../page/report/chart.js"),
+    include_str!("../../page/report/limits.js"),
+    include_str!("../../page/report/gauges.js"),
+    include_str!("../../page/report/measures.js"),
+    include_str!("../../page/report/overlay.js"),
+    include_str!("../../page/report/roughest.js"),
+    include_str!("../../page/report/panels.js"),
+    include_str!("../../page/report/simulator.js"),
+    include_str!("../../page/report/variants.js"),
+    include_str!("../../page/report/rig.js"),
+    include_str!("../../page/report/tuning.js"),
+    include_str!("../../page/report/main.js"),
 ];
 
 /// Differences between the heads of pages.
@@ -161,9 +165,9 @@ pub fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::tests::smallest;
-    use crate::encode::tests::decoded;
-    use crate::simulator::Simulator;
+    use crate::report::check::tests::smallest;
+    use crate::report::encode::tests::decoded;
+    use crate::report::simulator::Simulator;
 
     /// The part of the page from after `start` to before `end`.
     fn between<'a>(page: &'a str, start: &str, end: &str) -> &'a str {

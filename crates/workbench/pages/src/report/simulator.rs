@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use crate::encode::{bytes, exact};
+use crate::report::encode::{bytes, exact};
 
 /// The simulation as WebAssembly, the recording's inputs, and the parameters to choose from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Simulator {
-    /// The compiled package `moris-page-simulation`.
+    /// The WebAssembly of the package's `modules/simulation.rs`.
     #[serde(serialize_with = "bytes")]
     pub module: Vec<u8>,
     /// Time between samples \[s\].

@@ -9,17 +9,14 @@
 //!   WebAssembly has.
 
 mod course;
-#[cfg(target_arch = "wasm32")]
-mod exports;
 pub mod lamps;
-#[cfg(not(target_arch = "wasm32"))]
 pub mod page;
 mod recording;
 mod ridden;
-mod ride;
 mod rider;
+mod stepping;
 
 pub use course::{Circuit, PlanePose, RoadMap, RoadPlace};
 pub use recording::{Rating, Recording};
 pub use ridden::{Ridden, RiderCommand};
-pub use ride::{HALF_WIDTH, Lap, Ride, STEP, Stage};
+pub use stepping::{HALF_WIDTH, Lap, Ride, STEP, Stage};

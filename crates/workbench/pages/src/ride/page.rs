@@ -1,27 +1,27 @@
 //! The page: a template with the style, the scripts, the module and the data put in.
 
-use moris_report::{Parameter, Rig, shared};
+use crate::report::{Parameter, Rig, shared};
 use serde::Serialize;
 
-const TEMPLATE: &str = include_str!("../page/ride.html");
+const TEMPLATE: &str = include_str!("../../page/ride/ride.html");
 /// The style of a page with curves, a platform and lamps.
-pub const STYLE: &str = include_str!("../page/ride.css");
+pub const STYLE: &str = include_str!("../../page/ride/ride.css");
 
 /// Scripts for any page with curves, a platform and lamps.
-pub const SHARED: [&str; 2] = [include_str!("../page/strip.js"), include_str!("../page/shown.js")];
+pub const SHARED: [&str; 2] = [include_str!("../../page/ride/strip.js"), include_str!("../../page/ride/shown.js")];
 
 /// The script for throttle, brake and stick by keys, buttons, a gamepad or a phone's tilt.
-pub const CONTROLS: &str = include_str!("../page/controls.js");
+pub const CONTROLS: &str = include_str!("../../page/ride/controls.js");
 /// The script for the road from the rider's eye.
-pub const ROAD: &str = include_str!("../page/road.js");
+pub const ROAD: &str = include_str!("../../page/ride/road.js");
 
 /// The scripts in the order of their dependencies.
 const SCRIPTS: [&str; 5] = [
-    include_str!("../page/engine.js"),
+    include_str!("../../page/ride/engine.js"),
     CONTROLS,
     ROAD,
-    include_str!("../page/panel.js"),
-    include_str!("../page/main.js"),
+    include_str!("../../page/ride/panel.js"),
+    include_str!("../../page/ride/main.js"),
 ];
 
 /// Parts of the page.

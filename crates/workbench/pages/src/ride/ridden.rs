@@ -6,9 +6,9 @@ use moris_washout::Input;
 use moris_washout::interface::AngularVelocityFrame;
 use serde::{Deserialize, Serialize};
 
-use crate::course::{Circuit, PlanePose, RoadMap, RoadPlace};
-use crate::ride::{HALF_WIDTH, STEP};
-use crate::rider;
+use crate::ride::course::{Circuit, PlanePose, RoadMap, RoadPlace};
+use crate::ride::rider;
+use crate::ride::stepping::{HALF_WIDTH, STEP};
 
 /// The player's commands to the rider.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

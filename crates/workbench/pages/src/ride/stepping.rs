@@ -5,10 +5,10 @@ use moris_motorcycle::Motorcycle;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters, Washout};
 
-use crate::course::Circuit;
-use crate::lamps;
-use crate::recording::{Rating, Recording};
-use crate::ridden::{Ridden, RiderCommand};
+use crate::ride::course::Circuit;
+use crate::ride::lamps;
+use crate::ride::recording::{Rating, Recording};
+use crate::ride::ridden::{Ridden, RiderCommand};
 
 /// Time of a step \[s\].
 pub const STEP: f64 = 0.001;

@@ -1,12 +1,12 @@
 //! Findings on a foreign motion: its limits, and what is wrong with what was given.
 
 use moris_measures::Row;
-use moris_report::{Finding, Weight};
 
 use super::limits::{Excess, Limit};
 use super::{Foreign, Suspicion};
 use crate::Evaluated;
 use crate::spans::Spans;
+use crate::{Finding, Weight};
 
 /// Measures that need the washout itself: what of a tilt is coordination, and which of its own
 /// limits acted.

@@ -9,7 +9,7 @@ use std::time::Duration;
 use moris_interface::{Group as _, Reader, slots_of};
 use moris_live::session::retune;
 use moris_live::{Event, Legs, State, log};
-use moris_ride::RiderCommand;
+use moris_pages::ride::RiderCommand;
 use moris_setup::{Setup, all};
 use moris_washout::{ParameterError, Parameters, Washout};
 use rtrb::{Consumer, Producer};

@@ -8,8 +8,8 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use moris_report::{Parameter, Rig, Vehicle, shared};
-use moris_ride::{RoadMap, page as ride};
+use moris_pages::report::{Parameter, Rig, Vehicle, shared};
+use moris_pages::ride::{RoadMap, page as ride};
 use moris_setup::Setup;
 use serde::Serialize;
 

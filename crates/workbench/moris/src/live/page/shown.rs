@@ -6,7 +6,7 @@ use moris_live::frame::Values;
 use moris_live::road::Road;
 use moris_live::source::Health;
 use moris_live::{Session, State};
-use moris_ride::lamps;
+use moris_pages::ride::lamps;
 use serde::Serialize;
 
 use crate::live::lateness::{Classes, Lateness};

@@ -8,8 +8,8 @@ use moris_bounded_files::TEXT;
 use moris_fmu_host::Running;
 use moris_live::Sample;
 use moris_live::format::{FieldAddress, Format, Vehicle as Kind};
-use moris_report::Vehicle as Shape;
-use moris_ride::RiderCommand;
+use moris_pages::report::Vehicle as Shape;
+use moris_pages::ride::RiderCommand;
 use serde::Deserialize;
 
 use super::{Handling, Vehicle};

@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use anyhow::Result;
 use moris_live::Sample;
-use moris_report::Vehicle as Shape;
-use moris_ride::{RiderCommand, RoadMap, RoadPlace};
+use moris_pages::report::Vehicle as Shape;
+use moris_pages::ride::{RiderCommand, RoadMap, RoadPlace};
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use moris_interface::Model;
 use moris_live::{Motion, Sample};
-use moris_report::Vehicle as Shape;
-use moris_ride::{Ridden, RiderCommand, RoadMap, RoadPlace, STEP};
+use moris_pages::report::Vehicle as Shape;
+use moris_pages::ride::{Ridden, RiderCommand, RoadMap, RoadPlace, STEP};
 
 use super::{Handling, Vehicle};
 

@@ -1,0 +1,13 @@
+//! Pages: HTML with their scripts and data, and what their WebAssembly is made of.
+//!
+//! - [`report`] is the page about a recording.
+//! - [`ride`] is a ride in the browser: the page, and motorcycle and washout behind it.
+//! - [`memory`] is shared by a page's script and its WebAssembly. The modules themselves stand in
+//!   `modules/`, each an example of this package: a library of its own with functions for one page.
+
+#![deny(unsafe_code)]
+
+#[allow(unsafe_code)]
+pub mod memory;
+pub mod report;
+pub mod ride;
