@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::cueing::angular::AngularChannel;
 use crate::cueing::automatic_scale::FittingScale;
 use crate::cueing::compensation::compensated;
-use crate::cueing::conditioning::{Cue, InputFilter, cue_force, forward_acceleration, scaled_cue};
+use crate::cueing::conditioning::{Cue, InputFilter, cue_force, forward_acceleration, scaled_cue, scaled_force};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
@@ -176,11 +176,16 @@ impl Washout {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let CuedInput { input, head, .. } = &self.last;
         let (engagement, factor) = (self.engagement(), self.scale.factor());
-        if let Some(law) = self.strategy.previewed() {
-            law.preview(&PreviewedCue::of(preview, |[surge, sway]| {
-                let force = Vector3::new(surge, sway, input.specific_force.z);
-                let cue = engagement * cue_force(force, input, conditioning, structure.gravity, head.lean, factor);
-                [cue.x, cue.y]
+        let Some(law) = self.strategy.previewed() else { return };
+        let force = |[surge, sway]: [f64; 2]| Vector3::new(surge, sway, input.specific_force.z);
+        law.preview(&PreviewedCue::of(preview, |forces| {
+            let cue = cue_force(force(forces), input, conditioning, structure.gravity, head.lean, factor);
+            [engagement * cue.x, engagement * cue.y]
+        }));
+        if self.scale.is_automatic() {
+            self.scale.preview(&PreviewedCue::of(preview, |forces| {
+                let cue = scaled_force(force(forces), input, conditioning, structure.gravity, head.lean);
+                [engagement * cue.x, engagement * cue.y]
             }));
         }
     }
@@ -219,6 +224,7 @@ impl Washout {
         self.last.input.engaged = end.engaged;
         if let Some(law) = self.strategy.previewed() {
             law.delay_preview(step);
+            self.scale.delay_preview(step);
         }
         self.step_to(&end, step, observe);
     }

@@ -68,9 +68,20 @@ pub fn cue_force(
     lean: f64,
     factor: f64,
 ) -> Vector3<f64> {
+    limited_force(scaled_force(specific_force, input, parameters, gravity, lean), factor, parameters)
+}
+
+/// The force of a [`scaled_cue`] from a specific force, if the vehicle is oriented as in `input`.
+pub fn scaled_force(
+    specific_force: Vector3<f64>,
+    input: &Input,
+    parameters: &ConditioningParameters,
+    gravity: f64,
+    lean: f64,
+) -> Vector3<f64> {
     let (roll, pitch) = (libm::sincos(input.orientation.roll + lean), libm::sincos(input.orientation.pitch));
     let force = specific_force + gravity * removed_gravity(parameters.gravity_removal, roll, pitch);
-    limited_force(force.component_mul(&parameters.force_scale), factor, parameters)
+    force.component_mul(&parameters.force_scale)
 }
 
 /// A scaled force times the automatic scale, but for heave, and limited.

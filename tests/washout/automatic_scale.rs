@@ -137,6 +137,63 @@ fn a_preview_is_scaled_like_the_cue() {
     assert!((0.45..0.65).contains(&ratio), "{ratio}");
 }
 
+/// Brakes and bends of no common period \[m/s2\].
+fn bends(t: f64) -> [f64; 2] {
+    let faded = (t / 2.0).min(1.0);
+    let surge = 2.0 * (3.0 * (0.9 * t + 1.2 * (0.31 * t).sin()).sin()).tanh();
+    [faded * surge, faded * 3.0 * (3.0 * (1.4 * t + 1.5 * (0.37 * t).sin()).sin()).tanh()]
+}
+
+/// The preview of a force at a time, times a factor.
+fn preview(force: impl Fn(f64) -> [f64; 2], t: f64, factor: f64) -> Preview {
+    let ahead = |axis: usize| std::array::from_fn(|k| factor * force(t + 0.2 * (k + 1) as f64)[axis]);
+    Preview { count: 20, surge: ahead(0), sway: ahead(1), ..Preview::default() }
+}
+
+/// The outputs of [`bends`], previewed times a factor, and the mean scale from 30 s on.
+fn previewed(factor: f64) -> (Vec<([f64; 2], Output)>, f64) {
+    let mut washout = Washout::new(&automatic(presets::PREVIEW)).unwrap();
+    let mut ride = Vec::with_capacity(7000);
+    let allocated = allocation_counter::measure(|| {
+        for k in 1..=7000 {
+            let t = f64::from(k) * STEP;
+            washout.preview(&preview(bends, t, factor));
+            let force = bends(t);
+            washout.step(&accelerating(force[0], force[1], 0.0), STEP);
+            ride.push((force, washout.output()));
+        }
+    });
+    assert_eq!(allocated.count_total, 0);
+    let late = ride.split_off(3000);
+    let mean = late.iter().map(|(_, output)| output.scale_factor).sum::<f64>() / late.len() as f64;
+    (late, mean)
+}
+
+#[test]
+fn what_is_foreseen_is_felt_larger_and_what_is_foreseen_wrong_smaller() {
+    let unknown = ridden(&automatic(presets::PREVIEW), 70.0, bends).split_off(3000);
+    let without = unknown.iter().map(|(_, output)| output.scale_factor).sum::<f64>() / unknown.len() as f64;
+    let (ride, known) = previewed(1.0);
+    assert!(known > 1.5 * without, "{known} {without}");
+    assert!(inverted(&ride) < 0.06, "{}", inverted(&ride));
+    let (_, wrong) = previewed(-1.0);
+    assert!(wrong < 0.7 * without, "{wrong} {without}");
+}
+
+#[test]
+fn a_preview_without_elements_changes_nothing() {
+    let parameters = automatic(presets::PREVIEW);
+    let [mut none, mut empty] = [0; 2].map(|_| Washout::new(&parameters).unwrap());
+    for k in 1..=1000 {
+        let [surge, sway] = bends(f64::from(k) * STEP);
+        empty.preview(&Preview::default());
+        for washout in [&mut none, &mut empty] {
+            washout.step(&accelerating(surge, sway, 0.0), STEP);
+        }
+        assert_eq!(none.output(), empty.output());
+    }
+}
+
 /// The largest change of the felt force per second in the second after each of two switches, if
 /// they switch at all.
 fn felt_after_switches(switches: bool) -> (f64, Output) {

@@ -6,11 +6,13 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::ahead::{Tracker, is_known, points};
 use super::platform::{Platform, WEIGHTS};
 use crate::cueing::conditioning::soft_limit;
 use crate::cueing::strategy::coordinated::models;
 use crate::cueing::strategy::optimal::weighed;
-use crate::cueing::strategy::regulator::{AxisModel, Gains, Regulator};
+use crate::cueing::strategy::predictive::preview::PreviewedCue;
+use crate::cueing::strategy::regulator::{AxisModel, Gains, Regulator, State};
 use crate::cueing::strategy::{Unsolvable, at_rest_if_tiny};
 use crate::interface::{AutomaticScaleParameters, Parameters};
 use crate::motion::min_max::{max, min};
@@ -42,6 +44,9 @@ const FIRST_MEMORY: f64 = 1.65;
 pub struct Bank {
     models: [AxisModel; 2],
     gains: [Gains; 2],
+    trackers: [Tracker; 2],
+    /// Courses of the references that are previewed, at a factor of 1 without a limit.
+    courses: [PreviewedCue; 2],
     shadows: [[Shadow; 2]; SHADOWS],
     /// The references below [`CUE_FREQUENCY`].
     desired: [LowPass; 2],
@@ -82,6 +87,8 @@ impl Bank {
         Ok(Bank {
             models,
             gains: gains(&models)?,
+            trackers: trackers(&models)?,
+            courses: [PreviewedCue::default(); 2],
             shadows: [[Shadow::default(); 2]; SHADOWS],
             desired: [LowPass::default(); 2],
             power: [0.0; 2],
@@ -98,10 +105,20 @@ impl Bank {
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
         let models = models(parameters);
         if models != self.models {
-            self.gains = gains(&models)?;
+            (self.gains, self.trackers) = (gains(&models)?, trackers(&models)?);
             self.models = models;
         }
         Ok(())
+    }
+
+    /// Sets the courses that the references will take.
+    pub fn preview(&mut self, courses: &[PreviewedCue; 2]) {
+        self.courses = *courses;
+    }
+
+    /// Delays courses that have just been given by `lag` seconds.
+    pub fn delay_preview(&mut self, lag: f64) {
+        self.courses.iter_mut().for_each(|course| course.delay(lag));
     }
 
     /// Advances by `step` seconds, at whose end the references are these. Returns the goal, with
@@ -113,6 +130,7 @@ impl Bank {
         tuning: &AutomaticScaleParameters,
         step: f64,
     ) -> Option<Goal> {
+        self.courses.iter_mut().filter(|course| course.count > 0).for_each(|course| course.advance(step));
         for (sum, reference) in self.sum.iter_mut().zip(references) {
             *sum += reference.clamp(-LARGEST_FORCE, LARGEST_FORCE) * step;
         }
@@ -140,16 +158,22 @@ impl Bank {
         self.memory = min(self.memory + step, tuning.memory);
         let share = 1.0 - libm::exp(-step / self.memory);
         let filter = Coefficients::new(step);
+        let is_previewed = is_known(&self.courses);
         [0, 1].map(|axis: usize| {
             let reference = references[axis];
             let desired = self.desired[axis].advance(reference, &filter);
             self.power[axis] = at_rest_if_tiny(self.power[axis] + share * (desired * desired - self.power[axis]));
-            let (model, gains) = (&self.models[axis], &self.gains[axis]);
+            let (model, gains, tracker) = (&self.models[axis], &self.gains[axis], &self.trackers[axis]);
+            let forward = is_previewed.then(|| tracker.forward(&points(reference, &self.courses[axis], LARGEST_FORCE)));
             let mut scale = 1.0;
             for shadows in &mut self.shadows {
                 let Shadow { platform, felt, error } = &mut shadows[axis];
                 let cued = soft_limit(scale * reference, force_limit[axis]);
-                let felt = felt.advance(platform.advance(model, gains, cued, step), &filter);
+                let law = |state: &State| match forward {
+                    None => (-(gains * state)).into(),
+                    Some(forward) => tracker.control(&state.fixed_rows::<4>(0).into(), forward, scale),
+                };
+                let felt = felt.advance(platform.advance(model, &law, cued, step), &filter);
                 let inverted = if felt * desired < 0.0 { INVERSION_WEIGHT * felt * felt } else { 0.0 };
                 let missed = felt - scale * desired;
                 *error = at_rest_if_tiny(*error + share * (missed * missed + inverted - *error));
@@ -193,6 +217,12 @@ fn gains(models: &[AxisModel; 2]) -> Result<[Gains; 2], Unsolvable> {
             .ok_or(Unsolvable::AutomaticScale)
     };
     Ok([gains(0)?, gains(1)?])
+}
+
+/// The trackers for surge and sway.
+fn trackers(models: &[AxisModel; 2]) -> Result<[Tracker; 2], Unsolvable> {
+    let tracker = |axis: usize| Tracker::new(&weighed(&models[axis])).ok_or(Unsolvable::AutomaticScale);
+    Ok([tracker(0)?, tracker(1)?])
 }
 
 /// A second-order Butterworth low-pass at [`CUE_FREQUENCY`], by the bilinear transform.

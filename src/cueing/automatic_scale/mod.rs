@@ -7,9 +7,12 @@
 //! factor goes there, fast when it falls and slowly when it rises. A scale is lowered only where a
 //! lower one would have been better.
 //!
+//! Where the force is previewed, the shadows foresee it as the platform does (`ahead`).
+//!
 //! The factor acts in front of everything that limits: no limit depends on it. Heave keeps its
 //! size.
 
+mod ahead;
 mod bank;
 mod platform;
 
@@ -17,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use self::bank::Bank;
 use crate::cueing::strategy::Unsolvable;
+use crate::cueing::strategy::predictive::preview::PreviewedCue;
 use crate::interface::{AutomaticScale, Parameters};
 use crate::motion::min_max::{max, min};
 
@@ -73,6 +77,21 @@ impl FittingScale {
     /// Rate of the factor now \[1/s\].
     pub fn factor_rate(&self) -> f64 {
         self.rate * self.factor
+    }
+
+    /// True while the factor is chosen.
+    pub fn is_automatic(&self) -> bool {
+        self.bank.is_some()
+    }
+
+    /// Sets the courses that the references will take, if they are previewed.
+    pub fn preview(&mut self, courses: &[PreviewedCue; 2]) {
+        self.bank.iter_mut().for_each(|bank| bank.preview(courses));
+    }
+
+    /// Delays courses that have just been given by `lag` seconds.
+    pub fn delay_preview(&mut self, lag: f64) {
+        self.bank.iter_mut().for_each(|bank| bank.delay_preview(lag));
     }
 
     /// Advances by `step` seconds. `references` are the forces of surge and sway at the step's end

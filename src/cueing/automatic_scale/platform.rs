@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cueing::strategy::regulator::{AxisModel, Gains, State, Weights};
+use crate::cueing::strategy::regulator::{AxisModel, State, Weights};
 use crate::motion::Motion;
 use crate::motion::braking_law::{Limits, approach_velocity};
 use crate::motion::min_max::{max, min};
@@ -33,13 +33,14 @@ pub struct Platform {
 }
 
 impl Platform {
-    /// Advances by `step` seconds with this reference, and returns the force that is felt \[m/s2\].
-    pub fn advance(&mut self, model: &AxisModel, gains: &Gains, reference: f64, step: f64) -> f64 {
+    /// Advances by `step` seconds with this reference and law. Returns the force that is felt
+    /// \[m/s2\].
+    pub fn advance(&mut self, model: &AxisModel, law: &impl Fn(&State) -> [f64; 2], reference: f64, step: f64) -> f64 {
         let Platform { travel, tilt, .. } = *self;
         self.slow += (1.0 - libm::exp(-step / SPLIT_TIME)) * (reference - self.slow);
         let (slow, fast) = (self.slow, reference - self.slow);
         let state = State::new(travel.position, travel.velocity, tilt.position, tilt.velocity, slow, fast);
-        let [dropped_force, tilting]: [f64; 2] = (-(gains * state)).into();
+        let [dropped_force, tilting] = law(&state);
         let AxisModel { angle_limit, rate_limit, acceleration_limit, .. } = *model;
         let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, step);
         self.tilt = limits.at_velocity(&tilt, tilt.velocity + tilting * step, step);

@@ -163,7 +163,7 @@ pub fn dynamics(model: &AxisModel, weights: &Weights) -> (SMatrix<f64, 6, 6>, SM
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::cueing) mod tests {
     use super::*;
     use crate::interface::STANDARD_GRAVITY;
 

@@ -63,6 +63,28 @@ fn the_second_lap_is_felt_with_at_most_six_tenths_of_the_first_one_s_error() {
 }
 
 #[test]
+fn the_automatic_scale_is_larger_once_the_road_is_known() {
+    let samples = busy_laps(3.0);
+    let parameters = presets::parameters(&[presets::PREVIEW, &[("scale.automatic", 2.0)]].concat());
+    let previews = previews(&samples);
+    let factors = [false, true].map(|learns| {
+        let mut washout = Washout::new(&parameters).unwrap();
+        let mut sum = 0.0;
+        for (sample, preview) in samples.iter().zip(&previews) {
+            let mut input = Input::default();
+            [input.specific_force.x, input.specific_force.y] = sample.force;
+            if learns {
+                washout.preview(preview);
+            }
+            washout.step(&input, STEP);
+            sum += washout.output().scale_factor;
+        }
+        sum / samples.len() as f64
+    });
+    assert!(factors[1] > 1.3 * factors[0], "{factors:?}");
+}
+
+#[test]
 fn forces_that_do_not_belong_to_their_places_are_felt_no_worse_than_without_memory() {
     let whole = laps(4.0, 1.0);
     let mirror_from = |lap: f64| {
