@@ -64,3 +64,19 @@ def test_the_table_of_uses_has_what_the_manifests_have():
         folder, uses = found[name]
         assert named == uses, f"{name}: the table has {named}, the manifest {uses}"
     assert {"fmu-host", "washout", "moris", "python"} <= table.keys()
+
+
+def test_analysis_and_simulation_know_no_command_line():
+    """What the command and Python share prints nothing; clap is there for the command alone, as a feature."""
+    shown = {"clap", "clap_complete", "clap_mangen", "ctrlc", "httparse", "indicatif", "moris", "moris-live", "pyo3", "rtrb"}
+    for name in ("analysis", "pages", "simulation", "measures"):
+        table = tomllib.loads((ROOT / "crates" / "workbench" / name / "Cargo.toml").read_text())
+        optional = {one for one, of in table["dependencies"].items() if of.get("optional")}
+        assert not (table["dependencies"].keys() - optional) & shown, name
+        assert not table.get("features", {}).get("default"), name
+        for file in (ROOT / "crates" / "workbench" / name / "src").glob("**/*.rs"):
+            assert not re.search(r"\be?print(ln)?!|\bstd::net\b|IsTerminal", file.read_text()), file
+    html = {"moris-pages", "base64"}
+    table = tomllib.loads((ROOT / "crates" / "workbench" / "simulation" / "Cargo.toml").read_text())
+    assert not table["dependencies"].keys() & html
+    assert "moris" not in packages()["python"][1]

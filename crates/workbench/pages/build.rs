@@ -49,9 +49,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let version = variable("CARGO_PKG_VERSION")?;
     let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
-    let is_installed = is_installed()?;
+    // The modules themselves are compiled with this package, too.
+    let is_wanted = variable("TARGET")? != TARGET && is_installed()?;
     for (name, missing) in MODULES {
-        let module = if is_installed { compile(&root, &out, name, missing)? } else { Vec::new() };
+        let module = if is_wanted { compile(&root, &out, name, missing)? } else { Vec::new() };
         fs::write(out.join(name).with_extension("wasm"), module)?;
     }
     Ok(())

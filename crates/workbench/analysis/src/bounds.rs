@@ -9,7 +9,7 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::reach::{Axis, single_axis_range};
 use rayon::prelude::*;
 
-use super::Simulation;
+use moris_simulation::Simulation;
 
 /// The bound on one axis, and the desired signal it belongs to.
 #[derive(Clone, Debug)]

@@ -7,10 +7,11 @@ use moris_simulation::preview::Previewer;
 use moris_washout::Parameters;
 
 use crate::recording::Recording;
-use crate::simulate::Simulation;
+use moris_simulation::Simulation;
 
 /// Input within a step, as given by the host.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Inputs {
     /// Value and slope: the input goes linearly through the step
     #[default]

@@ -1,11 +1,11 @@
 //! `moris build-fmu`: an own FMU from an existing one.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Result, bail};
-use moris_build_fmu::{Base, StartOptions, write_whole};
+use anyhow::Result;
+use moris_build_fmu::{OwnFmu, StartOptions};
 
 /// Make an FMU that starts with your rig and parameters from an existing one,
 /// for every platform in it
@@ -31,28 +31,11 @@ pub struct Options {
 /// # Errors
 /// The base or the values cannot be used, or the FMU cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let file = pack(&options.base, &options.start, &options.output, out)?;
+    let own = OwnFmu::new(&options.base, &options.start)?;
+    for line in own.notes() {
+        writeln!(out, "{line}")?;
+    }
+    let file = own.write(&options.output)?;
     writeln!(out, "wrote {}", file.display())?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// Makes an FMU from a base and tells of its start values. Returns the FMU's file.
-///
-/// # Errors
-/// As [`main`].
-pub fn pack(base_file: &Path, options: &StartOptions, output: &Path, out: &mut dyn Write) -> Result<PathBuf> {
-    let base = Base::open(base_file)?;
-    let model = base.model;
-    let start = options.of_models(&[model])?.remove(0);
-    let platforms: Vec<String> = base.platforms().map(|platform| platform.to_string()).collect();
-    writeln!(out, "{}: {} start values of your own, for {}", model.name, start.count(), platforms.join(", "))?;
-    for warning in (model.functions.warnings)(start.slots()) {
-        writeln!(out, "warning: {warning}")?;
-    }
-    let file = output.join(base.fmi.fmu_file(model.name));
-    if file.canonicalize().is_ok_and(|file| base_file.canonicalize().is_ok_and(|base| base == file)) {
-        bail!("{} is the base; choose another directory with --output", file.display());
-    }
-    write_whole(&file, &base.pack(&start)?)?;
-    Ok(file)
 }

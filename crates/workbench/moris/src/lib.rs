@@ -30,25 +30,21 @@ pub mod help;
 mod learned_road;
 pub mod live;
 pub mod measure;
-mod option_values;
 pub mod parameters;
 mod progress;
-mod random;
-pub mod recording;
 pub mod ride;
 pub mod rig;
 pub mod schema;
 pub mod setup_options;
 pub mod simulate;
 mod status;
-pub mod text_table;
 pub mod tune;
 pub mod votes;
-pub mod washout_fmu;
 pub mod worst_case;
 
-/// Version, and the commit where it is known.
-pub const VERSION: &str = env!("MORIS_VERSION");
+use moris_analysis::{option_values, random};
+pub use moris_analysis::{recording, text_table, washout_fmu};
+pub use moris_pages::VERSION;
 
 /// Default directory for reports. No directory of the sources has this name.
 pub const REPORT_DIRECTORY: &str = "moris-report";

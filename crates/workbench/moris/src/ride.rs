@@ -6,13 +6,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_pages::ride::page::{Page, html};
+use moris_pages::ride::page::{MODULE, Page, html};
 
 use crate::setup_options::SetupOptions;
 use crate::simulate::simulator::{parameters, sets};
-
-/// The WebAssembly of `moris_pages::ride`; empty where it was not compiled.
-const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
 
 /// Write a page in which you ride the motorcycle, with the platform beside it
 ///

@@ -11,3 +11,6 @@
 pub mod memory;
 pub mod report;
 pub mod ride;
+
+/// Version, and the commit where it is known.
+pub const VERSION: &str = env!("MORIS_VERSION");

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use moris::recording::Recording;
-use moris::recording::felt::{FeltTable, Part};
+use moris_analysis::recording::Recording;
+use moris_analysis::recording::felt::{FeltTable, Part};
 use moris_simulation::foreign::ForeignMotion;
 use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;

@@ -33,7 +33,7 @@ mod _moris {
 
     /// Time over which recordings are faded in by default \[s\].
     #[pymodule_export]
-    const FADE_IN: f64 = moris::recording::FADE_IN;
+    const FADE_IN: f64 = moris_analysis::recording::FADE_IN;
 
     #[pymodule_export]
     use crate::fit::fit;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use moris::recording::{ConventionOptions, Conventions, Dialect, Recording, Road};
+use moris_analysis::recording::{ConventionOptions, Conventions, Dialect, Recording, Road};
 use moris_interface::{Group, slots_of};
 use moris_simulation::Manoeuvre;
 use moris_washout::Input;

@@ -1,6 +1,6 @@
 //! The frequency response.
 
-use moris::frequency_response::Measured;
+use moris_analysis::frequency_response::Measured;
 use moris_simulation::frequency_response::Response;
 use moris_simulation::frequency_response::channel::{CHANNELS, Channel, name};
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};

@@ -3,14 +3,18 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use moris::measure::host::Host;
-use moris::recording::Recording;
-use moris::recording::preview::LONGEST_PREVIEW;
-use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fit, page};
-use moris::washout_fmu::WashoutFmu;
+use moris_analysis::bounds::{self, AxisBound};
+use moris_analysis::host::Host;
+use moris_analysis::outcome::Outcome;
+use moris_analysis::page;
+use moris_analysis::recording::Recording;
+use moris_analysis::recording::preview::LONGEST_PREVIEW;
+use moris_analysis::washout_fmu::WashoutFmu;
 use moris_interface::{Group, guid, slots_of};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
+use moris_simulation::Simulation;
+use moris_simulation::findings::fit;
 use moris_simulation::foreign::ForeignMotion;
 use moris_washout::interface::StrategyKind;
 use moris_washout::{Input, Output, Parameters, Washout};

@@ -1,7 +1,7 @@
 //! The survey of a rig.
 
-use moris::rig::picture;
-use moris::rig::survey::{Singularities, Survey};
+use moris_analysis::rig::picture;
+use moris_analysis::rig::survey::{Singularities, Survey};
 use moris_setup::rig_file;
 use pyo3::prelude::*;
 

@@ -2,10 +2,10 @@
 
 use std::sync::{Arc, LazyLock};
 
-use moris::measure::host::Host;
-use moris::recording::Recording;
-use moris::simulate::measures;
+use moris_analysis::host::Host;
+use moris_analysis::recording::Recording;
 use moris_setup::Setup;
+use moris_simulation::measures;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;

@@ -1,17 +1,17 @@
 //! Tuning: the workbench's search, with progress and evaluations that may go to Python.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use moris::tune::cost::{Cost, Objective};
-use moris::tune::folds;
-use moris::tune::search::{Budget, Evaluate, evaluate_here};
-use moris::tune::space::{Group, Space};
-use moris::tune::summary::{self, Verdict};
-use moris::tune::tested::{Tested, tune_tested};
-use moris::tune::tuner::{NoFeasibleParameters, Tuner};
+use moris_analysis::tune::cost::{Cost, Objective};
+use moris_analysis::tune::folds;
+use moris_analysis::tune::search::{Budget, Evaluate, evaluate_here};
+use moris_analysis::tune::space::{Group, Space};
+use moris_analysis::tune::summary::{self, Verdict};
+use moris_analysis::tune::tested::{Tested, tune_tested};
+use moris_analysis::tune::tuner::{NoFeasibleParameters, Tuner};
 use moris_setup::{NamedValues, Setup, all, overlaid};
 use moris_washout::Parameters;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -140,7 +140,8 @@ impl PyTuning {
                 evaluate: elsewhere.as_deref().unwrap_or(&evaluate_here),
                 observe: &note,
                 interrupted: Arc::clone(&interrupted),
-                bar: indicatif::ProgressBar::hidden(),
+                tried: AtomicUsize::new(0),
+                show: &|_, _| (),
             };
             self.tune(&tuner, folds)
         };

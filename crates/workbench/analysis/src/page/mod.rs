@@ -1,10 +1,13 @@
-//! The report's data.
+//! The report's page of a recording: its data, out of outcomes.
+
+pub mod simulator;
+pub mod vehicle;
 
 use moris_pages::report::{Chart, Line, Report, ReportError, Run, Simulator, Thinning, felt_chart};
 use moris_simulation::{Finding, Weight};
 
-use super::vehicle::vehicle;
-use super::{Outcome, listed, simulator};
+use self::vehicle::vehicle;
+use crate::outcome::{Outcome, listed};
 use crate::recording::Recording;
 
 /// Largest page without simulation, and with it \[bytes\].
@@ -82,7 +85,7 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize) -> Report {
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", recording.name, 1.0 / recording.step())),
             ("Gravity".to_owned(), gravity(recording).to_owned()),
             ("Curves".to_owned(), resolution(first, &thinning)),
-            ("Made by".to_owned(), format!("moris {}", crate::VERSION)),
+            ("Made by".to_owned(), format!("moris {}", moris_pages::VERSION)),
         ],
         rig: (&first.setup.parameters).into(),
         vehicle: vehicle(recording, &first.setup.parameters_name),

@@ -1,17 +1,14 @@
 //! Data with which the report's page can simulate the recording with other parameters.
 
 use moris_interface::{Group as _, Kind, Row, slots_of};
-use moris_pages::report::{Parameter, ParameterKind, Simulator};
+use moris_pages::report::{MODULE, Parameter, ParameterKind, Simulator};
 use moris_setup::SETS;
 use moris_washout::Parameters;
 use moris_washout::interface::{Rig, StrategyKind};
 
-use super::Outcome;
+use crate::outcome::Outcome;
 use crate::recording::Recording;
 use crate::tune::space::{Group, ranges};
-
-/// The WebAssembly of the report's page; empty where it was not compiled.
-const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
 
 /// True if pages can simulate.
 pub fn is_compiled() -> bool {
@@ -47,7 +44,7 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
 }
 
 /// The sets that strategies have, by the strategies' names.
-pub(crate) fn sets() -> Vec<(String, Vec<(String, f64)>)> {
+pub fn sets() -> Vec<(String, Vec<(String, f64)>)> {
     let own = |strategy: &&StrategyKind| **strategy != StrategyKind::Classical;
     let set = |strategy: &StrategyKind| {
         let (name, values) = SETS.iter().find(|(name, _)| *name == strategy.name())?;
@@ -59,7 +56,7 @@ pub(crate) fn sets() -> Vec<(String, Vec<(String, f64)>)> {
 
 /// The parameters for a page, slot by slot: with their start values, and those of the rig
 /// with default parameters.
-pub(crate) fn parameters(from: &Parameters, base: &Parameters) -> Vec<Parameter> {
+pub fn parameters(from: &Parameters, base: &Parameters) -> Vec<Parameter> {
     let (start, base) = (slots_of(from), slots_of(base));
     let mut parameters: Vec<Parameter> = Vec::with_capacity(start.len());
     for row in Parameters::ROWS {

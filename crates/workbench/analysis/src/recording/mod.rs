@@ -55,7 +55,7 @@ pub(crate) use columns::units;
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};
-pub(crate) use read::source;
+pub use read::source;
 pub use read::source::files_in;
 pub use road::Road;
 use table::{Table, laps, sampling};

@@ -22,7 +22,7 @@ use moris_washout::{Output, ParameterError, Parameters, Washout};
 
 use super::space::{orders, with_orders};
 use crate::recording::Recording;
-use crate::simulate::Simulation;
+use moris_simulation::Simulation;
 
 /// Six channels: specific force x, y, z, angular velocity x, y, z.
 pub type Channels<T> = [T; 6];

@@ -8,7 +8,8 @@ use moris_washout::motion::orientation::RollPitchYaw;
 use moris_washout::nalgebra::Vector3;
 
 /// A group of parameters that may be tuned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Group {
     /// The splitter's break frequencies and dampings, twelve in all
     Splitter,
@@ -331,6 +332,7 @@ mod tests {
 
     const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
 
+    #[cfg(feature = "clap")]
     #[test]
     fn a_group_has_the_name_of_the_option() {
         for group in <Group as clap::ValueEnum>::value_variants() {

@@ -1,10 +1,9 @@
 //! One tuning: a search, and a check of its result in the internal steps that it will be used with.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use anyhow::Result;
-use indicatif::ProgressBar;
 use moris_setup::Setup;
 use moris_washout::Parameters;
 use rayon::prelude::*;
@@ -12,7 +11,7 @@ use rayon::prelude::*;
 use super::cost::{Cost, Objective};
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
-use crate::simulate::Simulation;
+use moris_simulation::Simulation;
 
 /// No parameters were found that keep the constraints. The text names the
 /// recordings and the remedy.
@@ -35,8 +34,11 @@ pub struct Tuner<'a> {
     pub observe: &'a (dyn Fn(&str, usize, Option<f64>) -> bool + Sync),
     /// Set when the user interrupts the search.
     pub interrupted: Arc<AtomicBool>,
-    /// Counts parameter sets.
-    pub bar: ProgressBar,
+    /// Parameter sets of all searches so far.
+    pub tried: AtomicUsize,
+    /// Receives this number whenever it changes, within a search with its name and least error as
+    /// a text.
+    pub show: &'a (dyn Fn(usize, Option<&str>) + Sync),
 }
 
 impl Tuner<'_> {
@@ -51,15 +53,15 @@ impl Tuner<'_> {
     /// # Errors
     /// No parameters keep the constraints ([`NoFeasibleParameters`]), or parameters cannot be used.
     pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup> {
-        let begin = self.bar.position();
+        let begin = self.tried.load(Ordering::Relaxed);
         let searched = search(objectives, self.evaluate, &self.space, self.budget, |tried, least| {
             let continues = (self.observe)(what, tried, least);
-            self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
             let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
-            self.bar.set_message(format!("{what}: {error}"));
+            (self.show)(begin + tried.min(self.budget.evaluations), Some(&format!("{what}: {error}")));
             continues && !self.was_interrupted()
         })?;
-        self.bar.set_position(begin + self.budget.evaluations as u64);
+        self.tried.store(begin + self.budget.evaluations, Ordering::Relaxed);
+        (self.show)(begin + self.budget.evaluations, None);
         let before = full_costs(objectives, self.setup)?;
         let mut least_worse = None;
         for parameters in self.candidates(&searched) {

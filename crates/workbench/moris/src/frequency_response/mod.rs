@@ -15,16 +15,10 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
-use moris_simulation::frequency_response::channel::Channel;
-use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
-use moris_simulation::frequency_response::{Response, response};
-use moris_washout::{Parameters, Washout};
-use rayon::prelude::*;
+pub use moris_analysis::frequency_response::Measured;
+use moris_simulation::frequency_response::excitation::Amplitudes;
 
 use crate::setup_options::SetupOptions;
-
-/// Amplitude of the small signals as a fraction of the test's: far from every limit.
-const SMALL: f64 = 1e-3;
 
 /// Measure the frequency response of the whole washout
 ///
@@ -56,46 +50,6 @@ pub struct Options {
     /// Directory for the table (response.csv) and the pictures (direct.svg, cross.svg)
     #[arg(long, value_name = "DIRECTORY", default_value = "response")]
     report: PathBuf,
-}
-
-/// Responses on all channels at all frequencies, channel by channel in the order of the
-/// frequencies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    /// With the test's amplitudes.
-    pub test: Vec<Response>,
-    /// With a thousandth of them.
-    pub small: Vec<Response>,
-}
-
-impl Measured {
-    /// Measures on all cores. `progress` is called after each of [`Measured::TESTS`].
-    ///
-    /// # Errors
-    /// A parameter cannot be used; the message names it and the reason.
-    pub fn of(
-        parameters: &Parameters,
-        amplitudes: Amplitudes,
-        gravity_turns: bool,
-        progress: impl Fn() + Sync,
-    ) -> Result<Self> {
-        let tests: Vec<(Channel, f64)> =
-            Channel::ALL.iter().flat_map(|&channel| frequencies().map(|frequency| (channel, frequency))).collect();
-        let at_rest = Washout::new(parameters)?;
-        let all = |amplitudes: Amplitudes| {
-            let measure = |&(channel, frequency): &(Channel, f64)| {
-                let amplitude = amplitudes.of(channel, frequency);
-                let measured = response(&at_rest, channel, frequency, amplitude, gravity_turns);
-                progress();
-                measured
-            };
-            tests.par_iter().map(measure).collect()
-        };
-        Ok(Measured { test: all(amplitudes), small: all(amplitudes.scaled(SMALL)) })
-    }
-
-    /// Number of tests.
-    pub const TESTS: u64 = 2 * 6 * 12;
 }
 
 /// Runs the command.

@@ -4,7 +4,6 @@
 //! and [`table`] prints the table.
 
 pub mod channel;
-pub mod host;
 pub mod table;
 pub mod targets;
 
@@ -25,6 +24,7 @@ use crate::simulate::{Outcome, bounds};
 use crate::status::WORSE;
 use channel::{ChannelFigures, channels};
 use host::{Host, Inputs};
+pub use moris_analysis::host;
 use targets::Targets;
 
 /// Measure recordings channel by channel and say which targets are missed

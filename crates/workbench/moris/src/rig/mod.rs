@@ -1,17 +1,6 @@
-//! `moris rig`: looks at a platform.
-//!
-//! - [`new`] writes a rig file.
-//! - [`survey`] gathers what there is to know of a rig.
-//! - [`workspace`] measures where it can go.
-//! - [`picture`] draws it.
+//! `moris rig`: looks at a platform, by [`moris_analysis::rig`]; [`new`] writes a rig file.
 
 pub mod new;
-pub mod picture;
-mod section;
-pub mod survey;
-mod svg;
-mod view;
-pub mod workspace;
 
 use std::fs;
 use std::io::{Write, stdin};
@@ -19,6 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
+pub use moris_analysis::rig::{picture, survey, workspace};
 use moris_setup::load_rig;
 
 use survey::Survey;

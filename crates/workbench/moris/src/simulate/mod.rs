@@ -9,15 +9,11 @@
 //! - [`page`] makes the report, with a `simulator` in it; [`index`] lists the reports
 //!   of several recordings.
 
-pub mod bounds;
 mod command_line;
 pub mod index;
 pub mod json;
 pub mod output_table;
-pub mod page;
-pub(crate) mod simulator;
 pub mod summary;
-pub(crate) mod vehicle;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -26,13 +22,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
-use moris_simulation::Evaluated;
-use moris_simulation::advice::Advice;
 use moris_simulation::foreign::ForeignMotion;
-use moris_simulation::preview::{Previewer, parse_seconds};
-use moris_washout::Parameters;
+use moris_simulation::preview::parse_seconds;
 use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
@@ -41,7 +33,11 @@ use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, sourc
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
 use crate::washout_fmu::WashoutFmu;
-pub use bounds::AxisBound;
+pub use moris_analysis::bounds::{self, AxisBound};
+pub use moris_analysis::outcome::Outcome;
+use moris_analysis::outcome::listed;
+pub use moris_analysis::page;
+pub(crate) use moris_analysis::page::{simulator, vehicle};
 pub use moris_simulation::findings::{fit, fits_the_rig, is_better_than_rest};
 pub use moris_simulation::{Simulation, measures};
 
@@ -114,109 +110,6 @@ pub struct Options {
 
     #[command(flatten)]
     conventions: ConventionOptions,
-}
-
-/// A simulation with one set of parameters, and its measures.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// The rig and the parameters.
-    pub setup: Setup,
-    /// All inputs and outputs.
-    pub simulation: Simulation,
-    /// The measures.
-    pub measures: Measures,
-    /// The bound, axis by axis; none without a desired signal or if not requested.
-    pub bounds: Axes<Option<AxisBound>>,
-    /// Another scale; none where the shape needs none, or it was not computed.
-    pub advice: Option<Advice>,
-}
-
-impl Outcome {
-    /// Simulates and measures. `progress` is called after each sample.
-    ///
-    /// # Errors
-    /// The parameters cannot be used.
-    pub fn of(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
-        Self::previewed(recording, setup, 0.0, progress)
-    }
-
-    /// As [`Outcome::of`] with a preview of the recording of so many seconds.
-    ///
-    /// # Errors
-    /// As [`Outcome::of`].
-    pub fn previewed(recording: &Recording, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
-        let parameters = recording.parameters(&setup.parameters);
-        let previewer = (seconds > 0.0).then(|| Previewer::new(recording.inputs(), recording.step(), seconds));
-        Outcome::with(recording, setup, &parameters, previewer, progress)
-    }
-
-    /// As [`Outcome::of`] with a preview that is learned by the recording's position.
-    ///
-    /// # Errors
-    /// As [`Outcome::of`], or the recording has no position.
-    pub fn learned(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
-        let parameters = recording.parameters(&setup.parameters);
-        Outcome::with(recording, setup, &parameters, Some(recording.learned()?), progress)
-    }
-
-    fn with(
-        recording: &Recording,
-        setup: &Setup,
-        parameters: &Parameters,
-        previewer: Option<Previewer>,
-        progress: impl FnMut(),
-    ) -> Result<Self> {
-        Outcome::measured(Simulation::previewed(&recording.replay(), parameters, previewer, progress)?, setup)
-    }
-
-    /// Judges motion that another washout computed, under its name.
-    ///
-    /// # Errors
-    /// The motion does not fit the recording, or cannot be meant.
-    pub fn foreign(
-        recording: &Recording,
-        setup: &Setup,
-        name: &str,
-        motion: &ForeignMotion,
-        notes: Vec<String>,
-    ) -> Result<Self> {
-        let parameters = recording.parameters(&setup.parameters);
-        let simulation = motion.simulation(recording.inputs(), recording.step(), &parameters, notes)?;
-        Outcome::measured(simulation, &Setup { parameters_name: name.to_owned(), ..setup.clone() })
-    }
-
-    /// With the scale that the recording needs, where it is felt the wrong way round.
-    ///
-    /// # Errors
-    /// The parameters cannot be used.
-    pub fn advised(mut self, recording: &Recording, preview: f64) -> Result<Self> {
-        self.advice = Advice::of(&recording.manoeuvre, &self.setup.parameters, preview, &self.measures.shape)?;
-        Ok(self)
-    }
-
-    /// Measures a simulation with this setup's rig.
-    ///
-    /// # Errors
-    /// The simulation has too few samples.
-    pub fn measured(simulation: Simulation, setup: &Setup) -> Result<Self> {
-        let measures = measures(&simulation)?;
-        let setup = Setup { parameters: simulation.parameters, ..setup.clone() };
-        Ok(Outcome { setup, simulation, measures, bounds: Axes::default(), advice: None })
-    }
-
-    /// The simulation with its measures and the bounds' errors.
-    pub fn evaluated(&self) -> Evaluated<'_> {
-        let bounds = self.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error));
-        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds, advice: self.advice }
-    }
-
-    /// The bounds of its recording on its rig.
-    ///
-    /// # Errors
-    /// The recording is too short, or the solver fails.
-    pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>> {
-        bounds::bounds(&self.simulation).context("cannot compute the bound (--no-bound omits it)")
-    }
 }
 
 /// Simulates the recordings.
@@ -422,17 +315,11 @@ fn outcomes(recording: &Recording, cases: &[Case], with_bounds: bool, progress: 
             let is_same = |other: &&Outcome| other.setup.parameters == outcomes[index].setup.parameters;
             outcomes[index].bounds = match outcomes[..index].iter().find(is_same) {
                 Some(same) => same.bounds.clone(),
-                None => outcomes[index].bounds()?,
+                None => outcomes[index].bounds().context("cannot compute the bound (--no-bound omits it)")?,
             };
         }
     }
     Ok(outcomes)
-}
-
-/// Names in a row, those with a comma in quotes.
-pub(crate) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let quoted = |name: &str| if name.contains(',') { format!("\"{name}\"") } else { name.to_owned() };
-    names.map(quoted).collect::<Vec<_>>().join(", ")
 }
 
 /// File name of the outputs with one of the setups: the recording's for the first, with the

@@ -1,26 +1,13 @@
-//! `moris tune`: finds better parameters for a set of recordings.
-//!
-//! - [`space`] defines the search variables, [`cost`] the objective.
-//! - [`search`](mod@search) minimises the objective in long internal steps.
-//! - [`tuner`] simulates the result with the internal steps that it will be used with.
-//! - [`tested`] tests the result on recordings that it was not tuned on.
-//! - [`summary`] summarises the result.
+//! `moris tune`: finds better parameters for a set of recordings, by [`moris_analysis::tune`].
 
-pub mod cost;
-pub mod folds;
 mod options;
-pub mod search;
-pub mod space;
-pub mod summary;
-pub mod tested;
-pub mod tuner;
 
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::{ExitCode, exit};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -34,6 +21,7 @@ use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE;
 use crate::votes;
 use cost::Objective;
+pub use moris_analysis::tune::{cost, folds, search, space, summary, tested, tuner};
 pub use options::Options;
 use search::Budget;
 use space::Space;
@@ -61,12 +49,18 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         evaluate: &search::evaluate_here,
         observe: &|_, _, _| true,
         interrupted: listen()?,
-        bar,
+        tried: AtomicUsize::new(0),
+        show: &|tried, text| {
+            bar.set_position(tried as u64);
+            if let Some(text) = text {
+                bar.set_message(text.to_owned());
+            }
+        },
     };
     let everything: Vec<&Objective> = tuned_on.iter().collect();
     let Tested { setup: tuned, results, fraction } =
         tune_tested(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &folds)?;
-    tuner.bar.finish_and_clear();
+    bar.finish_and_clear();
     save(options, &before, &tuned, &summary::first_line(&results, fraction))?;
 
     let text = summary::text(&before, &tuned, &results, fraction, tuner.was_interrupted());

@@ -29,5 +29,5 @@ pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::{escaped, html};
 pub use run::{felt_chart, run};
-pub use simulator::{Parameter, ParameterKind, Simulator};
+pub use simulator::{MODULE, Parameter, ParameterKind, Simulator};
 pub use thinning::Thinning;

@@ -4,6 +4,9 @@ use serde::Serialize;
 
 use crate::report::encode::{bytes, exact};
 
+/// The WebAssembly of the report's page, `modules/simulation.rs`; empty where it was not compiled.
+pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
+
 /// The simulation as WebAssembly, the recording's inputs, and the parameters to choose from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Simulator {

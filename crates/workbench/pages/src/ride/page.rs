@@ -24,6 +24,9 @@ const SCRIPTS: [&str; 5] = [
     include_str!("../../page/ride/main.js"),
 ];
 
+/// The WebAssembly of the ride, `modules/ride.rs`; empty where it was not compiled.
+pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
+
 /// Parts of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct Page {

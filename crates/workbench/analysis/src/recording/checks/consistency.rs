@@ -6,7 +6,6 @@
 
 use std::f64::consts::TAU;
 
-use clap::ValueEnum;
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 
@@ -157,15 +156,15 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
     };
     if of_others {
         // Feet are too near to km/h.
-        let speeds = SpeedUnit::value_variants().iter().filter(|unit| **unit != SpeedUnit::FootPerSecond);
+        let speeds = SpeedUnit::ALL.iter().filter(|unit| **unit != SpeedUnit::FootPerSecond);
         consider(Quantity::Speed, speeds.map(|unit| unit.unit()).collect(), |given, other| given / other);
         if conventions.gravity == Gravity::Removed {
-            let forces = ForceUnit::value_variants().iter().map(|unit| unit.unit()).collect();
+            let forces = ForceUnit::ALL.iter().map(|unit| unit.unit()).collect();
             consider(Quantity::Force(0), forces, |given, other| other / given);
         }
     }
     if of_time {
-        let times = TimeUnit::value_variants().iter().map(|unit| unit.unit()).collect();
+        let times = TimeUnit::ALL.iter().map(|unit| unit.unit()).collect();
         consider(Quantity::Time, times, |given, other| other / given);
     }
     let nearest =

@@ -1,6 +1,5 @@
 //! Columns that a header lacks.
 
-use clap::ValueEnum;
 use moris_setup::nearest;
 
 use super::{Header, Quantity, Term};
@@ -36,7 +35,7 @@ impl Header {
     /// The reason for a refusal where quantities have no column.
     pub(super) fn missing(&self, missing: &[Quantity], conventions: &Conventions) -> String {
         let names: Vec<&str> = missing.iter().map(|&quantity| conventions.column(quantity)).collect();
-        if let Some(&format) = Format::value_variants().iter().find(|&&format| self.is_of(format)) {
+        if let Some(&format) = Format::ALL.iter().find(|&&format| self.is_of(format)) {
             let names = names.into_iter().map(quoted).collect::<Vec<_>>().join(", ");
             let (title, remedy) = (format.title(), given("format", format.word()));
             return format!("this looks like a recording of {title}; use {remedy} (there is no column {names})");

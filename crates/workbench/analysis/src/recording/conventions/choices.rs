@@ -4,12 +4,21 @@
 macro_rules! choices {
     ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
         $(#[$attribute])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Deserialize, schemars::JsonSchema)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
+        #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
         pub enum $name {
-            $( $(#[doc = $text])+ #[value(name = $word)] #[serde(rename = $word)] $item, )+
+            $( $(#[doc = $text])+ #[cfg_attr(feature = "clap", value(name = $word))] #[serde(rename = $word)] $item, )+
         }
 
         impl $name {
+            /// All items, in their order.
+            pub const ALL: &[$name] = &[$( $name::$item, )+];
+
+            /// The item's meaning, in its first line.
+            pub fn meaning(self) -> &'static str {
+                match self { $( $name::$item => [$($text),+][0].trim(), )+ }
+            }
+
             /// Word for it on the command line.
             pub fn word(self) -> &'static str {
                 match self { $( $name::$item => $word, )+ }

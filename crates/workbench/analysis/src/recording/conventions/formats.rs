@@ -1,7 +1,5 @@
 //! Formats of public loggers: conventions by name.
 
-use clap::ValueEnum;
-
 use super::{ConventionOptions, Quantity, choices};
 
 choices! {
@@ -57,9 +55,8 @@ impl Format {
     }
 
     /// Name of the logger.
-    pub fn title(self) -> String {
-        let help = self.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
-        help.and_then(|help| help.split(',').next().map(str::to_owned)).unwrap_or_else(|| self.word().to_owned())
+    pub fn title(self) -> &'static str {
+        self.meaning().split(',').next().unwrap_or(self.word())
     }
 
     /// The format's name of a quantity's column.
@@ -87,7 +84,7 @@ mod tests {
 
     #[test]
     fn every_format_names_what_a_recording_needs() {
-        for format in Format::value_variants() {
+        for format in Format::ALL {
             let conventions = format.options().load().unwrap();
             assert!(conventions.columns.len() >= 7, "{}", format.word());
             assert!(!format.title().contains(',') && format.title() != "", "{}", format.word());

@@ -14,12 +14,13 @@ use super::{
 use crate::recording::message::{Dialect, RecordingError};
 
 /// Options that describe a recording.
-#[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-#[command(next_help_heading = "Columns of the recording")]
+#[cfg_attr(feature = "clap", command(next_help_heading = "Columns of the recording"))]
 pub struct ConventionOptions {
     /// Conventions of a logger, which the other options override
-    #[arg(long, value_name = "NAME")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NAME"))]
     pub format: Option<Format>,
 
     /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
@@ -28,88 +29,88 @@ pub struct ConventionOptions {
     /// A number scales a column: "ax=counts_x / 16384".
     /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
     /// Upper and lower case are the same
-    #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name))]
     #[serde(deserialize_with = "columns_of_table")]
     #[schemars(with = "BTreeMap<String, String>")]
     pub columns: Vec<(Quantity, String)>,
 
     /// Unit of time [default: the header's, otherwise s]
-    #[arg(long, value_name = "UNIT")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT"))]
     pub time_unit: Option<TimeUnit>,
 
     /// Unit of ax ay az [default: the header's, otherwise m/s2]
-    #[arg(long, value_name = "UNIT")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT"))]
     pub force_unit: Option<ForceUnit>,
 
     /// Unit of wx wy wz [default: the header's, otherwise rad/s]
-    #[arg(long, value_name = "UNIT")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT"))]
     pub rate_unit: Option<RateUnit>,
 
     /// Unit of roll pitch yaw and lean [default: the header's, otherwise rad]
-    #[arg(long, value_name = "UNIT")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT"))]
     pub angle_unit: Option<AngleUnit>,
 
     /// Unit of speed [default: the header's, otherwise m/s]
-    #[arg(long, value_name = "UNIT")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT"))]
     pub speed_unit: Option<SpeedUnit>,
 
     /// Unit of x y [default: the header's, otherwise m]
-    #[arg(long, value_name = "UNIT")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT"))]
     pub length_unit: Option<LengthUnit>,
 
     /// Presence of gravity's reaction in ax ay az, as an accelerometer reads it [default: included]
-    #[arg(long, value_name = "GRAVITY")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "GRAVITY"))]
     pub gravity: Option<Gravity>,
 
     /// Directions of x, y and z [default: forward-left-up]
-    #[arg(long, value_name = "AXES")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "AXES"))]
     pub axes: Option<Axes>,
 
     /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
     /// gravity, bends and accelerations, and from the speed where there is one
-    #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true))]
     #[schemars(with = "Option<Written>")]
     pub mounting: Option<Mounting>,
 
     /// The axes of wx wy wz [default: body]
-    #[arg(long, value_name = "AXES")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "AXES"))]
     pub rate_frame: Option<RateFrame>,
 
     /// Fields that are empty [default: error]
-    #[arg(long, value_name = "EMPTY")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "EMPTY"))]
     pub empty_fields: Option<EmptyFields>,
 
     /// Columns of ay az wx wy wz that a recording lacks [default: error]
-    #[arg(long, value_name = "MISSING")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "MISSING"))]
     pub missing: Option<Missing>,
 
     /// The lap of a recording whose time starts again with each, from 1
-    #[arg(long, value_name = "NUMBER")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER"))]
     pub lap: Option<f64>,
 
     /// Read the vehicle's position, the columns x and y in fixed axes; --learn does so, too
-    #[arg(long)]
+    #[cfg_attr(feature = "clap", arg(long))]
     pub position: bool,
 
     /// Interpolate over a logger's error values and isolated spikes
-    #[arg(long)]
+    #[cfg_attr(feature = "clap", arg(long))]
     pub repair: bool,
 
     /// Samples a second of a recording without a column of time, or in place of its times
-    #[arg(long, value_name = "HERTZ")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "HERTZ"))]
     pub rate: Option<f64>,
 
     /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
-    #[arg(long, value_name = "HERTZ")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "HERTZ"))]
     pub resample: Option<f64>,
 
     /// Fade in a recording that does not begin at rest, over this time
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "SECONDS", allow_negative_numbers = true))]
     pub fade_in: Option<f64>,
 
     /// TOML file with these options by the same names (force-unit = "g"), the names of
     /// columns under columns
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
     #[serde(skip)]
     pub conventions: Option<PathBuf>,
 }
@@ -218,6 +219,7 @@ impl ConventionOptions {
 }
 
 /// `key=name` of an option.
+#[cfg(feature = "clap")]
 fn column_name(text: &str) -> Result<(Quantity, String), String> {
     let (key, name) = text.split_once('=').ok_or("write KEY=NAME, as in ax=accel_x")?;
     Ok((Quantity::of_key(key.trim())?, name.trim().to_owned()))

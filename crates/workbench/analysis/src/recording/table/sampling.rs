@@ -6,7 +6,6 @@ use std::f64::consts::TAU;
 use super::Table;
 use super::interpolation::{orientations, places, values};
 use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
-use clap::ValueEnum;
 use moris_interface::shown;
 
 use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
@@ -48,7 +47,7 @@ fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let reason = if usual > COARSEST {
         format!("too coarse for a washout; if time is in ms or another unit, give it with {}", named("time-unit"))
     } else if usual < FINEST {
-        let others = TimeUnit::value_variants().iter().map(|other| other.unit());
+        let others = TimeUnit::ALL.iter().map(|other| other.unit());
         let rate = |other: Unit| unit.in_si / (usual * other.in_si);
         let fits = |other: &Unit| (4.0..=2000.0).contains(&rate(*other));
         let fitting: Vec<String> = others

@@ -1,0 +1,28 @@
+//! Analysis of recordings on a rig: what the command and the Python package share.
+//!
+//! - [`recording`] reads recordings and checks them.
+//! - [`outcome`] is a recording on a rig with one set of parameters; [`bounds`] the least possible
+//!   errors, [`host`] the steps and inputs of another host.
+//! - [`washout_fmu`] steps another washout's FMU through a recording.
+//! - [`tune`] finds better parameters.
+//! - [`rig`] surveys a platform and draws it.
+//! - [`frequency_response`] measures the whole washout's.
+//! - [`page`] makes the report's page.
+//!
+//! There is no command line here, no terminal and no socket: nothing is printed. The feature `clap`
+//! lets the types that options have be parsed.
+
+#![forbid(unsafe_code)]
+
+pub mod bounds;
+pub mod frequency_response;
+pub mod host;
+pub mod option_values;
+pub mod outcome;
+pub mod page;
+pub mod random;
+pub mod recording;
+pub mod rig;
+pub mod text_table;
+pub mod tune;
+pub mod washout_fmu;

@@ -1,0 +1,123 @@
+//! A recording on a rig with one set of parameters: the simulation, its measures and bounds.
+
+use anyhow::Result;
+use moris_measures::bound::BoundError;
+use moris_measures::{Axes, Measures};
+use moris_setup::Setup;
+use moris_simulation::advice::Advice;
+use moris_simulation::foreign::ForeignMotion;
+use moris_simulation::preview::Previewer;
+use moris_simulation::{Evaluated, Simulation, measures};
+use moris_washout::Parameters;
+
+use crate::bounds::{AxisBound, bounds};
+use crate::recording::Recording;
+
+/// A simulation with one set of parameters, and its measures.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The rig and the parameters.
+    pub setup: Setup,
+    /// All inputs and outputs.
+    pub simulation: Simulation,
+    /// The measures.
+    pub measures: Measures,
+    /// The bound, axis by axis; none without a desired signal or if not requested.
+    pub bounds: Axes<Option<AxisBound>>,
+    /// Another scale; none where the shape needs none, or it was not computed.
+    pub advice: Option<Advice>,
+}
+
+impl Outcome {
+    /// Simulates and measures. `progress` is called after each sample.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn of(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+        Self::previewed(recording, setup, 0.0, progress)
+    }
+
+    /// As [`Outcome::of`] with a preview of the recording of so many seconds.
+    ///
+    /// # Errors
+    /// As [`Outcome::of`].
+    pub fn previewed(recording: &Recording, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
+        let parameters = recording.parameters(&setup.parameters);
+        let previewer = (seconds > 0.0).then(|| Previewer::new(recording.inputs(), recording.step(), seconds));
+        Outcome::with(recording, setup, &parameters, previewer, progress)
+    }
+
+    /// As [`Outcome::of`] with a preview that is learned by the recording's position.
+    ///
+    /// # Errors
+    /// As [`Outcome::of`], or the recording has no position.
+    pub fn learned(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+        let parameters = recording.parameters(&setup.parameters);
+        Outcome::with(recording, setup, &parameters, Some(recording.learned()?), progress)
+    }
+
+    fn with(
+        recording: &Recording,
+        setup: &Setup,
+        parameters: &Parameters,
+        previewer: Option<Previewer>,
+        progress: impl FnMut(),
+    ) -> Result<Self> {
+        Outcome::measured(Simulation::previewed(&recording.replay(), parameters, previewer, progress)?, setup)
+    }
+
+    /// Judges motion that another washout computed, under its name.
+    ///
+    /// # Errors
+    /// The motion does not fit the recording, or cannot be meant.
+    pub fn foreign(
+        recording: &Recording,
+        setup: &Setup,
+        name: &str,
+        motion: &ForeignMotion,
+        notes: Vec<String>,
+    ) -> Result<Self> {
+        let parameters = recording.parameters(&setup.parameters);
+        let simulation = motion.simulation(recording.inputs(), recording.step(), &parameters, notes)?;
+        Outcome::measured(simulation, &Setup { parameters_name: name.to_owned(), ..setup.clone() })
+    }
+
+    /// With the scale that the recording needs, where it is felt the wrong way round.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn advised(mut self, recording: &Recording, preview: f64) -> Result<Self> {
+        self.advice = Advice::of(&recording.manoeuvre, &self.setup.parameters, preview, &self.measures.shape)?;
+        Ok(self)
+    }
+
+    /// Measures a simulation with this setup's rig.
+    ///
+    /// # Errors
+    /// The simulation has too few samples.
+    pub fn measured(simulation: Simulation, setup: &Setup) -> Result<Self> {
+        let measures = measures(&simulation)?;
+        let setup = Setup { parameters: simulation.parameters, ..setup.clone() };
+        Ok(Outcome { setup, simulation, measures, bounds: Axes::default(), advice: None })
+    }
+
+    /// The simulation with its measures and the bounds' errors.
+    pub fn evaluated(&self) -> Evaluated<'_> {
+        let bounds = self.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error));
+        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds, advice: self.advice }
+    }
+
+    /// The bounds of its recording on its rig.
+    ///
+    /// # Errors
+    /// The recording is too short, or the solver fails.
+    pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>, BoundError> {
+        bounds(&self.simulation)
+    }
+}
+
+/// Names in a row, those with a comma in quotes.
+pub fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let quoted = |name: &str| if name.contains(',') { format!("\"{name}\"") } else { name.to_owned() };
+    names.map(quoted).collect::<Vec<_>>().join(", ")
+}
