@@ -550,8 +550,12 @@ impl Session {
         }
         self.adjust_delay();
         if let Some(parameters) = self.tuning.advance(self.steps) {
+            let safety = tuning::with_room(&parameters, &self.washout);
+            if safety != parameters.safety {
+                self.tuning.go_on();
+            }
             // Values on the way may be refused where both ends are not: the next ones follow.
-            let _ = self.washout.retune(&parameters);
+            let _ = self.washout.retune(&Parameters { safety, ..parameters });
         }
         self.learn_road(now - STEP - self.delay);
         let (at, change) = self.input(now);

@@ -1,7 +1,8 @@
 //! Parameters that glide to chosen values within about 2 s.
 
 use moris_interface::{Group as _, Kind, Reader, refuse};
-use moris_washout::{ParameterError, Parameters};
+use moris_washout::interface::SafetyParameters;
+use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::log::name_of;
 
@@ -9,6 +10,11 @@ use crate::log::name_of;
 const INTERVAL: u64 = 40;
 /// Part of the way that each of two lags goes in an interval: 98 % are gone after 2 s.
 const PART: f64 = 0.108;
+/// Parts of new limits within which the platform must be before they come into force.
+const INSIDE: f64 = 0.8;
+/// Least pace with which a limit is approached \[1/s\], where the soft limits have none.
+const SLOWEST: f64 = 1.0;
+
 /// Part of a value by which it may still differ when it becomes the chosen one.
 const NEAR: f64 = 1e-3;
 
@@ -47,6 +53,11 @@ impl Tuning {
         self.glides = true;
     }
 
+    /// Goes on, because not all values could come into force.
+    pub fn go_on(&mut self) {
+        self.glides = true;
+    }
+
     /// The parameters after this step, if they change then.
     pub fn advance(&mut self, step: u64) -> Option<Parameters> {
         if !self.glides || !step.is_multiple_of(INTERVAL) {
@@ -73,6 +84,32 @@ impl Tuning {
         }
         Some(Parameters::read(&mut Reader::new(&self.value)))
     }
+}
+
+/// The safety units' limits of these parameters. On an axis where the platform is beyond smaller
+/// ones, or too fast to stay within them gently, those in force stay.
+pub fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
+    let (before, mut safety) = (&washout.parameters().safety, parameters.safety);
+    let motion = washout.motion();
+    let neutral = washout.parameters().rig.neutral_height;
+    let pace = parameters.soft_limit.pace.max(SLOWEST);
+    for k in 0..3 {
+        let far = (motion.position[k] - if k == 2 { neutral } else { 0.0 }).abs();
+        let [speed, change] = [motion.velocity[k].abs(), motion.acceleration[k].abs()];
+        let fits = far + speed / pace <= INSIDE * safety.position_limit[k]
+            && speed <= INSIDE * safety.velocity_limit[k]
+            && change.max(pace * speed) <= INSIDE * safety.acceleration_limit[k];
+        // Those that have waited glide, too.
+        let least = if fits { 1.0 - PART } else { 1.0 };
+        for (limit, old) in [
+            (&mut safety.position_limit[k], before.position_limit[k]),
+            (&mut safety.velocity_limit[k], before.velocity_limit[k]),
+            (&mut safety.acceleration_limit[k], before.acceleration_limit[k]),
+        ] {
+            *limit = limit.max(least * old);
+        }
+    }
+    safety
 }
 
 /// A value that has gone a part of the way to another.

@@ -91,3 +91,45 @@ fn other_signs_and_switches_are_refused_in_motion_with_the_reason() {
         session.retune().unwrap();
     }
 }
+
+#[test]
+fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
+    let all = packets(40.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    });
+    let limits = [("position", 0.074, 0.74), ("velocity", 0.2, 2.0), ("acceleration", 2.0, 20.0)];
+    let limits = limits.map(|(name, low, high)| {
+        let slots = ["x", "y", "z"].map(|axis| slot_of(&format!("safety.{axis}.{name}Limit")).unwrap());
+        (slots, low, high)
+    });
+    let mut seed = 1_u64;
+    let mut coin = move || {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        seed.is_multiple_of(2)
+    };
+    for ride in 0..8 {
+        let (session, course) = course(&Parameters::default(), &Settings::default(), &all, 39.0, |session| {
+            let step = (session.time() / STEP).round() as u64;
+            if session.time() < 18.0 || !step.is_multiple_of(40) {
+                return;
+            }
+            for (slots, low, high) in &limits {
+                for slot in slots {
+                    if coin() {
+                        continue;
+                    }
+                    let is_low = session.time() > 26.0 || coin();
+                    session.choose(*slot, if is_low { *low } else { *high });
+                }
+            }
+            session.retune().unwrap();
+        });
+        let jolt = course.jolt(17.0, 38.0);
+        assert!(jolt <= 1.0, "ride {ride}: {jolt:.2} m/s2");
+        let safety = session.washout().parameters().safety;
+        let sums = [safety.position_limit, safety.velocity_limit, safety.acceleration_limit].map(|limit| limit.sum());
+        assert!(sums.iter().zip(&limits).all(|(sum, (_, low, _))| (sum - 3.0 * low).abs() < 1e-9), "{safety:?}");
+    }
+}

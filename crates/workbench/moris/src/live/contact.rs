@@ -32,6 +32,11 @@ impl Contact {
         (self.failures, self.is_lost) = (0, false);
     }
 
+    /// It has been without frames for so long that it may be anywhere.
+    pub fn lose(&mut self) {
+        self.is_lost = true;
+    }
+
     /// True while it is lost.
     pub fn is_lost(&self) -> bool {
         self.is_lost

@@ -3,6 +3,8 @@
 #[cfg(feature = "serial")]
 use std::cell::RefCell;
 use std::fmt::{self, Display, Formatter};
+#[cfg(feature = "serial")]
+use std::io::Read as _;
 use std::io::{self, ErrorKind, Write, stdout};
 use std::net::UdpSocket;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,9 +18,12 @@ use moris_live::moog::Moog;
 use moris_live::motion::turns;
 use moris_live::{Commands, Event, STEP, State};
 use rtrb::{Consumer, Producer};
+#[cfg(feature = "serial")]
+use serialport::SerialPort as _;
 
 use super::contact::Contact;
 use super::lateness::Lateness;
+use super::lines::Lines;
 use super::page::Order;
 use super::watch::Part;
 use super::wire::Wire;
@@ -71,10 +76,24 @@ pub enum Loss {
     Device,
 }
 
+/// Time without frames after which a controller may have gone anywhere, whatever its time-out
+/// \[s\].
+const LONG_GAP: f64 = 2.0;
+
+impl Loss {
+    /// True if the legs may be anywhere after it.
+    pub fn is_of_place(self) -> bool {
+        !matches!(self, Loss::Gap(time) if time < LONG_GAP)
+    }
+}
+
 impl Display for Loss {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Loss::Refused(kind) => write!(f, "CONTROLLER LOST: it takes no frames: {kind}. Repair it, then clear"),
+            Loss::Gap(time) if *time >= LONG_GAP => {
+                write!(f, "CONTROLLER LOST: no frame has left for {time:.0} s. Look where the legs are, then clear")
+            }
             Loss::Gap(time) => write!(f, "CONTROLLER LOST: no frame has left for {time:.2} s, its time-out. Clear it"),
             Loss::Device => write!(f, "CONTROLLER LOST: it reports a fault, or does not answer. Repair it, then clear"),
         }
@@ -238,11 +257,29 @@ impl Sink {
         bail!("moris was built without serial lines; build it with --features serial")
     }
 
-    /// A packet that a device has sent, if there is one; only after [`Sink::listen`].
+    /// A packet that a device has sent, if there is one; only after [`Sink::listen`]. Of a line,
+    /// some bytes.
     fn receive<'a>(&self, packet: &'a mut [u8]) -> Option<&'a [u8]> {
-        let Sink::Udp(socket) = self else { return None };
-        let length = socket.recv(packet).ok()?;
+        let length = match self {
+            Sink::Udp(socket) => socket.recv(packet).ok()?,
+            #[cfg(feature = "serial")]
+            Sink::Serial(port) => {
+                let mut port = port.borrow_mut();
+                // A read of nothing would wait.
+                let waiting = port.bytes_to_read().ok()?.min(packet.len() as u32) as usize;
+                port.read(&mut packet[..waiting]).ok().filter(|length| *length > 0)?
+            }
+            _ => return None,
+        };
         Some(&packet[..length])
+    }
+
+    /// True for a way on which answers are lines, in parts as they come.
+    fn is_line(&self) -> bool {
+        #[cfg(feature = "serial")]
+        return matches!(self, Sink::Serial(_));
+        #[cfg(not(feature = "serial"))]
+        false
     }
 
     /// Lets [`Sink::receive`] not wait.
@@ -410,6 +447,8 @@ pub struct Sender<'a> {
     sent: Sent,
     /// Time of the last question for the legs' lengths.
     asked: Option<Duration>,
+    /// Answers on a serial line.
+    answers: Lines,
 }
 
 /// Time between questions for the legs' lengths.
@@ -442,6 +481,7 @@ impl<'a> Sender<'a> {
             last: Values::default(),
             sent: Sent::default(),
             asked: None,
+            answers: Lines::default(),
         }
     }
 
@@ -508,9 +548,15 @@ impl<'a> Sender<'a> {
                 && let Some(gap) = self.wire.gap(now)
             {
                 self.sent.gap = self.sent.gap.max(gap);
-                if self.time_out.is_some_and(|time_out| gap >= time_out) {
+                let loss = Loss::Gap(gap.as_secs_f64());
+                let is_long = loss.is_of_place() && !matches!(self.sink, Sink::Dry);
+                if is_long || self.time_out.is_some_and(|time_out| gap >= time_out) {
                     self.wire.lose();
-                    self.report(Loss::Gap(gap.as_secs_f64()));
+                    self.report(loss);
+                }
+                if is_long {
+                    self.contact.lose();
+                    return None;
                 }
             }
             values = self.wire.pass(now, &values);
@@ -549,8 +595,15 @@ impl<'a> Sender<'a> {
             // A controller that is not there is seen by its frames.
             let _ = self.sink.send(&self.bytes);
         }
-        while let Some(lengths) = self.sink.receive(packet).and_then(reported) {
-            let _ = self.orders.push(Order::Report(lengths));
+        let is_line = self.sink.is_line();
+        while let Some(answer) = self.sink.receive(packet) {
+            let orders = &mut self.orders;
+            let mut take = |answer: &[u8]| {
+                if let Some(lengths) = reported(answer) {
+                    let _ = orders.push(Order::Report(lengths));
+                }
+            };
+            if is_line { self.answers.take(answer, take) } else { take(answer) }
         }
     }
 

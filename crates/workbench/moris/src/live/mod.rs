@@ -27,6 +27,7 @@ mod controls;
 mod frames;
 mod journal;
 mod lateness;
+mod lines;
 mod occupied;
 mod pace;
 mod page;

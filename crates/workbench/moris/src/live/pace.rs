@@ -1,4 +1,5 @@
-//! The clock of the loop: monotonic, with absolute deadlines.
+//! The clock of the loop: monotonic, with absolute deadlines. On Linux it goes on while the
+//! computer sleeps, so that a gap in the frames is seen after it.
 
 use std::time::Duration;
 
@@ -6,7 +7,7 @@ use std::time::Duration;
 #[cfg(target_os = "linux")]
 pub fn now() -> Duration {
     use rustix::time::{ClockId, clock_gettime};
-    let time = clock_gettime(ClockId::Monotonic);
+    let time = clock_gettime(ClockId::Boottime);
     Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32)
 }
 
@@ -17,7 +18,7 @@ pub fn wait_until(time: Duration) {
     use rustix::time::{ClockId, Timespec};
     let deadline = Timespec { tv_sec: time.as_secs() as i64, tv_nsec: i64::from(time.subsec_nanos()) };
     // A signal ends the sleep early.
-    while clock_nanosleep_absolute(ClockId::Monotonic, &deadline).is_err() && now() < time {}
+    while clock_nanosleep_absolute(ClockId::Boottime, &deadline).is_err() && now() < time {}
 }
 
 /// Time since the clock's own beginning.

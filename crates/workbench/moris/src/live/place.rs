@@ -8,6 +8,9 @@ use moris_live::frame::{Encoder, Frames};
 const FRESH: f64 = 1.0;
 /// Time for which a start by itself waits for the first report \[s\].
 const PATIENCE: f64 = 0.5;
+/// Legs that have changed by less than this \[m\] over at least this time \[s\] are at rest.
+const STILL: f64 = 0.003;
+const REST: f64 = 0.3;
 /// Speed of a leg in a slow start, without another one \[m/s\].
 pub const SLOW_SPEED: f64 = 0.02;
 
@@ -27,6 +30,8 @@ pub struct LegPlace {
     asks: bool,
     /// The last report and its time \[s\].
     report: Option<(f64, [f64; 6])>,
+    /// The first report since which the legs have been at rest.
+    rest: Option<(f64, [f64; 6])>,
 }
 
 impl LegPlace {
@@ -44,6 +49,7 @@ impl LegPlace {
             slow_speed: slow_start.or(template.slow_start),
             asks: encoder.asks(),
             report: None,
+            rest: None,
         }
     }
 
@@ -70,22 +76,39 @@ impl LegPlace {
 
     /// True if a start by itself at this time \[s\] has nothing to wait for.
     pub fn is_ready(&self, now: f64) -> bool {
-        !self.wants_report() || now >= PATIENCE || self.report.is_some()
+        let waits = if self.report.is_some() { !self.is_at_rest() } else { now < PATIENCE };
+        !self.wants_report() || !waits
+    }
+
+    /// True if the reports say that the legs are at rest.
+    fn is_at_rest(&self) -> bool {
+        // With rounding of the times.
+        self.report.zip(self.rest).is_some_and(|((last, _), (first, _))| last - first >= 0.999 * REST)
+    }
+
+    /// True if a person has given the place for the next start.
+    pub fn is_given(&self) -> bool {
+        self.given.is_some()
     }
 
     /// The controller has reported these lengths \[m\].
     pub fn report(&mut self, now: f64, lengths: [f64; 6]) {
+        let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > STILL);
+        let was_long_ago = self.report.is_some_and(|(at, _)| now - at > FRESH);
+        if was_long_ago || self.rest.is_none_or(|(_, from)| moved(&from)) {
+            self.rest = Some((now, lengths));
+        }
         self.report = Some((now, lengths));
     }
 
     /// Sets the place for the next start, as a person has given it.
     pub fn give(&mut self, legs: Legs) {
-        self.given = Some(legs);
+        self.given = (!self.is_own).then_some(legs);
     }
 
-    /// The controller was lost: reports from before do not hold.
+    /// The controller was lost: what was known before does not hold.
     pub fn forget(&mut self) {
-        self.report = None;
+        (self.given, self.report, self.rest) = (None, None, None);
     }
 
     /// The place for a start at this time \[s\]. A place that a person has given holds once.
@@ -96,7 +119,8 @@ impl LegPlace {
         let fresh = self.report.filter(|(at, _)| now - at <= FRESH);
         match (self.given.take(), fresh) {
             (Some(given), _) => given,
-            (None, Some((_, lengths))) => Legs::Reported(lengths),
+            (None, Some((_, lengths))) if self.is_at_rest() => Legs::Reported(lengths),
+            (None, Some(_)) => Legs::Unknown,
             (None, None) if self.slow_speed.is_some() => Legs::Slow,
             (None, None) => Legs::Unknown,
         }
@@ -157,14 +181,34 @@ mod tests {
     fn a_report_holds_for_a_moment_and_what_a_person_has_seen_comes_first() {
         let mut place = of("csv", false, None);
         assert!(place.wants_report() && !place.is_ready(0.4) && place.is_ready(0.5));
+        place.report(0.0, [1.2; 6]);
         place.report(0.3, [1.2; 6]);
         assert!(place.is_ready(0.3));
         assert_eq!([place.take(1.2), place.take(1.4)], [Legs::Reported([1.2; 6]), Legs::Slow]);
         place.report(2.0, [1.2; 6]);
         place.forget();
         assert_eq!(place.take(2.1), Legs::Slow);
+        place.give(Legs::Settled);
+        place.forget();
+        assert_eq!(place.take(2.2), Legs::Slow);
         let mut place = of("csv", true, None);
-        assert!(!place.wants_report() && place.is_ready(0.0) && place.advice(0.6).is_none());
+        assert!(place.is_given() && !place.wants_report() && place.is_ready(0.0) && place.advice(0.6).is_none());
         assert_eq!([place.take(0.0), place.take(9.0)], [Legs::Settled, Legs::Slow]);
+    }
+
+    #[test]
+    fn legs_that_go_down_by_themselves_are_nowhere_until_they_rest() {
+        let mut place = of("csv", false, None);
+        let length = |k: u32| 1.5 - 0.02 * 0.2 * f64::from(k.min(20));
+        for k in 0..24 {
+            let now = 0.2 * f64::from(k);
+            place.report(now, [length(k); 6]);
+            let rests = k >= 22;
+            assert_eq!(place.is_ready(now), rests, "{now}");
+            assert_eq!(place.take(now), if rests { Legs::Reported([length(k); 6]) } else { Legs::Unknown });
+        }
+        // One report after a pause says nothing about speed.
+        place.report(20.0, [length(30); 6]);
+        assert_eq!(place.take(20.0), Legs::Unknown);
     }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use moris_live::log::{Digest, Entry, Happening};
 use moris_live::signs::{Check, Verdict};
 use moris_live::source::Health;
-use moris_live::{Event, Legs, STEP, Session, State};
+use moris_live::{Event, Legs, Refusal, STEP, Session, State};
 use rtrb::{Consumer, Producer};
 
 use super::Shared;
@@ -227,7 +227,7 @@ impl Steps<'_> {
                 self.is_lost &= !(is_obeyed && matches!(event, Event::Clear | Event::Start));
             }
             Order::Lost(loss) => {
-                self.is_lost = !matches!(loss, Loss::Gap(_));
+                self.is_lost = loss.is_of_place();
                 summary.loss = Some(loss);
                 self.note(Note::Lost(self.session.time(), loss), summary);
                 self.place.forget();
@@ -235,7 +235,7 @@ impl Steps<'_> {
                 self.ask(if self.is_lost { Event::Lost } else { Event::Fault }, summary);
             }
             Order::Report(lengths) => self.place.report(self.session.time(), lengths),
-            Order::Legs(legs) => self.place.give(legs),
+            Order::Legs(legs) => self.give(legs, summary),
             Order::Choose(slot, value) => {
                 self.record(Happening::Choice(slot, value), summary);
                 self.session.choose(usize::from(slot), value);
@@ -248,11 +248,23 @@ impl Steps<'_> {
         }
     }
 
+    /// Takes the place of the legs that a person gives for the next start. While they follow
+    /// commands it is none: it would be believed later, when they are somewhere else.
+    fn give(&mut self, legs: Legs, summary: &mut Summary) {
+        let state = self.session.state();
+        if self.session.is_located() && state != State::Off {
+            self.note(Note::Refused(self.session.time(), Refusal::Commanded(state)), summary);
+        } else {
+            self.place.give(legs);
+        }
+    }
+
     /// Asks for an event. True if it has an effect.
     fn ask(&mut self, event: Event, summary: &mut Summary) -> bool {
         let state = self.session.state();
         let moves = matches!(event, Event::Start | Event::Clear) && state.after(event) != state;
-        if moves && !self.session.is_located() {
+        let is_given = state == State::Off && self.place.is_given();
+        if moves && (is_given || !self.session.is_located()) {
             self.locate(summary);
         }
         self.record(Happening::Event(event), summary);

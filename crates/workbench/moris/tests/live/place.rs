@@ -79,9 +79,12 @@ fn a_controller_that_comes_back_reports_where_it_is() {
     let socket = UdpSocket::bind(address).unwrap();
     socket.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
     let mut packet = [0; 2000];
-    let (length, from) = socket.recv_from(&mut packet).unwrap();
-    assert_eq!(&packet[..length], b"legs?\n", "a frame before the fault is cleared");
-    socket.send_to(b"{\"legs\":[1.3,1.3,1.3,1.3,1.3,1.3]}", from).unwrap();
+    // Until they are known to be at rest.
+    for _ in 0..4 {
+        let (length, from) = socket.recv_from(&mut packet).unwrap();
+        assert_eq!(&packet[..length], b"legs?\n", "a frame before the fault is cleared");
+        socket.send_to(b"{\"legs\":[1.3,1.3,1.3,1.3,1.3,1.3]}", from).unwrap();
+    }
     thread::sleep(Duration::from_millis(100));
     live.command("clear");
     live.wait_for("legs: as the controller reports");
@@ -93,6 +96,57 @@ fn a_controller_that_comes_back_reports_where_it_is() {
         }
     };
     assert!(first.iter().all(|length| (length - 1.3).abs() < 2e-3), "{first:?}");
+    live.command("stop");
+    live.wait_for("off");
+    live.interrupt();
+    assert!(!live.end().0.success(), "the session was in a fault");
+}
+
+#[test]
+fn settled_is_no_place_while_the_legs_follow_commands() {
+    let directory = tempfile::tempdir().unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let to = format!("udp:{}", socket.local_addr().unwrap());
+    let arguments = ["--format", "csv", "--frames", "simtools", "--settled"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.command("start");
+    live.wait_for("homing");
+    live.command("settled");
+    live.wait_for("their place is given in the state off");
+    drop(socket);
+    live.wait_for("fault");
+    live.command("clear");
+    live.wait_for("or start slowly");
+    live.interrupt();
+    live.wait_for("off");
+    assert!(!live.end().0.success(), "the session was in a fault");
+}
+
+#[test]
+fn a_computer_that_has_slept_sends_no_frame_before_the_place_is_known() {
+    let directory = tempfile::tempdir().unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let to = format!("udp:{}", socket.local_addr().unwrap());
+    let arguments = ["--format", "csv", "--frames", "simtools", "--settled"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.command("start");
+    live.wait_for("homing");
+    live.signal("STOP");
+    thread::sleep(Duration::from_millis(2300));
+    socket.set_nonblocking(true).unwrap();
+    while socket.recv(&mut [0; 100]).is_ok() {}
+    live.signal("CONT");
+    live.wait_for("Look where the legs are, then clear");
+    live.wait_for("fault");
+    live.command("clear");
+    live.wait_for("or start slowly");
+    assert!(socket.recv(&mut [0; 100]).is_err(), "a frame before anybody knows where the legs are");
+    live.command("settled");
+    live.command("clear");
+    live.wait_for("legs: settled");
+    live.wait_for("homing");
     live.command("stop");
     live.wait_for("off");
     live.interrupt();

@@ -73,7 +73,12 @@ impl Live {
     }
 
     pub fn interrupt(&self) {
-        assert!(Command::new("kill").args(["-INT", &self.child.id().to_string()]).status().unwrap().success());
+        self.signal("INT");
+    }
+
+    pub fn signal(&self, name: &str) {
+        let [name, child] = [format!("-{name}"), self.child.id().to_string()];
+        assert!(Command::new("kill").args([name, child]).status().unwrap().success());
     }
 
     /// The exit status, what has been printed, and all frames.

@@ -1,7 +1,7 @@
 //! A controller on a serial line: the other end of a pseudo-terminal.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -89,4 +89,47 @@ fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
     assert!(positions.len() > 100);
     let last = &positions[positions.len() - 3..];
     assert!(last.iter().all(|position| (1_300..2_100).contains(position)), "{last:?}");
+}
+
+#[test]
+fn a_controller_reports_its_lengths_on_the_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let asking = TEMPLATE.replace("stop =", "ask = \"'legs?' 0A\"\nstop =");
+    std::fs::write(directory.path().join("amc.toml"), asking).unwrap();
+    let (mut master, line) = pair();
+    let controller = thread::spawn(move || {
+        let mut bytes = Vec::new();
+        let mut part = [0; 4096];
+        let (mut asked, mut frames_at) = (0, None);
+        while !bytes.ends_with(b"STOP\n") {
+            let count = master.read(&mut part).unwrap();
+            bytes.extend(&part[..count]);
+            let questions = bytes.windows(6).filter(|word| *word == b"legs?\n").count();
+            if frames_at.is_none() {
+                frames_at = bytes.windows(2).position(|head| head == [0xFF, 0xFF]);
+            }
+            for _ in asked..questions {
+                // In two parts, after some noise.
+                master.write_all(b"\xFE\r\nlegs,1.3,1.3,1.").unwrap();
+                thread::sleep(Duration::from_millis(30));
+                master.write_all(b"3,1.3,1.3,1.3\r\n").unwrap();
+            }
+            asked = questions;
+        }
+        let at = frames_at.unwrap();
+        bytes[at..at + 20].to_vec()
+    });
+    let to = format!("serial:{line}:250000");
+    let arguments = ["--format", "csv", "--frames", "amc.toml", "--engage"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.wait_for("legs: as the controller reports");
+    live.wait_for("homing");
+    live.interrupt();
+    live.wait_for("off");
+    assert!(live.end().0.success());
+    let first = controller.join().unwrap();
+    // In the middle of the stroke from 1.0 to 1.6 m.
+    let positions = first[2..14].chunks(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
+    assert!(positions.into_iter().all(|position| position.abs_diff(0x8000) < 200), "{first:?}");
 }
