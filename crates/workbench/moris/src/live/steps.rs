@@ -391,6 +391,13 @@ mod tests {
             }
         }
 
+        /// The controller reports these lengths for long enough.
+        fn report_at_rest(&mut self, lengths: [f64; 6]) {
+            self.obey(Order::Report(lengths));
+            (0..300).for_each(|_| _ = self.step());
+            self.obey(Order::Report(lengths));
+        }
+
         fn ask(&mut self, event: Event) {
             self.obey(Order::Event(event));
         }
@@ -471,7 +478,7 @@ mod tests {
             live.steps.start(&mut live.summary);
             // It waits for the answer.
             assert_eq!(live.state(), State::Off);
-            live.obey(Order::Report(reported));
+            live.report_at_rest(reported);
             live.steps.start(&mut live.summary);
             assert_eq!(live.state(), State::Homing);
             let first = live.step().length;
@@ -479,7 +486,7 @@ mod tests {
             live.until(State::Neutral);
         });
         with_place(place("csv", false), |live| {
-            live.obey(Order::Report(reported.map(|length| 1000.0 * length)));
+            live.report_at_rest(reported.map(|length| 1000.0 * length));
             live.ask(Event::Start);
             assert_eq!(live.state(), State::Off);
             assert!(live.said[0].contains("check the report's unit"), "{:?}", live.said);
