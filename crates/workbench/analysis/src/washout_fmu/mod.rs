@@ -1,7 +1,7 @@
 //! Another washout as an FMU, stepped through a recording.
 //!
-//! [`Map`] names its inputs and outputs. [`motion`] steps it, and gives its motion as a table of
-//! felt motion, which is then judged as any other.
+//! [`Map`] names its inputs and outputs. [`WashoutFmu::motion`] steps it, and gives its motion as a
+//! table of felt motion, which is then judged as any other.
 
 mod map;
 
