@@ -3,9 +3,10 @@
 //! - `moris_simulation::drives::bench` has the drives, and [`rigs`] the rigs.
 //! - [`columns`] are the measures, in their order.
 //! - [`run`] computes the rows of a drive on a rig.
-//! - [`table`] writes the rows as CSV, and prints their means.
+//! - [`table`] writes the rows as CSV, and prints their means; [`page`] writes them as a page.
 
 pub mod columns;
+pub mod page;
 pub mod rigs;
 pub mod run;
 pub mod table;
@@ -28,14 +29,15 @@ use run::{Foreign, Row, rows};
 
 /// Version of the bench: of its drives, rigs and columns. Rows of different
 /// versions do not compare.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Compare washouts on fixed drives and rigs
 ///
-/// Simulates each drive on each rig with the set of each strategy: with the vehicle's force
-/// unscaled, and at the scale that `moris fit` finds. Writes bench.csv with a row for each, and
-/// prints the means over drives and rigs. A platform at rest is the first row of each drive, and
-/// the bound stands beside every error. The same program writes the same bytes each time.
+/// Simulates each drive on each rig with each strategy: with the vehicle's force unscaled, at the
+/// scale that `moris fit` finds, and with the automatic scale. Writes bench.csv with a row for
+/// each and bench.html with the means, which it prints. A platform at rest is the first row of each
+/// drive. The bound and the best attained stand beside every error. The same program writes the
+/// same bytes each time.
 ///
 /// A washout of your own: write the drives with --write-drives, compute its motion for each, and
 /// give the folder of the results with --felt. docs/bench.md has the steps.
@@ -62,7 +64,7 @@ pub struct Options {
     #[arg(long, value_name = "FOLDER")]
     write_drives: Option<PathBuf>,
 
-    /// Directory for bench.csv
+    /// Directory for bench.csv and bench.html
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     report: PathBuf,
 }
@@ -94,9 +96,11 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     progress.finish();
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let file = options.report.join("bench.csv");
+    let page = options.report.join("bench.html");
     table::write(&file, &rows)?;
+    page::write(&page, &rows)?;
     write!(out, "{}", table::text(&rows, drives.len(), rigs.len()))?;
-    writeln!(out, "wrote {}", file.display())?;
+    writeln!(out, "wrote {}\nwrote {}", file.display(), page.display())?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -9,7 +9,7 @@ use moris_simulation::drives::bench::{Drive, FRAME};
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
 use moris_washout::Parameters;
-use moris_washout::interface::StrategyKind;
+use moris_washout::interface::{AutomaticScale, StrategyKind};
 use moris_washout::platform::Pose;
 
 use super::columns::COLUMNS;
@@ -33,6 +33,11 @@ pub enum Scale {
         /// True if it reaches them.
         fits: bool,
     },
+    /// The automatic scale, from the vehicle's force on.
+    Automatic {
+        /// Its mean over the drive.
+        factor: f64,
+    },
     /// That of another washout.
     Own,
 }
@@ -50,6 +55,18 @@ pub struct Row {
     pub scale: Scale,
     /// The measures, of [`COLUMNS`].
     pub values: Vec<Option<f64>>,
+    /// The least RMS errors of all rows of the drive on the rig \[m/s2\].
+    pub best: [Option<f64>; 3],
+}
+
+/// Measures whose least is [`Row::best`].
+const ERRORS: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
+
+impl Row {
+    /// A measure by its name.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.values[COLUMNS.iter().position(|column| column.name == name)?]
+    }
 }
 
 /// A folder of the motions that another washout computed.
@@ -114,6 +131,12 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
         let found = search.fit(&parameters).with_context(of)?;
         let scale = Scale::Fit { factor: found.best.factors.scale, fits: found.fits };
         rows.push(row(name, scale, simulated(&found.best.factors.applied(&parameters))?));
+        let mut automatic = parameters;
+        automatic.automatic_scale.automatic = AutomaticScale::On;
+        let outcome = simulated(&automatic)?;
+        let outputs = &outcome.simulation.outputs;
+        let factor = outputs.iter().map(|output| output.scale_factor).sum::<f64>() / outputs.len() as f64;
+        rows.push(row(name, Scale::Automatic { factor }, outcome));
     }
     for other in foreign {
         let Some(file) = other.file(rig, drive) else { continue };
@@ -124,6 +147,9 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
         };
         rows.push(row(&other.name, Scale::Own, judge().with_context(|| file.display().to_string())?));
     }
+    let least = |name: &str| rows.iter().filter_map(|row| row.value(name)).reduce(f64::min);
+    let best = ERRORS.map(least);
+    rows.iter_mut().for_each(|row| row.best = best);
     Ok(rows)
 }
 
@@ -153,5 +179,5 @@ fn row(
 ) -> Row {
     outcome.bounds.clone_from(bounds);
     let values = COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
-    Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values }
+    Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3] }
 }

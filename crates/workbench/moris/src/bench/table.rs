@@ -17,16 +17,18 @@ pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         let heads = ["bench", "drive", "rig", "washout", "scale", "factor", "fits"];
-        table.write_record(heads.into_iter().chain(COLUMNS.iter().map(|column| column.name)))?;
+        table.write_record(heads.into_iter().chain(COLUMNS.iter().map(|column| column.name)).chain(BEST))?;
         for row in rows {
             let (scale, factor, fits) = match row.scale {
                 Scale::One => ("1", String::new(), String::new()),
                 Scale::Fit { factor, fits } => ("fit", format!("{factor:.4}"), u8::from(fits).to_string()),
+                Scale::Automatic { factor } => ("automatic", format!("{factor:.4}"), String::new()),
                 Scale::Own => ("own", String::new(), String::new()),
             };
             let first = [VERSION.to_string(), row.drive.to_owned(), row.rig.to_owned(), row.washout.clone()];
             let values = row.values.iter().zip(&COLUMNS).map(|(value, column)| written(*value, column.decimals));
-            table.write_record(first.into_iter().chain([scale.to_owned(), factor, fits]).chain(values))?;
+            let best = row.best.iter().map(|best| written(*best, 4));
+            table.write_record(first.into_iter().chain([scale.to_owned(), factor, fits]).chain(values).chain(best))?;
         }
         Ok(table.flush()?)
     };
@@ -42,14 +44,38 @@ fn written(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(String::new, rounded)
 }
 
-/// Means over the drives and rigs: a line for each washout and scale, in the order of the rows.
+/// Heads of the means.
+pub const HEADS: [&str; 10] =
+    ["rows", "scale", "error/rest", "error/bound", "error/best", "shape", "size", "inverted", "jolt m/s²", "limited"];
+
+/// Means over the drives and rigs as text: a line for each washout and scale, in the order of the
+/// rows, below the bound and the best attained.
 pub fn text(rows: &[Row], drives: usize, rigs: usize) -> String {
+    let mut table = TextTable::new(std::iter::once("washout").chain(HEADS).collect::<Vec<_>>());
+    for (name, cells) in means(rows) {
+        table.push(std::iter::once(name).chain(cells).collect());
+    }
+    format!("moris bench {VERSION}: {drives} drives on {rigs} rigs\n\n{table}\n")
+}
+
+/// The means with their names.
+pub fn means(rows: &[Row]) -> Vec<(String, Vec<String>)> {
+    let at_rest: Vec<&Row> = rows.iter().filter(|row| row.washout == AT_REST).collect();
+    let references = [("bound", line(&at_rest, Figure::Bound)), ("best attained", line(&at_rest, Figure::Best))];
+    let references = references.into_iter().map(|(name, cells)| (name.to_owned(), cells));
+    let washouts = groups(rows).into_iter().map(|(name, group)| (name, line(&group, Figure::Own)));
+    references.chain(washouts).collect()
+}
+
+/// The rows of each washout and scale, in the order of the rows.
+pub fn groups(rows: &[Row]) -> Vec<(String, Vec<&Row>)> {
     let mut groups: Vec<(String, Vec<&Row>)> = Vec::new();
     for row in rows {
         let scale = match row.scale {
-            Scale::One if row.washout == "at rest" => "",
+            Scale::One if row.washout == AT_REST => "",
             Scale::One => ", scale 1",
             Scale::Fit { .. } => ", fit",
+            Scale::Automatic { .. } => ", automatic",
             Scale::Own => ", own scale",
         };
         let name = format!("{}{scale}", row.washout);
@@ -58,58 +84,82 @@ pub fn text(rows: &[Row], drives: usize, rigs: usize) -> String {
             None => groups.push((name, vec![row])),
         }
     }
-    let heads =
-        ["washout", "rows", "scale", "error/rest", "error/bound", "shape", "size", "inverted", "jolt m/s²", "limited"];
-    let mut table = TextTable::new(heads);
-    for (name, group) in &groups {
-        table.push(line(name, group));
-    }
-    format!("moris bench {VERSION}: {drives} drives on {rigs} rigs\n\n{table}\n")
+    groups
 }
 
-fn line(name: &str, group: &[&Row]) -> Vec<String> {
+/// Name of the first row of each drive.
+const AT_REST: &str = "at rest";
+
+/// An RMS error beside others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Figure {
+    /// That of the row.
+    Own,
+    /// The bound.
+    Bound,
+    /// The least of all rows.
+    Best,
+    /// That of a platform at rest.
+    Rest,
+}
+
+impl Figure {
+    /// The RMS error of surge or sway \[m/s2\].
+    pub fn of(self, row: &Row, axis: usize) -> Option<f64> {
+        let name = |names: [&'static str; 2]| row.value(names[axis]);
+        match self {
+            Figure::Own => name(["RMS error x [m/s2]", "RMS error y [m/s2]"]),
+            Figure::Bound => name(["bound x [m/s2]", "bound y [m/s2]"]),
+            Figure::Best => row.best[axis],
+            Figure::Rest => name(["desired x [m/s2]", "desired y [m/s2]"]),
+        }
+    }
+}
+
+/// The means of rows, whose error is this one. Only the rows' own has more than errors.
+fn line(group: &[&Row], error: Figure) -> Vec<String> {
+    let is_own = error == Figure::Own;
     let factors = group.iter().filter_map(|row| match row.scale {
-        Scale::Fit { factor, .. } => Some(factor),
+        Scale::Fit { factor, .. } | Scale::Automatic { factor } => Some(factor),
         _ => None,
     });
     let number = |value: Option<f64>, decimals: usize| or_undefined(value.map(|value| format!("{value:.decimals$}")));
     let percent = |value: Option<f64>| or_undefined(value.map(|value| format!("{value:.1} %")));
-    let ratio = |over: [&str; 2]| {
-        let pairs = ["RMS error x [m/s2]", "RMS error y [m/s2]"].into_iter().zip(over);
-        let of = |row: &&Row, (error, over): (&str, &str)| {
-            let [error, over] = [value(row, error)?, value(row, over)?];
+    let ratio = |over: Figure| {
+        let of = |row: &Row, axis: usize| {
+            let [error, over] = [error.of(row, axis)?, over.of(row, axis)?];
             (over >= LEAST).then(|| error / over)
         };
-        let ratios = group.iter().flat_map(|row| pairs.clone().filter_map(move |pair| of(row, pair)));
-        geometric_mean(ratios)
+        let ratios = group.iter().flat_map(|row| (0..2).filter_map(move |axis| of(row, axis)));
+        number(geometric_mean(ratios), 2)
     };
     let both = |names: [&'static str; 2]| {
-        group.iter().flat_map(move |row| names.into_iter().filter_map(move |name| value(row, name)))
+        group.iter().flat_map(move |row| names.into_iter().filter_map(move |name| row.value(name)))
     };
-    let one = |name: &'static str| group.iter().filter_map(move |row| value(row, name));
+    let one = |name: &'static str| group.iter().filter_map(move |row| row.value(name));
+    let own = |text: String| if is_own { text } else { or_undefined(None) };
     vec![
-        name.to_owned(),
         group.len().to_string(),
         number(geometric_mean(factors), 2),
-        number(ratio(["desired x [m/s2]", "desired y [m/s2]"]), 2),
-        number(ratio(["bound x [m/s2]", "bound y [m/s2]"]), 2),
-        number(mean(both(["shape x", "shape y"])), 2),
-        number(geometric_mean(both(["size x", "size y"]).filter(|size| *size > 0.0)), 2),
-        percent(mean(both(["inverted x [%]", "inverted y [%]"]))),
-        number(mean(one("jolt [m/s2]")), 2),
-        percent(mean(one("limited [%]"))),
+        ratio(Figure::Rest),
+        ratio(Figure::Bound),
+        ratio(Figure::Best),
+        own(number(mean(both(["shape x", "shape y"])), 2)),
+        own(number(geometric_mean(both(["size x", "size y"]).filter(|size| *size > 0.0)), 2)),
+        own(percent(mean(both(["inverted x [%]", "inverted y [%]"])))),
+        own(number(mean(one("jolt [m/s2]")), 2)),
+        own(percent(mean(one("limited [%]")))),
     ]
 }
+
+/// Names of the columns of [`Row::best`].
+const BEST: [&str; 3] = ["best x [m/s2]", "best y [m/s2]", "best z [m/s2]"];
 
 /// Least desired force, or bound, with which a ratio means anything \[m/s2\].
 const LEAST: f64 = 0.03;
 
-fn value(row: &Row, name: &str) -> Option<f64> {
-    let place = COLUMNS.iter().position(|column| column.name == name)?;
-    row.values[place]
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+/// The arithmetic mean; none of no values.
+pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
     (count > 0.0).then(|| sum / count)
 }

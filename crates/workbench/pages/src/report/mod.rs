@@ -15,6 +15,7 @@ mod index;
 mod page;
 mod run;
 mod simulator;
+mod tables;
 mod thinning;
 
 /// Parts of the page for pages of other packages.
@@ -30,4 +31,5 @@ pub use index::{IndexRow, index_html};
 pub use page::{escaped, html};
 pub use run::{felt_chart, run};
 pub use simulator::{MODULE, Parameter, ParameterKind, Simulator};
+pub use tables::{PageTable, tables_html};
 pub use thinning::Thinning;

@@ -1,0 +1,81 @@
+//! The rows of the bench as a page.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use moris_pages::report::{PageTable, tables_html};
+
+use super::run::Row;
+use super::table::{Figure, HEADS, groups, mean, means};
+use super::{VERSION, columns::COLUMNS};
+use crate::text_table::or_undefined;
+
+/// Writes the page: means over all, then the errors by drive and by rig, with the bound and the
+/// best attained above them.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
+    std::fs::write(file, html(rows)).with_context(|| format!("cannot write {}", file.display()))
+}
+
+fn html(rows: &[Row]) -> String {
+    let [drives, rigs] = [names(rows, |row| row.drive), names(rows, |row| row.rig)];
+    let all = PageTable {
+        title: "Means over drives and rigs".to_owned(),
+        text: "error/rest, error/bound, error/best: RMS error of surge and sway over that of a platform at rest, over the least that any \
+               controller could reach, and over the least of all rows here, drive by drive and rig by rig; geometric means. shape, \
+               size, inverted: correlation below 2 Hz, relative size, and time with the wrong sign."
+            .to_owned(),
+        heads: HEADS.map(str::to_owned).to_vec(),
+        rows: means(rows),
+    };
+    let by_drive = by("Errors by drive", "the rigs", rows, &drives, |row| row.drive);
+    let by_rig = by("Errors by rig", "the drives", rows, &rigs, |row| row.rig);
+    let subtitle = format!(
+        "{} drives on {} rigs, version {VERSION}; bench.csv has the {} measures of each.",
+        drives.len(),
+        rigs.len(),
+        COLUMNS.len()
+    );
+    tables_html("Bench of washouts", &subtitle, &[all, by_drive, by_rig])
+}
+
+/// Errors of surge and sway together, with a column for each of `names`.
+fn by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl Fn(&Row) -> &str) -> PageTable {
+    let line = |group: &[&Row], figure: Figure| -> Vec<String> {
+        let of = |one: &&str| {
+            let errors = group.iter().filter(|row| name(row) == *one).filter_map(|row| horizontal(row, figure));
+            or_undefined(mean(errors).map(|error| format!("{error:.2}")))
+        };
+        names.iter().map(of).collect()
+    };
+    let groups = groups(rows);
+    let first: &[&Row] = groups.first().map_or(&[], |(_, group)| group);
+    let references = [("bound", Figure::Bound), ("best attained", Figure::Best)];
+    let references = references.map(|(name, figure)| (name.to_owned(), line(first, figure)));
+    let washouts = groups.iter().map(|(name, group)| (name.clone(), line(group, Figure::Own)));
+    PageTable {
+        title: title.to_owned(),
+        text: format!("RMS error of surge and sway together [m/s²], the mean over {over}."),
+        heads: names.iter().map(|name| (*name).to_owned()).collect(),
+        rows: references.into_iter().chain(washouts).collect(),
+    }
+}
+
+/// The root of the sum of squares of surge and sway.
+fn horizontal(row: &Row, figure: Figure) -> Option<f64> {
+    let [x, y] = [0, 1].map(|axis| figure.of(row, axis));
+    (x.is_some() || y.is_some()).then(|| x.unwrap_or(0.0).hypot(y.unwrap_or(0.0)))
+}
+
+/// Names in the order of the rows, each once.
+fn names<'a>(rows: &'a [Row], name: impl Fn(&'a Row) -> &'static str) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    for row in rows {
+        if !names.contains(&name(row)) {
+            names.push(name(row));
+        }
+    }
+    names
+}
