@@ -7,10 +7,12 @@
 Writes `reid-nahon/RIG/DRIVE.csv` and `linear-mpc/RIG/DRIVE.csv`, with the platform's pose 100 times a second. All rides are
 computed at once, as columns of arrays.
 
-Reid-Nahon: the classical algorithm (Reid and Nahon, UTIAS Report 296, 1985). Linear MPC: a model of the platform and of the
-otoliths, a quadratic cost and box constraints over a receding horizon, as by Dagdelen, Reymond, Kemeny, Bordier and Maizi
-(Control Engineering Practice 17, 2009) and Garrett and Best (Vehicle System Dynamics 51, 2013). Both are without preview: the
-plan takes the present force as constant.
+- Reid-Nahon: the classical algorithm. Reid and Nahon, UTIAS Report 296, 1985.
+- Linear MPC: a model of the platform and of the otoliths, with a quadratic cost and box constraints over a receding horizon.
+  Dagdelen, Reymond, Kemeny, Bordier and Maizi, Control Engineering Practice 17, 2009. Garrett and Best, Vehicle System
+  Dynamics 51, 2013.
+
+Both are without preview: the plan takes the present force as constant.
 """
 
 import sys
@@ -20,7 +22,7 @@ import moris
 import numpy as np
 
 G, STEP, TILT_RATE = 9.80665, 0.01, np.radians(3.0)
-SCALES = (1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03)
+SCALE, SCALES = 0.5, (0.5, 0.35, 0.25, 0.18, 0.12, 0.08, 0.05, 0.03)
 
 
 def reid_nahon(force, rate):
@@ -44,7 +46,7 @@ def reid_nahon(force, rate):
     return poses
 
 
-def linear_mpc(force, travel, tilt_limit, head, horizon=25, period=0.1):
+def linear_mpc(force, travel, tilt_limit, head, horizon=20, period=0.1):
     """Travel and tilt, both (N, rides), of the forces along one axis without gravity, (N, rides).
 
     The state is travel, speed, tilt, tilt rate, and the slow state of the otoliths; the inputs are acceleration and the tilt's
@@ -79,8 +81,8 @@ def linear_mpc(force, travel, tilt_limit, head, horizon=25, period=0.1):
     error = np.kron(each, sensed) @ from_input + np.kron(each, through[:2])
     error_state = np.kron(each, sensed) @ from_state
     error_desired = np.kron(each, sensed) @ from_desired + through[2]
-    weights = np.tile([2.0, 1.0, 0.0, 0.0, 0.0], horizon)          # of travel and speed, which wash out
-    effort = np.tile([0.05, 0.5], horizon)                         # of the accelerations
+    weights = np.tile([2.0, 1.0, 0.0, 300.0, 0.0], horizon)        # of travel, speed and tilt rate, which wash out
+    effort = np.tile([0.3, 20.0], horizon)                         # of the accelerations
     hessian = error.T @ error + from_input.T @ (weights[:, None] * from_input) + np.diag(effort)
     to_state = error.T @ error_state + from_input.T @ (weights[:, None] * from_state)
     to_desired = error.T @ error_desired + from_input.T @ (weights[:, None] * from_desired)
@@ -98,7 +100,7 @@ def linear_mpc(force, travel, tilt_limit, head, horizon=25, period=0.1):
     for k, f in enumerate(force):
         offset = box_state @ x + box_desired * f
         gradient = to_state @ x + to_desired * f
-        for _ in range(15):                                         # warm: held and dual are those of the last plan
+        for _ in range(8):                                          # warm: held and dual are those of the last plan
             u = inverse @ (rho * box.T @ (held - offset - dual) - gradient)
             value = box @ u + offset
             held = np.clip(value + dual, -limit, limit)
@@ -143,13 +145,12 @@ def main(folder):
         if not left:
             break
 
-    # Linear MPC: the constraints keep it within the rig; the scale is that of Reid-Nahon's rates.
-    travel, tilt = 0.22 * stroke, np.minimum(0.3, 0.25 * stroke)
-    head = 1.0
-    surge = linear_mpc(force[:, 0], travel, tilt, head)
-    sway = linear_mpc(force[:, 1], travel, tilt, head)
-    heave = linear_mpc(force[:, 2], 0.5 * travel, np.zeros_like(tilt), head)
-    angles = 0.3 * rotation(rate) * np.minimum(1.0, stroke / 0.6)
+    # Linear MPC: constraints in proportion to the stroke keep it within the rig.
+    travel, tilt, head = 0.22 * stroke, np.minimum(0.3, 0.25 * stroke), 1.0
+    surge = linear_mpc(SCALE * force[:, 0], travel, tilt, head)
+    sway = linear_mpc(SCALE * force[:, 1], travel, tilt, head)
+    heave = linear_mpc(SCALE * force[:, 2], 0.5 * travel, np.zeros_like(tilt), head)
+    angles = SCALE * np.minimum(1.0, stroke / 0.6) * rotation(rate)
     poses = np.stack([surge[0], sway[0], heave[0], angles[:, 0] + sway[1], angles[:, 1] - surge[1], angles[:, 2]], axis=1) + neutral
     for k, pair in enumerate(pairs):
         write("linear-mpc", pair, poses[: len(drives[pair[0]]), :, k])
