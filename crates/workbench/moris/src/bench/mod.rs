@@ -39,8 +39,9 @@ pub const VERSION: u32 = 2;
 /// drive. The bound and the best attained stand beside every error. The same program writes the
 /// same bytes each time.
 ///
-/// A washout of your own: write the drives with --write-drives, compute its motion for each, and
-/// give the folder of the results with --felt. docs/bench.md has the steps.
+/// A washout of your own: write the drives with --write-drives, compute its motion for each,
+/// and give the folder of the results with --felt; or give its FMU with --washout.
+/// docs/bench.md has the steps.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Drives, separated by commas [default: all]
@@ -59,6 +60,15 @@ pub struct Options {
     /// rig. docs/your-washout.md has the columns. The folder's name is the washout's
     #[arg(long, value_name = "FOLDER")]
     felt: Vec<PathBuf>,
+
+    /// Another washout as an FMU for co-simulation of FMI 2.0 or 3.0, which is stepped through each
+    /// drive. Its poses do not know the rig: choose the one that it is for with --rig
+    #[arg(long, value_name = "FMU", requires = "map")]
+    washout: Option<PathBuf>,
+
+    /// Map of the inputs and outputs of --washout, in TOML. docs/your-washout.md has an example
+    #[arg(long, value_name = "FILE", requires = "washout")]
+    map: Option<PathBuf>,
 
     /// Write the drives as recordings into a folder, and end
     #[arg(long, value_name = "FOLDER")]
@@ -83,7 +93,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let rigs: Vec<BenchRig> = RIGS.into_iter().filter(|rig| chosen(rig.name, &options.rig)).collect();
     let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
-    let foreign = options.felt.iter().map(|folder| Foreign::of(folder)).collect::<Result<Vec<_>>>()?;
+    let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Foreign::fmu(file, map));
+    let foreign = options.felt.iter().map(|folder| Foreign::of(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
     let pairs: Vec<(BenchRig, Drive)> =
         rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
     if !foreign.is_empty() && !pairs.iter().any(|(rig, drive)| foreign.iter().any(|one| one.file(rig, drive).is_some()))

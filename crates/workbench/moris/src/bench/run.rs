@@ -14,9 +14,10 @@ use moris_washout::platform::Pose;
 
 use super::columns::COLUMNS;
 use super::rigs::BenchRig;
-use crate::recording::Recording;
 use crate::recording::felt::FeltTable;
+use crate::recording::{Recording, source};
 use crate::simulate::{AxisBound, Outcome, Simulation, bounds};
+use crate::washout_fmu::WashoutFmu;
 
 /// Interval of the bound's controls \[s\].
 const INTERVAL: f64 = 0.05;
@@ -69,11 +70,20 @@ impl Row {
     }
 }
 
-/// A folder of the motions that another washout computed.
+/// Another washout.
 #[derive(Clone, Debug)]
 pub struct Foreign {
     name: String,
-    folder: PathBuf,
+    source: Source,
+}
+
+/// Source of another washout's motion.
+#[derive(Clone, Debug)]
+enum Source {
+    /// A folder of the motions that it computed.
+    Folder(PathBuf),
+    /// Its FMU.
+    Fmu(WashoutFmu),
 }
 
 impl Foreign {
@@ -87,13 +97,34 @@ impl Foreign {
         }
         let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let name = full.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Foreign { name, folder: folder.to_owned() })
+        Ok(Foreign { name, source: Source::Folder(folder.to_owned()) })
     }
 
-    /// The file for a drive on a rig.
+    /// The FMU with its map, under the FMU's name.
+    ///
+    /// # Errors
+    /// The map cannot be used.
+    pub fn fmu(file: &Path, map: &Path) -> Result<Self> {
+        Ok(Foreign { name: source::name(file), source: Source::Fmu(WashoutFmu::with_map(file, map)?) })
+    }
+
+    /// The file for a drive on a rig: that of the motion, or the FMU.
     pub fn file(&self, rig: &BenchRig, drive: &Drive) -> Option<PathBuf> {
         let name = format!("{}.csv", drive.name);
-        [self.folder.join(rig.name).join(&name), self.folder.join(name)].into_iter().find(|file| file.is_file())
+        match &self.source {
+            Source::Folder(folder) => {
+                [folder.join(rig.name).join(&name), folder.join(name)].into_iter().find(|file| file.is_file())
+            }
+            Source::Fmu(fmu) => Some(fmu.file.clone()),
+        }
+    }
+
+    /// The motion for a drive, and sentences about it.
+    fn motion(&self, file: &Path, recording: &Recording) -> Result<(ForeignMotion, Vec<String>)> {
+        match &self.source {
+            Source::Folder(_) => FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg),
+            Source::Fmu(fmu) => fmu.motion(recording),
+        }
     }
 }
 
@@ -141,11 +172,12 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
     for other in foreign {
         let Some(file) = other.file(rig, drive) else { continue };
         let judge = || {
-            let (motion, notes) = FeltTable::read(&file)?.motion(&recording).map_err(anyhow::Error::msg)?;
+            let (motion, notes) = other.motion(&file, &recording)?;
             let setup = Setup { parameters: unscaled, ..setup.clone() };
             Outcome::foreign(&recording, &setup, &other.name, &motion, notes)
         };
-        rows.push(row(&other.name, Scale::Own, judge().with_context(|| file.display().to_string())?));
+        let judged = judge().with_context(|| format!("{}: {}", of(), file.display()))?;
+        rows.push(row(&other.name, Scale::Own, judged));
     }
     let least = |name: &str| rows.iter().filter_map(|row| row.value(name)).reduce(f64::min);
     let best = ERRORS.map(least);
