@@ -111,8 +111,29 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     table::write(&file, &rows)?;
     page::write(&page, &rows)?;
     write!(out, "{}", table::text(&rows, drives.len(), rigs.len()))?;
+    for remark in remarks(&rows) {
+        writeln!(out, "{remark}\n")?;
+    }
     writeln!(out, "wrote {}\nwrote {}", file.display(), page.display())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The remarks on the motions of each other washout: each once, with the first drive and rig.
+fn remarks(rows: &[Row]) -> Vec<String> {
+    let mut found: Vec<(&str, &str, String, usize)> = Vec::new();
+    for row in rows {
+        for remark in &row.remarks {
+            match found.iter_mut().find(|(washout, text, ..)| *washout == row.washout && text == remark) {
+                Some((.., count)) => *count += 1,
+                None => found.push((&row.washout, remark, format!("{} on {}", row.drive, row.rig), 1)),
+            }
+        }
+    }
+    let written = |(washout, text, first, count): (&str, &str, String, usize)| {
+        let more = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
+        format!("{washout}, {first}{more}: {text}")
+    };
+    found.into_iter().map(written).collect()
 }
 
 /// Writes the drives as recordings.

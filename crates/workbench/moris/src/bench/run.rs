@@ -58,6 +58,8 @@ pub struct Row {
     pub values: Vec<Option<f64>>,
     /// The least RMS errors of all rows of the drive on the rig \[m/s2\].
     pub best: [Option<f64>; 3],
+    /// Remarks on another washout's motion, such as on its units or rate.
+    pub remarks: Vec<String>,
 }
 
 /// Measures whose least is [`Row::best`].
@@ -122,8 +124,11 @@ impl Foreign {
     /// The motion for a drive, and sentences about it.
     fn motion(&self, file: &Path, recording: &Recording) -> Result<(ForeignMotion, Vec<String>)> {
         match &self.source {
-            Source::Folder(_) => FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg),
-            Source::Fmu(fmu) => fmu.motion(recording),
+            Source::Folder(_) => {
+                let motion = FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg);
+                motion.with_context(|| file.display().to_string())
+            }
+            Source::Fmu(fmu) => fmu.motion(recording).with_context(|| file.display().to_string()),
         }
     }
 }
@@ -174,9 +179,10 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
         let judge = || {
             let (motion, notes) = other.motion(&file, &recording)?;
             let setup = Setup { parameters: unscaled, ..setup.clone() };
-            Outcome::foreign(&recording, &setup, &other.name, &motion, notes)
+            let outcome = Outcome::foreign(&recording, &setup, &other.name, &motion, notes);
+            outcome.with_context(|| file.display().to_string())
         };
-        let judged = judge().with_context(|| format!("{}: {}", of(), file.display()))?;
+        let judged = judge().with_context(of)?;
         rows.push(row(&other.name, Scale::Own, judged));
     }
     let least = |name: &str| rows.iter().filter_map(|row| row.value(name)).reduce(f64::min);
@@ -210,6 +216,7 @@ fn row(
     bounds: &Axes<Option<AxisBound>>,
 ) -> Row {
     outcome.bounds.clone_from(bounds);
+    let remarks = outcome.simulation.foreign.iter().flat_map(|foreign| foreign.remarks()).map(str::to_owned).collect();
     let values = COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
-    Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3] }
+    Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3], remarks }
 }

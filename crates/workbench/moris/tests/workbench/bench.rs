@@ -69,6 +69,19 @@ fn another_washout_has_a_row_beside_ours() {
     let of =
         |washout: &str| rows.iter().find(|row| row[1] == "lane-change" && row[3] == washout).unwrap()[7..].to_vec();
     assert_eq!(of("mine"), of("at rest"));
+    // A quarter of the samples: it is said.
+    let coarse = ride[1..].iter().step_by(4).map(still).collect::<String>();
+    fs::create_dir_all(directory.path().join("coarse")).unwrap();
+    let file = directory.path().join("coarse/lane-change.csv");
+    fs::write(&file, "time,x,y,z,roll,pitch,yaw\n".to_owned() + &coarse).unwrap();
+    let (code, printed, _) = bench(directory.path(), &[&SHORT[..], &["--felt", "coarse"]].concat());
+    assert!(code == Some(0) && printed.contains("coarse, lane-change on default: pose has 25"), "{printed}");
+    fs::write(&file, "time,x [in],y,z,roll,pitch,yaw\n".to_owned() + &coarse).unwrap();
+    let (code, _, error) = bench(directory.path(), &[&SHORT[..], &["--felt", "coarse"]].concat());
+    assert!(
+        code == Some(1) && error.contains("lane-change on default: coarse/lane-change.csv: column x [in]"),
+        "{error}"
+    );
     fs::create_dir_all(directory.path().join("none")).unwrap();
     let (code, _, error) = bench(directory.path(), &[&SHORT[..], &["--felt", "none"]].concat());
     assert!(code == Some(1) && error.contains("no file DRIVE.csv or RIG/DRIVE.csv"), "{error}");

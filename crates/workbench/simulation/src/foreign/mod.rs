@@ -55,6 +55,14 @@ pub struct Foreign {
     pub(crate) suspicions: Vec<Suspicion>,
 }
 
+impl Foreign {
+    /// Sentences on what is suspected of the motion, and on how it was read.
+    pub fn remarks(&self) -> impl Iterator<Item = &str> {
+        let suspicions = self.suspicions.iter().map(|Suspicion(text)| text.as_str());
+        suspicions.chain(self.notes.iter().map(String::as_str))
+    }
+}
+
 impl ForeignMotion {
     /// A simulation with this motion in place of the washout's, judged on the rig, at the washout
     /// location and with the scale of these parameters. `notes` are sentences for the findings.
