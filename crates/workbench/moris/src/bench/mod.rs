@@ -39,9 +39,9 @@ pub const VERSION: u32 = 2;
 /// drive. The bound and the best attained stand beside every error. The same program writes the
 /// same bytes each time.
 ///
-/// A washout of your own: write the drives with --write-drives, compute its motion for each,
-/// and give the folder of the results with --felt; or give its FMU with --washout.
-/// docs/bench.md has the steps.
+/// A washout of your own: write the drives with --write-drives, compute its motion for each, and
+/// give the folder of the results with --felt. Or give its FMU with --washout. docs/bench.md has
+/// the steps.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Drives, separated by commas [default: all]
