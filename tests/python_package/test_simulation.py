@@ -275,3 +275,19 @@ def test_a_preview_is_learned_from_earlier_rounds():
         moris.simulate(ride, parameters="preview", preview=1.0, learn=True)
     with pytest.raises(ValueError, match="predictive strategy alone"):
         moris.simulate(ride, learn=True)
+
+
+def test_a_learned_road_is_kept_in_a_file(tmp_path):
+    road = tmp_path / "track.laps"
+    ride = rounds(1)
+    ride["longitude"], ride["latitude"] = ride.pop("x") / 78847, 45 + ride.pop("y") / 111132
+    first = moris.simulate(ride, parameters="preview", learn=str(road))
+    assert road.read_text().startswith("moris-laps,1")
+    second = moris.simulate(ride, parameters="preview", learn=road)
+    assert second.learned
+    late = first.time > 10
+    errors = [np.std((s["rider.specificForce"] - s.desired[0])[late], axis=0) for s in (second, first)]
+    assert np.all(errors[0][:2] < 0.95 * errors[1][:2]), errors
+    road.write_text("x,y")
+    with pytest.raises(ValueError, match="none of a road"):
+        moris.simulate(ride, parameters="preview", learn=road)

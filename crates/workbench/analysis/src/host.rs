@@ -36,22 +36,25 @@ pub struct Host {
 impl Host {
     /// Replays a recording from rest at neutral. Between its samples the recording is linear;
     /// outputs are kept at its samples, or at the ends of the host's steps where those are longer.
+    /// `learned` is the preview where one is learned.
     ///
     /// # Errors
     /// The parameters cannot be used, or neither of the host's step and the recording's is a
-    /// multiple of the other. Or a preview is to be learned of a recording without position.
-    pub fn replay(&self, recording: &Recording, parameters: &Parameters) -> Result<Simulation> {
+    /// multiple of the other.
+    pub fn replay(
+        &self,
+        recording: &Recording,
+        parameters: &Parameters,
+        learned: Option<Previewer>,
+    ) -> Result<Simulation> {
         let sample = recording.step();
         let step = self.step.unwrap_or(sample);
         let replay = Replay::in_steps(&recording.manoeuvre, step, self.inputs == Inputs::Slopes).with_context(|| {
             let name = &recording.name;
             format!("--step is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other")
         })?;
-        let previewer = if self.learns {
-            Some(recording.learned()?)
-        } else {
-            (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview))
-        };
+        let previewer =
+            learned.or_else(|| (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview)));
         Ok(Simulation::previewed(&replay, parameters, previewer, || ())?)
     }
 }

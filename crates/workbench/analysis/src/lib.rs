@@ -3,6 +3,7 @@
 //! - [`recording`] reads recordings and checks them.
 //! - [`outcome`] is a recording on a rig with one set of parameters; [`bounds`] the least possible
 //!   errors, [`host`] the steps and inputs of another host.
+//! - [`learned_road`] keeps what laps learn of a road in a file.
 //! - [`washout_fmu`] steps another washout's FMU through a recording.
 //! - [`tune`] finds better parameters.
 //! - [`rig`] surveys a platform and draws it.
@@ -17,6 +18,7 @@
 pub mod bounds;
 pub mod frequency_response;
 pub mod host;
+pub mod learned_road;
 pub mod option_values;
 pub mod outcome;
 pub mod page;

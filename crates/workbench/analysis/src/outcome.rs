@@ -47,13 +47,13 @@ impl Outcome {
         Outcome::with(recording, setup, &parameters, previewer, progress)
     }
 
-    /// As [`Outcome::of`] with a preview that is learned by the recording's position.
+    /// As [`Outcome::of`] with a preview that the recording has learned.
     ///
     /// # Errors
-    /// As [`Outcome::of`], or the recording has no position.
-    pub fn learned(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+    /// As [`Outcome::of`].
+    pub fn learned(recording: &Recording, setup: &Setup, learned: Previewer, progress: impl FnMut()) -> Result<Self> {
         let parameters = recording.parameters(&setup.parameters);
-        Outcome::with(recording, setup, &parameters, Some(recording.learned()?), progress)
+        Outcome::with(recording, setup, &parameters, Some(learned), progress)
     }
 
     fn with(

@@ -27,7 +27,6 @@ pub mod build_fmu;
 pub mod fit;
 pub mod frequency_response;
 pub mod help;
-mod learned_road;
 pub mod live;
 pub mod measure;
 pub mod parameters;
@@ -42,7 +41,7 @@ pub mod tune;
 pub mod votes;
 pub mod worst_case;
 
-use moris_analysis::{option_values, random};
+use moris_analysis::{learned_road, option_values, random};
 pub use moris_analysis::{recording, text_table, washout_fmu};
 pub use moris_pages::VERSION;
 

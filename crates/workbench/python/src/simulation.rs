@@ -1,14 +1,15 @@
 //! Simulations of recordings, their measures and bounds.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use moris_analysis::bounds::{self, AxisBound};
 use moris_analysis::host::Host;
+use moris_analysis::learned_road::Kept;
 use moris_analysis::outcome::Outcome;
 use moris_analysis::page;
 use moris_analysis::recording::Recording;
-use moris_analysis::recording::preview::LONGEST_PREVIEW;
+use moris_analysis::recording::preview::{LONGEST_PREVIEW, Previewer};
 use moris_analysis::washout_fmu::WashoutFmu;
 use moris_interface::{Group, guid, slots_of};
 use moris_measures::{Axes, Row};
@@ -78,14 +79,17 @@ impl PySimulation {
         bound: bool,
         preview: f64,
         learn: bool,
+        road: Option<PathBuf>,
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let host = Host { learns: learn, ..host(preview)? };
         check_preview(&setup, preview).map_err(PyValueError::new_err)?;
         check_learning(&setup, &recording.inner, preview, learn).map_err(PyValueError::new_err)?;
         let recording = Arc::clone(&recording.inner);
+        let learned = learn.then(|| py.detach(|| learned(&recording, road.as_deref()))).transpose();
+        let learned = learned.map_err(|reason| PyValueError::new_err(format!("{reason:#}")))?;
         let outcome = py.detach(|| {
-            let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
+            let simulated = host.replay(&recording, &recording.parameters(&setup.parameters), learned)?;
             Outcome::measured(simulated, &setup)?.advised(&recording, preview)
         });
         let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
@@ -265,6 +269,14 @@ pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), &'static str> {
         _ if preview > 0.0 => Err("preview is for the predictive strategy alone; add strategy=\"predictive\""),
         _ => Ok(()),
     }
+}
+
+/// The preview that a recording learns, and keeps in a file if there is one.
+fn learned(recording: &Recording, file: Option<&Path>) -> anyhow::Result<Previewer> {
+    let mut road = Kept::open(file)?;
+    let learned = road.learn(recording)?;
+    road.save()?;
+    Ok(learned)
 }
 
 /// Checks that a preview can be learned, where one is asked for.

@@ -86,7 +86,7 @@ pub fn sweep_chunk<'py>(
 fn measure(host: &Host, setup: &Setup, recording: &Recording, row: &mut [f64]) {
     let parameters = recording.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
-    let Ok(simulation) = host.replay(recording, &parameters) else { return };
+    let Ok(simulation) = host.replay(recording, &parameters, None) else { return };
     let Ok(measures) = measures(&simulation) else { return };
     let mut places = MEASURES.iter().zip(row).peekable();
     for found in measures.rows() {

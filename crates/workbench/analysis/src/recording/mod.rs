@@ -43,6 +43,7 @@ pub mod table;
 
 use std::path::Path;
 
+use moris_laps::Laps;
 pub use moris_simulation::preview;
 use moris_simulation::preview::Previewer;
 use moris_simulation::{Manoeuvre, Replay};
@@ -144,18 +145,18 @@ impl Recording {
         parameters
     }
 
-    /// The preview that is learned by its position.
+    /// The preview that is learned by its position, with these laps known, which learn it too.
     ///
     /// # Errors
     /// It has no position.
-    pub fn learned(&self) -> Result<Previewer, RecordingError> {
+    pub fn learned(&self, laps: &mut Laps) -> Result<Previewer, RecordingError> {
         let road = self.road.as_ref().ok_or_else(|| {
             RecordingError::whole(
                 Path::new(&self.name),
-                "has no position to learn by; read it with its columns x and y",
+                "has no position to learn by; read it with its columns x and y, or latitude and longitude",
             )
         })?;
-        Ok(Previewer::given(road.learned(self.inputs(), self.step()), self.step()))
+        Ok(Previewer::given(road.learned(self.inputs(), self.step(), laps), self.step()))
     }
 
     /// Inputs of the washout, sample by sample.

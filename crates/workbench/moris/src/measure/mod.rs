@@ -12,11 +12,13 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
+use moris_laps::Laps;
 use moris_measures::Measures;
 use moris_setup::Setup;
-use moris_simulation::preview::parse_seconds;
+use moris_simulation::preview::{Previewer, parse_seconds};
 use rayon::prelude::*;
 
+use crate::learned_road::Kept;
 use crate::option_values::number_in;
 use crate::recording::{ConventionOptions, FADE_IN, Recording, files_in};
 use crate::setup_options::SetupOptions;
@@ -59,9 +61,10 @@ pub struct Options {
     preview: f64,
 
     /// Preview for the predictive strategy that is learned from earlier passes of the same road:
-    /// the columns x and y are the position
-    #[arg(long, conflicts_with = "preview")]
-    learn: bool,
+    /// the columns x and y, or latitude and longitude, are the position. A file, one for each
+    /// vehicle and track, is read first and written at the end
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "preview")]
+    learn: Option<Option<PathBuf>>,
 
     /// Compute the bound, the least error that any controller could reach. Takes
     /// some seconds a recording
@@ -98,12 +101,18 @@ pub struct MeasuredRecording {
 }
 
 impl MeasuredRecording {
-    /// Replays and measures a recording.
+    /// Replays and measures a recording, with a preview that is learned, if there is one.
     ///
     /// # Errors
     /// The parameters cannot be used, the steps do not fit, or there is no bound.
-    pub fn of(recording: &Recording, setup: &Setup, host: &Host, with_bound: bool) -> Result<Self> {
-        let simulation = host.replay(recording, &recording.parameters(&setup.parameters))?;
+    pub fn of(
+        recording: &Recording,
+        setup: &Setup,
+        host: &Host,
+        learned: Option<Previewer>,
+        with_bound: bool,
+    ) -> Result<Self> {
+        let simulation = host.replay(recording, &recording.parameters(&setup.parameters), learned)?;
         let mut outcome = Outcome::measured(simulation, setup)?;
         if with_bound {
             outcome.bounds = bounds::bounds(&outcome.simulation)?;
@@ -128,14 +137,34 @@ impl MeasuredRecording {
 /// A recording, the rig or the parameters cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
-    let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn);
-    let host = Host { step: options.step, inputs: options.inputs, preview: options.preview, learns: options.learn };
-    let measure = |file: &PathBuf| {
-        let recording = Recording::read(file, &conventions)?;
-        MeasuredRecording::of(&recording, &setup, &host, options.bound).with_context(|| recording.name.clone())
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn.is_some());
+    let host =
+        Host { step: options.step, inputs: options.inputs, preview: options.preview, learns: options.learn.is_some() };
+    let file = options.learn.as_ref().and_then(Option::as_deref);
+    let measure = |recording: &Recording, learned: Option<Previewer>| {
+        MeasuredRecording::of(recording, &setup, &host, learned, options.bound).with_context(|| recording.name.clone())
     };
-    let recordings: Vec<MeasuredRecording> =
-        recordings(&options.recordings)?.par_iter().map(measure).collect::<Result<_>>()?;
+    let alone = |file: &PathBuf| {
+        let recording = Recording::read(file, &conventions)?;
+        let learned = host.learns.then(|| recording.learned(&mut Laps::new())).transpose()?;
+        measure(&recording, learned)
+    };
+    let files = recordings(&options.recordings)?;
+    let recordings: Vec<MeasuredRecording> = match file {
+        None => files.par_iter().map(alone).collect::<Result<_>>()?,
+        // Each one knows the road of those before it.
+        Some(_) => {
+            let mut road = Kept::open(file)?;
+            let in_turn = |file: &PathBuf| {
+                let recording = Recording::read(file, &conventions)?;
+                let learned = road.learn(&recording)?;
+                measure(&recording, Some(learned))
+            };
+            let measured = files.iter().map(in_turn).collect::<Result<_>>()?;
+            road.save()?;
+            measured
+        }
+    };
     let missed = options.targets.missed(&recordings);
     write!(out, "{}", table::text(&setup, &host, &recordings, &missed))?;
     Ok(if options.check && !missed.is_empty() { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })

@@ -20,7 +20,7 @@ fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
     let command = Options::augment_args(Command::new("simulate"));
     let is_flag = |name: &str| {
         let option = command.get_arguments().find(|option| option.get_long() == name.strip_prefix("--"));
-        option.is_some_and(|option| !option.get_action().takes_values())
+        option.is_some_and(|option| !option.get_action().takes_values() || option.is_require_equals_set())
     };
     let mut words = vec!["cargo moris simulate".to_owned(), quoted(recording)];
     while let Some(argument) = arguments.next() {
@@ -60,7 +60,8 @@ mod tests {
         let expected =
             "cargo moris simulate 'my ride'\\''s.csv' --rig r.toml --no-bound --mounting -3,0,1 --parameters";
         assert_eq!(command, expected);
-        let command = of("--repair a.csv --learn --json --rig r.toml".split(' ').map(str::to_owned), "a.csv");
+        let command =
+            of("--repair a.csv --learn=kart.laps --json --learn --rig r.toml".split(' ').map(str::to_owned), "a.csv");
         assert_eq!(command, "cargo moris simulate a.csv --repair --json --rig r.toml --parameters");
     }
 }

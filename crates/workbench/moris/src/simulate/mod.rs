@@ -24,9 +24,10 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use moris_setup::Setup;
 use moris_simulation::foreign::ForeignMotion;
-use moris_simulation::preview::parse_seconds;
+use moris_simulation::preview::{Previewer, parse_seconds};
 use moris_washout::interface::StrategyKind;
 
+use crate::learned_road::Kept;
 use crate::progress::Progress;
 use crate::recording::felt::FeltTable;
 use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
@@ -74,9 +75,10 @@ pub struct Options {
     preview: Option<f64>,
 
     /// Also simulate the predictive strategy with a preview learned from earlier passes of the same
-    /// road: the columns x and y are the position
-    #[arg(long)]
-    learn: bool,
+    /// road: the columns x and y, or latitude and longitude, are the position. A file, one for
+    /// each vehicle and track, is read first and written at the end
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    learn: Option<Option<PathBuf>>,
 
     /// Motion that another washout computed for the recording, compared with these parameters:
     /// CSV with felt forces, poses of the platform or lengths of the legs.
@@ -118,7 +120,7 @@ pub struct Options {
 /// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
-    let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn);
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn.is_some());
     let recordings = table::recordings(&options.recordings, &conventions);
     if recordings.len() > 1 && !options.felt.is_empty() {
         bail!("--felt is the motion for one recording, but there are {}; simulate each with its own", recordings.len());
@@ -130,11 +132,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
              `rustup target add wasm32-unknown-unknown`"
         );
     }
+    let mut road = Kept::open(options.learn.as_ref().and_then(Option::as_deref))?;
     let mut entries = Vec::new();
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();
     for file in &recordings {
-        let simulated = match simulate(options, file, &cases, &conventions) {
+        let simulated = match simulate(options, file, &cases, &conventions, &mut road) {
             Ok(simulated) => simulated,
             Err(error) => {
                 eprintln!("error: {error:#}");
@@ -155,6 +158,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         }
         writeln!(out)?;
     }
+    road.save()?;
     if entries.len() > 1 {
         let names = listed(cases.iter().map(|case| case.setup.parameters_name.as_str()));
         fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
@@ -213,9 +217,9 @@ impl Case {
         Case { setup, preview: 0.0, learns: false, foreign: None }
     }
 
-    fn outcome(&self, recording: &Recording, progress: impl FnMut()) -> Result<Outcome> {
-        if self.learns {
-            return Outcome::learned(recording, &self.setup, progress);
+    fn outcome(&self, recording: &Recording, learned: Option<&Previewer>, progress: impl FnMut()) -> Result<Outcome> {
+        if let Some(learned) = learned.filter(|_| self.learns) {
+            return Outcome::learned(recording, &self.setup, learned.clone(), progress);
         }
         let Some(foreign) = &self.foreign else {
             return Outcome::previewed(recording, &self.setup, self.preview, progress)?
@@ -255,7 +259,7 @@ fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
     let preview = options.preview.filter(|&seconds| seconds > 0.0);
     let predictive: Vec<&Case> =
         cases.iter().filter(|case| case.setup.parameters.structure.strategy == StrategyKind::Predictive).collect();
-    for (option, is_given) in [("--preview", preview.is_some()), ("--learn", options.learn)] {
+    for (option, is_given) in [("--preview", preview.is_some()), ("--learn", options.learn.is_some())] {
         if is_given && predictive.is_empty() {
             bail!("{option} is for the predictive strategy alone; add --strategy predictive");
         }
@@ -267,7 +271,9 @@ fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
     let previewed = predictive.iter().flat_map(|case| {
         let previewed =
             preview.map(|seconds| Case { preview: seconds, ..named(case, &format!("preview of {seconds} s")) });
-        previewed.into_iter().chain(options.learn.then(|| Case { learns: true, ..named(case, "learned preview") }))
+        previewed
+            .into_iter()
+            .chain(options.learn.is_some().then(|| Case { learns: true, ..named(case, "learned preview") }))
     });
     Ok(previewed.collect())
 }
@@ -283,11 +289,18 @@ struct Simulated {
 }
 
 /// Simulates a recording with each of the setups, and writes its files.
-fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conventions) -> Result<Simulated> {
+fn simulate(
+    options: &Options,
+    file: &Path,
+    cases: &[Case],
+    conventions: &Conventions,
+    road: &mut Kept,
+) -> Result<Simulated> {
     let mut progress = Progress::new(&source::name(file), "reading")?;
     let recording = Recording::read(file, conventions)?;
-    let outcomes =
-        outcomes(&recording, cases, !options.no_bound, &mut progress).with_context(|| recording.name.clone())?;
+    let learned = options.learn.is_some().then(|| road.learn(&recording)).transpose()?;
+    let outcomes = outcomes(&recording, cases, learned.as_ref(), !options.no_bound, &mut progress)
+        .with_context(|| recording.name.clone())?;
     progress.phase("writing the report", 0);
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let files = write_files(&options.report, file, &recording, &outcomes)?;
@@ -304,10 +317,16 @@ fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conven
     })
 }
 
-fn outcomes(recording: &Recording, cases: &[Case], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
+fn outcomes(
+    recording: &Recording,
+    cases: &[Case],
+    learned: Option<&Previewer>,
+    with_bounds: bool,
+    progress: &mut Progress,
+) -> Result<Vec<Outcome>> {
     progress.phase("simulating", (recording.inputs().len() * cases.len()) as u64);
     let mut outcomes: Vec<Outcome> =
-        cases.iter().map(|case| case.outcome(recording, || progress.step())).collect::<Result<_>>()?;
+        cases.iter().map(|case| case.outcome(recording, learned, || progress.step())).collect::<Result<_>>()?;
     if with_bounds {
         progress.phase("computing the bound", 0);
         for index in 0..outcomes.len() {

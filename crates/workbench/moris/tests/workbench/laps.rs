@@ -90,3 +90,56 @@ fn positions_of_other_names_and_units_are_measured_and_missing_ones_named() {
     let message = String::from_utf8_lossy(&refused.stderr);
     assert!(message.contains("--learn is for the predictive strategy alone"), "{message}");
 }
+
+/// The row of the sway in what `measure` prints with these options.
+fn sway(directory: &Path, file: &str, options: &[&str]) -> String {
+    let output = moris(directory, &[&["measure", file, "--parameters", "predictive"], options].concat());
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let row = text.lines().find(|line| line.contains("sway")).map(str::to_owned);
+    row.unwrap_or_else(|| panic!("{text}{}", String::from_utf8_lossy(&output.stderr)))
+}
+
+#[test]
+fn latitude_and_longitude_are_a_position() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| directory.path().join(name);
+    write_rounds(&file("metres.csv"), 2.0, ["x", "y"]);
+    // The same places near 45 degrees north and 7 degrees west.
+    let text = fs::read_to_string(file("metres.csv")).unwrap();
+    let degrees = text.lines().enumerate().map(|(k, line)| {
+        let fields: Vec<&str> = line.split(',').collect();
+        if k == 0 {
+            return "time,ax,ay,az,wx,wy,wz,Longitude,Latitude,speed\n".to_owned();
+        }
+        let [x, y] = [7, 8].map(|place: usize| fields[place].parse::<f64>().unwrap());
+        let place = format!("{:.9},{:.9}", x / 78_847.0 - 7.0, y / 111_132.0 + 45.0);
+        format!("{},{place},{}\n", fields[..7].join(","), fields[9])
+    });
+    fs::write(file("degrees.csv"), degrees.collect::<String>()).unwrap();
+    let learned = ["metres.csv", "degrees.csv"].map(|name| sway(directory.path(), name, &["--learn"]));
+    let numbers = learned.each_ref().map(|row| row.split_whitespace().skip(3).take(4).collect::<Vec<_>>());
+    assert_eq!(numbers[0], numbers[1]);
+    let plain = sway(directory.path(), "degrees.csv", &[]);
+    assert_ne!(numbers[1], plain.split_whitespace().skip(3).take(4).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_road_in_a_file_is_known_by_the_next_recording() {
+    let directory = tempfile::tempdir().unwrap();
+    write_rounds(&directory.path().join("one.csv"), 1.0, ["x", "y"]);
+    let row = |options: &[&str]| sway(directory.path(), "one.csv", options);
+    let numbers = |row: String| row.split_whitespace().skip(3).map(str::to_owned).collect::<Vec<_>>();
+    let (first, again) = (numbers(row(&["--learn=track.laps"])), numbers(row(&["--learn=track.laps"])));
+    assert_eq!(first, numbers(row(&["--learn"])), "nothing is known in the first round");
+    assert_ne!(first, again);
+    let points = fs::read_to_string(directory.path().join("track.laps")).unwrap().lines().count();
+    assert!((1150..1250).contains(&points), "{points}");
+    let simulate = ["simulate", "one.csv", "--strategy", "predictive", "--learn=track.laps", "--no-bound"];
+    assert!(moris(directory.path(), &simulate).status.success());
+    let later = fs::read_to_string(directory.path().join("track.laps")).unwrap().lines().count();
+    assert!(later > points + 550, "{later}");
+    fs::write(directory.path().join("track.laps"), "a,b\n").unwrap();
+    let refused = moris(directory.path(), &simulate);
+    let message = String::from_utf8_lossy(&refused.stderr);
+    assert!(message.contains("line 1 is none of a road"), "{message}");
+}

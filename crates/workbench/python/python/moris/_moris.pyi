@@ -113,6 +113,7 @@ class Simulation:
         bound: bool,
         preview: float,
         learn: bool,
+        road: str | PathLike[str] | None,
     ) -> Simulation: ...
     @staticmethod
     def judged(

@@ -33,7 +33,8 @@ class Recording:
     columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/recordings.md.
     time_unit: "s", "ms", "us", "ns", "min", "h", "d". force_unit: "m/s2", "g", "mg", "ft/s2". rate_unit: "rad/s", "deg/s".
     angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn", "ft/s".
-    length_unit: "m", "km", "ft". position: True reads the columns x and y, for simulate(learn=True).
+    length_unit: "m", "km", "ft". position: True reads the columns x and y, or latitude and
+        longitude, for simulate(learn=True).
     gravity: "included" as an accelerometer reads it, or "removed".
     axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".

@@ -121,7 +121,7 @@ def simulate(
     *,
     bound: bool = False,
     preview: float = 0.0,
-    learn: bool = False,
+    learn: bool | types.Path = False,
     **options: Unpack[RecordingOptions],
 ) -> Simulation:
     """Simulates a recording from rest at neutral, the inputs going linearly from sample to sample.
@@ -131,16 +131,19 @@ def simulate(
     bound: compute the least error that any controller could reach, too; it takes some seconds.
     preview: time of the recording's own future that the washout knows at each sample, from 0 to 4 [s]. Only the strategy
         "predictive" makes use of it.
-    learn: give it a preview that is learned from earlier passes of the same road instead. The source needs the columns x and y;
-        a Recording is read with position=True.
+    learn: give it a preview that is learned from earlier passes of the same road instead. The source needs the columns x and y, or
+        latitude and longitude; a Recording is read with position=True. The path of a file, one for each vehicle and track, keeps
+        what is learned: it is read first and written at the end.
 
     Returns a Simulation. Raises RecordingError, ParameterError or BoundError.
     """
-    if learn and not isinstance(recording, Recording):
+    road = None if isinstance(learn, bool) else learn
+    learns = learn is not False
+    if learns and not isinstance(recording, Recording):
         options["position"] = True
     recording = recording_of(recording, options)
-    native = _moris.Simulation(recording._native, rig, parameters, strategy, bound, preview, learn)
-    return Simulation(native, recording, preview, learn)
+    native = _moris.Simulation(recording._native, rig, parameters, strategy, bound, preview, learns, road)
+    return Simulation(native, recording, preview, learns)
 
 
 def bound(

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::units::{TimeUnit, Unit};
+use super::units::{AngleUnit, TimeUnit, Unit};
 use super::{Header, Quantity, Term};
 use crate::recording::conventions::Conventions;
 use crate::recording::message::named;
@@ -56,7 +56,11 @@ impl Header {
                 columns.push(Column { quantity, terms, unit, source });
                 continue;
             }
-            let (unit, source) = self.unit_of_sum(&terms, quantity.dimension(), conventions)?;
+            let (mut unit, source) = self.unit_of_sum(&terms, quantity.dimension(), conventions)?;
+            // An option for angles means those of the vehicle.
+            if matches!(quantity, Quantity::Geographic(_)) && source != UnitSource::Header {
+                unit = AngleUnit::Degree.unit();
+            }
             columns.push(Column { quantity, terms, unit, source });
         }
         self.check_units_are_complete(&columns)?;
@@ -69,9 +73,11 @@ impl Header {
         skips_time: bool,
     ) -> Result<Vec<(Quantity, Vec<Term>)>, String> {
         let (mut chosen, mut missing, mut ambiguous) = (Vec::new(), Vec::new(), None);
+        let is_geographic = self.is_geographic(conventions);
         let is_read = |quantity: &Quantity| match quantity {
             Quantity::Time => !skips_time,
-            Quantity::Position(_) => conventions.position,
+            Quantity::Position(_) => conventions.position && !is_geographic,
+            Quantity::Geographic(_) => is_geographic,
             _ => true,
         };
         for quantity in Quantity::ALL.into_iter().filter(is_read) {
@@ -88,6 +94,16 @@ impl Header {
             Some(reason) => Err(reason),
             None => Ok(chosen),
         }
+    }
+
+    /// True if a position is needed that only latitude and longitude give.
+    pub(super) fn is_geographic(&self, conventions: &Conventions) -> bool {
+        let has = |quantities: [Quantity; 2]| {
+            quantities.iter().all(|&quantity| self.terms(conventions.column(quantity)) != Ok(None))
+        };
+        conventions.position
+            && !has([Quantity::Position(0), Quantity::Position(1)])
+            && has([Quantity::Geographic(0), Quantity::Geographic(1)])
     }
 
     fn check_each_is_used_once(&self, chosen: &[(Quantity, Vec<Term>)]) -> Result<(), String> {

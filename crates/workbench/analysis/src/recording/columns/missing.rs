@@ -28,7 +28,10 @@ impl Header {
 
     /// The quantities that a recording needs, with their columns.
     fn needed(&self, conventions: &Conventions) -> impl Iterator<Item = (Quantity, Result<Option<Vec<Term>>, String>)> {
-        let needed = Quantity::ALL.into_iter().filter(|&quantity| conventions.needs(quantity));
+        let is_geographic = self.is_geographic(conventions);
+        let needed = Quantity::ALL.into_iter().filter(move |&quantity| {
+            conventions.needs(quantity) && !(is_geographic && matches!(quantity, Quantity::Position(_)))
+        });
         needed.map(|quantity| (quantity, self.terms(conventions.column(quantity))))
     }
 

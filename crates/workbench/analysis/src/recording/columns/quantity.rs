@@ -12,12 +12,14 @@ pub enum Quantity {
     Speed,
     Lean,
     Position(usize),
+    /// Latitude and longitude, in degrees unless the file says otherwise.
+    Geographic(usize),
 }
 
 impl Quantity {
     /// Every quantity, in the order of columns.
-    pub const ALL: [Quantity; 14] = {
-        use Quantity::{Angle, Force, Lean, Position, Rate, Speed, Time};
+    pub const ALL: [Quantity; 16] = {
+        use Quantity::{Angle, Force, Geographic, Lean, Position, Rate, Speed, Time};
         [
             Time,
             Force(0),
@@ -33,6 +35,8 @@ impl Quantity {
             Lean,
             Position(0),
             Position(1),
+            Geographic(0),
+            Geographic(1),
         ]
     };
 
@@ -41,7 +45,7 @@ impl Quantity {
 
     /// True for angles, which are the same after a turn.
     pub fn is_angle(self) -> bool {
-        matches!(self, Quantity::Angle(_) | Quantity::Lean)
+        matches!(self, Quantity::Angle(_) | Quantity::Lean | Quantity::Geographic(_))
     }
 
     /// True for time, specific force and rates, which every recording must have.
@@ -55,7 +59,7 @@ impl Quantity {
             Quantity::Time => Dimension::Time,
             Quantity::Force(_) => Dimension::Force,
             Quantity::Rate(_) => Dimension::Rate,
-            Quantity::Angle(_) | Quantity::Lean => Dimension::Angle,
+            Quantity::Angle(_) | Quantity::Lean | Quantity::Geographic(_) => Dimension::Angle,
             Quantity::Speed => Dimension::Speed,
             Quantity::Position(_) => Dimension::Length,
         }
@@ -71,6 +75,7 @@ impl Quantity {
             Quantity::Speed => "speed",
             Quantity::Lean => "lean",
             Quantity::Position(axis) => ["x", "y"][axis],
+            Quantity::Geographic(axis) => ["latitude", "longitude"][axis],
         }
     }
 

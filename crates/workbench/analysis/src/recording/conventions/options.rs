@@ -88,7 +88,8 @@ pub struct ConventionOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER"))]
     pub lap: Option<f64>,
 
-    /// Read the vehicle's position, the columns x and y in fixed axes; --learn does so, too
+    /// Read the vehicle's position, the columns x and y in fixed axes, or latitude and longitude;
+    /// --learn does so, too
     #[cfg_attr(feature = "clap", arg(long))]
     pub position: bool,
 

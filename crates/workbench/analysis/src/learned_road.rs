@@ -7,9 +7,47 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use moris_laps::Laps;
+use moris_simulation::preview::Previewer;
+
+use crate::recording::Recording;
 
 /// Largest file \[bytes\]. A full memory has less than 4 MB.
 const LARGEST: u64 = 16_000_000;
+
+/// The road that recordings learn: each one its own, or all of them one that is kept in a file.
+pub struct Kept<'a> {
+    file: Option<&'a Path>,
+    laps: Laps,
+}
+
+impl<'a> Kept<'a> {
+    /// The road in this file, if there is one.
+    ///
+    /// # Errors
+    /// As [`load`].
+    pub fn open(file: Option<&'a Path>) -> Result<Self> {
+        Ok(Kept { file, laps: file.map_or_else(|| Ok(Laps::new()), load)? })
+    }
+
+    /// The preview that a recording learns, and with a file those after it.
+    ///
+    /// # Errors
+    /// The recording has no position.
+    pub fn learn(&mut self, recording: &Recording) -> Result<Previewer> {
+        if self.file.is_none() {
+            self.laps = Laps::new();
+        }
+        Ok(recording.learned(&mut self.laps)?)
+    }
+
+    /// Writes the road to its file.
+    ///
+    /// # Errors
+    /// As [`save`].
+    pub fn save(&self) -> Result<()> {
+        self.file.map_or(Ok(()), |file| save(file, &self.laps))
+    }
+}
 
 /// The road in this file; an empty one if there is no file.
 ///
