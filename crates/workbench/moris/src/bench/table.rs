@@ -127,8 +127,9 @@ fn line(group: &[&Row], error: Figure) -> Vec<String> {
     let percent = |value: Option<f64>| or_undefined(value.map(|value| format!("{value:.1} %")));
     let ratio = |over: Figure| {
         let of = |row: &Row, axis: usize| {
-            let [error, over] = [error.of(row, axis)?, over.of(row, axis)?];
-            (over >= LEAST).then(|| error / over)
+            let [value, over] = [error.of(row, axis)?, over.of(row, axis)?];
+            let is_meant = over >= LEAST && (error != Figure::Bound || value >= LEAST);
+            is_meant.then(|| value / over)
         };
         let ratios = group.iter().flat_map(|row| (0..2).filter_map(move |axis| of(row, axis)));
         number(geometric_mean(ratios), 2)
