@@ -51,7 +51,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use axes::convert;
-use checks::{consistency, dead, outliers, unusual};
+use checks::{consistency, dead, exchanged, frozen, outliers, unusual};
 pub(crate) use columns::units;
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
@@ -118,7 +118,15 @@ impl Recording {
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);
-        checks::plausibility(&table, &inputs, conventions)?;
+        let stops = frozen::stops(&table, &inputs);
+        checks::plausibility(&table, &inputs, conventions).map_err(|error| match stops.first() {
+            // What a sensor shows after it has stopped is no unit or axis.
+            Some(reason) => table.refused(reason.trim_end_matches('.')),
+            None => error,
+        })?;
+        warnings.extend(stops);
+        warnings.extend(frozen::repeats(&table, conventions));
+        warnings.extend(exchanged::warnings(&table, &inputs, conventions));
         warnings.extend(dead::warnings(&table, &inputs, conventions));
         warnings.extend(consistency::warnings(&table, &inputs, conventions));
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);

@@ -17,6 +17,7 @@ mod measure;
 mod mounting;
 mod outliers;
 mod recordings;
+mod silent;
 mod tune;
 mod ways_in;
 mod worst_case;

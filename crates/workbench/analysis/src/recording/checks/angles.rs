@@ -9,7 +9,7 @@ use super::remedy;
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{AngleUnit, Conventions, Quantity, RateFrame};
 use crate::recording::message::given;
-use crate::recording::signal::{regression, root_mean_square};
+use crate::recording::signal::{median, regression, root_mean_square};
 use crate::recording::table::Table;
 
 /// Roll or pitch that no vehicle exceeds \[rad\].
@@ -18,6 +18,8 @@ const STEEPEST: f64 = 3.2;
 const STEEP: f64 = FRAC_PI_2 + 0.1;
 /// Ratios of an angle's derivative and a rate that show degrees.
 const DEGREES: [f64; 2] = [30.0, 110.0];
+/// Spread of a derivative that hardly varies, as a part of it.
+const STEADY: f64 = 0.2;
 /// Least derivative and rate that are compared, as root mean squares \[rad/s\].
 const LEAST_RATE: f64 = 0.005;
 
@@ -59,12 +61,28 @@ fn evidence(table: &Table, inputs: &[Input], conventions: &Conventions, axis: us
         if is_small(&derivative) || is_small(&rate) { None } else { regression(&rate, &derivative) }
     };
     let is_body = conventions.rate_frame == RateFrame::Body;
+    // A steady turn has nothing but the two means.
+    let steady = || is_body.then(|| steady_ratio(inputs, axis, table.step())).flatten();
     // Degrees jump by 360.
-    let degrees = || ratio(360.0).filter(|ratio| is_body && (DEGREES[0]..DEGREES[1]).contains(&ratio.abs()));
+    let of_changes = ratio(360.0).filter(|_| is_body).or_else(steady);
+    let degrees = || of_changes.filter(|ratio| (DEGREES[0]..DEGREES[1]).contains(&ratio.abs()));
     if let Some(ratio) = degrees() {
         return Some(format!("{name} changes {:.0} times as fast as its rate", ratio.abs()));
     }
     let reach = inputs.iter().map(|input| input.orientation.to_vector()[axis].abs()).fold(0.0, f64::max);
     let is_confirmed = || ratio(TAU).is_some_and(|ratio| (0.5..2.0).contains(&ratio.abs()));
     (axis < 2 && reach > STEEP && !is_confirmed()).then(|| format!("{name} reaches {reach:.1}"))
+}
+
+/// Ratio of an angle's derivative in degrees and a rate that hardly vary; none of others.
+fn steady_ratio(inputs: &[Input], axis: usize, step: f64) -> Option<f64> {
+    let angle = |input: &Input| input.orientation.to_vector()[axis];
+    let change = |pair: &[Input]| {
+        let change = angle(&pair[1]) - angle(&pair[0]);
+        (change - 360.0 * (change / 360.0).round()) / step
+    };
+    let usual = median(inputs.windows(2).map(change));
+    let rate = median(inputs.iter().map(|input| input.angular_velocity[axis]));
+    let spread = median(inputs.windows(2).map(|pair| (change(pair) - usual).abs()));
+    (rate.abs() > LEAST_RATE && spread < STEADY * usual.abs()).then(|| usual / rate)
 }

@@ -12,7 +12,9 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use super::speeds::signed_speeds;
 use super::{remedy, remedy_with};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{Conventions, ForceUnit, Gravity, Quantity, RateFrame, SpeedUnit, TimeUnit, Unit};
+use crate::recording::conventions::{
+    Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, SpeedUnit, TimeUnit, Unit,
+};
 use crate::recording::message::{given, named};
 use crate::recording::signal::{centred, integral, regression, root_mean_square, smooth};
 use crate::recording::table::Table;
@@ -26,14 +28,20 @@ pub const LEAST_SWAY: f64 = 0.3;
 /// Fraction of these sizes down to which the other signal is compared: it may be in a larger unit.
 const FAINT: f64 = 0.01;
 /// Least rate that is compared with an angle, as a root mean square \[rad/s\].
-const LEAST_RATE: f64 = 0.02;
+const LEAST_RATE: f64 = 0.005;
 /// Ratio of two signals that should be equal, up to which they are taken as equal: slopes and bias
 /// change the force.
 const RATIO: f64 = 1.5;
 /// Largest relative distance from another unit's ratio that shows this unit.
 const UNIT_TOLERANCE: f64 = 0.2;
+/// Largest logarithm of a ratio over that of a unit of rates.
+const RATE_TOLERANCE: f64 = 0.4;
 /// Ratio above which no slope or bias changes the speed, but the scale of time is wrong.
 const SCALE: f64 = 5.0;
+/// Ratio above which the scale of time is wrong where the speed fits the yaw rate in bends, and the
+/// relative distance of this fit.
+const PACE: f64 = 1.8;
+const FITS: f64 = 0.1;
 /// Ratio below which a sign is wrong. Two-wheelers have a small lateral force of either sign.
 const OPPOSITE: f64 = -0.5;
 
@@ -62,8 +70,9 @@ fn is_equal(ratio: f64) -> bool {
 /// Factor from the signal that is expected to the other; none where one is small, or they do not go
 /// together.
 fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
-    let is_small = |values, least| root_mean_square(values) < least;
-    if is_small(expected, least) || is_small(found, FAINT * least) { None } else { regression(expected, found) }
+    let [expected_size, found_size] = [expected, found].map(root_mean_square);
+    let is_small = expected_size.max(found_size) < least || expected_size.min(found_size) < FAINT * least;
+    if is_small { None } else { regression(expected, found) }
 }
 
 /// Changes of a signal over [`WINDOW`], or a quarter of a short one.
@@ -75,25 +84,34 @@ pub fn changes(values: &[f64], step: f64) -> Vec<f64> {
 /// Ratio of the changes of speed and the integral of the force along x. Where slopes explain it, as
 /// the pitch or the rate of pitch gives them, it is 1.
 fn surge_ratio(step: f64, inputs: &[Input], speeds: &[f64]) -> Option<f64> {
-    let found = changes(speeds, step);
-    let of_force = |force: &[f64]| {
-        let expected = centred(changes(&integral(force.iter().copied(), step), step).into_iter());
-        let is_small = root_mean_square(&found) < LEAST_CHANGE || root_mean_square(&expected) < FAINT * LEAST_CHANGE;
-        if is_small { None } else { regression(&expected, &centred(found.iter().copied())) }
-    };
     let force: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
-    let ratio = of_force(&force);
+    let ratio = ratio_of_force(step, &force, speeds);
     if ratio.is_some_and(is_equal) {
         return ratio;
     }
+    if slopes_explain(step, inputs, speeds) { Some(1.0) } else { ratio }
+}
+
+/// Ratio of the changes of speed and the integral of a force.
+fn ratio_of_force(step: f64, force: &[f64], speeds: &[f64]) -> Option<f64> {
+    let found = changes(speeds, step);
+    let expected = centred(changes(&integral(force.iter().copied(), step), step).into_iter());
+    let is_small = root_mean_square(&found) < LEAST_CHANGE || root_mean_square(&expected) < FAINT * LEAST_CHANGE;
+    if is_small { None } else { regression(&expected, &centred(found.into_iter())) }
+}
+
+/// True where slopes explain the changes of speed beside the force along x, as the pitch or the rate
+/// of pitch gives them.
+pub fn slopes_explain(step: f64, inputs: &[Input], speeds: &[f64]) -> bool {
     // Pitch is positive with the nose down, where gravity accelerates.
     let pitch: Vec<f64> = inputs.iter().map(|input| input.orientation.pitch).collect();
     let of_rate = centred(integral(inputs.iter().map(|input| input.angular_velocity.y), step).into_iter());
     let on_slopes = |pitch: &Vec<f64>| {
-        let force: Vec<f64> = force.iter().zip(pitch).map(|(f, pitch)| f + STANDARD_GRAVITY * pitch.sin()).collect();
-        of_force(&force).is_some_and(is_equal)
+        let force =
+            inputs.iter().zip(pitch).map(|(input, pitch)| input.specific_force.x + STANDARD_GRAVITY * pitch.sin());
+        ratio_of_force(step, &force.collect::<Vec<_>>(), speeds).is_some_and(is_equal)
     };
-    if [pitch, of_rate].iter().any(on_slopes) { Some(1.0) } else { ratio }
+    [pitch, of_rate].iter().any(on_slopes)
 }
 
 /// Ratio of the lateral force and speed times yaw rate.
@@ -107,6 +125,10 @@ fn sway_ratio(step: f64, inputs: &[Input], speeds: &[f64]) -> Option<f64> {
 enum Cause {
     Unit(Quantity, Unit),
     TimeScale(f64),
+    /// Factor of a speed in a unit that is not known.
+    SpeedScale(f64),
+    /// Factor of the force along x and y, with the units that it has and should have.
+    Horizontal(f64, [Unit; 2]),
 }
 
 /// Judges the ratio of the changes of speed and the integral of the force along x.
@@ -132,13 +154,36 @@ fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: O
             format!("the {name} seems to be in {}, not in {}: {remedy}", unit.word, table.unit(quantity).0.word)
         }
         Some(Cause::TimeScale(scale)) => {
-            let scaled = format!("\"time={} * {scale:.3}\"", conventions.column(Quantity::Time));
-            let (unit, columns) = (named("time-unit"), given("columns", scaled));
-            format!("the time seems to run {scale:.1} times too fast: check {unit}, or use {columns}")
+            let pace = time_scale(conventions, scale);
+            let slopes = if (1.0 / SCALE..SCALE).contains(&scale) { ", if no slopes cause it" } else { "" };
+            format!("{pace}{slopes}")
+        }
+        Some(Cause::SpeedScale(factor)) => {
+            let scaled = format!("\"speed={} * {factor}\"", conventions.column(Quantity::Speed));
+            format!("its unit seems to be {factor} m/s: use {}", given("columns", scaled))
+        }
+        Some(Cause::Horizontal(factor, [unit, other])) => {
+            let scaled = |axis: usize| {
+                let quantity = Quantity::Force(axis);
+                format!("{}={} * {factor:.5}", quantity.key(), conventions.column(quantity))
+            };
+            let columns = given("columns", format!("\"{}\"", [0, 1].map(scaled).join(",")));
+            format!(
+                "the forces along x and y seem to be in {}, and that along z in {}: use {columns}",
+                unit.word, other.word
+            )
         }
         None => format!("check {}", named("speed-unit")),
     };
     Some(format!("{fact}: {meaning}."))
+}
+
+/// The fact that time runs at another pace, and the remedy.
+fn time_scale(conventions: &Conventions, scale: f64) -> String {
+    let scaled = format!("\"time={} * {scale:.3}\"", conventions.column(Quantity::Time));
+    let (unit, columns) = (named("time-unit"), given("columns", scaled));
+    let (times, pace) = if scale < 1.0 { (1.0 / scale, "slow") } else { (scale, "fast") };
+    format!("the time seems to run {times:.1} times too {pace}: check {unit}, or use {columns}")
 }
 
 /// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
@@ -147,6 +192,9 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
     // In bends a wrong unit of speed or force has the opposite effect, and that of time none.
     let of_time = sway.is_none_or(|sway| sway > 0.0 && near(sway, 1.0) < near(sway, 1.0 / surge));
     let of_others = sway.is_none_or(|sway| sway <= 0.0 || near(sway, 1.0) >= near(sway, 1.0 / surge) || surge < SCALE);
+    // A speed that fits the yaw rate in bends has the right unit.
+    let fits_bends = sway.is_some_and(|sway| near(sway, 1.0) < FITS) && !(1.0 / PACE..PACE).contains(&surge);
+    let of_others = of_others && !fits_bends;
     let mut causes: Vec<(f64, Cause)> = Vec::new();
     let mut consider = |quantity: Quantity, units: Vec<Unit>, effect: fn(f64, f64) -> f64| {
         let given = table.unit(quantity).0;
@@ -167,10 +215,22 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
         let times = TimeUnit::ALL.iter().map(|unit| unit.unit()).collect();
         consider(Quantity::Time, times, |given, other| other / given);
     }
+    if of_others && sway.is_some() && conventions.gravity == Gravity::Included {
+        let (unit, units) = (table.unit(Quantity::Force(0)).0, [ForceUnit::MetrePerSecondSquared, ForceUnit::Gravity]);
+        for other in units.map(|unit| unit.unit()).into_iter().filter(|other| *other != unit) {
+            let factor = other.in_si / unit.in_si;
+            causes.push((near(surge, factor), Cause::Horizontal(factor, [other, unit])));
+        }
+    }
+    if of_others {
+        for factor in [0.01, 0.001] {
+            causes.push((near(surge, 1.0 / factor), Cause::SpeedScale(factor)));
+        }
+    }
     let nearest =
         causes.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(distance, _)| *distance < UNIT_TOLERANCE);
-    let scale =
-        || (of_time && sway.is_some() && !(1.0 / SCALE..SCALE).contains(&surge)).then_some(Cause::TimeScale(surge));
+    let is_paced = fits_bends || !(1.0 / SCALE..SCALE).contains(&surge);
+    let scale = || (of_time && sway.is_some() && is_paced).then_some(Cause::TimeScale(surge));
     nearest.map(|(_, cause)| cause).or_else(scale)
 }
 
@@ -189,6 +249,10 @@ fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool
             "In bends the lateral force is {sway:.1} times speed by yaw rate: one of them has the wrong sign. Use the one \
              that applies: {remedy}."
         ));
+    }
+    let fact = format!("In bends the lateral force is {sway:.2} times speed by yaw rate");
+    if let Some(warning) = rate_unit(table, sway, &fact) {
+        return Some(warning);
     }
     if is_explained || sway >= 1.0 / RATIO {
         return None;
@@ -211,6 +275,25 @@ fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool
     ))
 }
 
+/// A unit of the rates that explains the ratio of what they should be and what they are.
+fn rate_unit(table: &Table, ratio: f64, fact: &str) -> Option<String> {
+    let given = table.unit(Quantity::Rate(2)).0;
+    let others = RateUnit::ALL.iter().map(|unit| unit.unit()).filter(|other| *other != given);
+    let other = others.min_by(|a, b| {
+        let distance = |unit: &Unit| (ratio * given.in_si / unit.in_si).ln().abs();
+        distance(a).total_cmp(&distance(b))
+    })?;
+    let is_near = ratio > 0.0 && (ratio * given.in_si / other.in_si).ln().abs() < RATE_TOLERANCE;
+    is_near.then(|| {
+        format!(
+            "{fact}: the angular velocities seem to be in {}, not in {}: {}.",
+            other.word,
+            given.word,
+            remedy(table, Quantity::Rate(2), other.word)
+        )
+    })
+}
+
 /// Smoothed derivative of an angle and the rate about its axis. Yaw jumps by a turn.
 pub fn derivative_and_rate(inputs: &[Input], axis: usize, step: f64, period: f64) -> (Vec<f64>, Vec<f64>) {
     let angle = |input: &Input| input.orientation.to_vector()[axis];
@@ -227,10 +310,13 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
     if conventions.rate_frame != RateFrame::Body {
         return Vec::new();
     }
-    let opposite = |axis: usize| {
+    let ratio = |axis: usize| {
         table.columns.get(&Quantity::Angle(axis))?;
         let (derivative, rate) = derivative_and_rate(inputs, axis, table.step(), TAU);
-        let ratio = ratio(&derivative, &rate, LEAST_RATE)?;
+        Some((axis, ratio(&derivative, &rate, LEAST_RATE)?))
+    };
+    let ratios: Vec<(usize, f64)> = (0..3).filter_map(ratio).collect();
+    let opposite = |&(axis, ratio): &(usize, f64)| {
         let name = ["roll", "pitch", "yaw"][axis];
         let remedy = turned(conventions, Quantity::Rate(axis));
         (ratio < OPPOSITE).then(|| {
@@ -241,7 +327,17 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
             )
         })
     };
-    (0..3).filter_map(opposite).collect()
+    let sizes: Vec<f64> = ratios.iter().map(|(_, ratio)| ratio.abs()).collect();
+    let size = sizes.iter().product::<f64>().powf(1.0 / sizes.len().max(1) as f64);
+    let agree = !sizes.is_empty() && sizes.iter().all(|other| (other / size).ln().abs() < UNIT_TOLERANCE);
+    let scaled = if (0.5..2.0).contains(&size) || !agree {
+        None
+    } else {
+        let fact = format!("The angular velocities are {size:.2} times the derivatives of the angles");
+        let of_time = || (sizes.len() > 1).then(|| format!("{fact}: {}.", time_scale(conventions, 1.0 / size)));
+        rate_unit(table, 1.0 / size, &fact).or_else(of_time)
+    };
+    ratios.iter().filter_map(opposite).chain(scaled).collect()
 }
 
 /// The remedy for a quantity with the wrong sign.

@@ -22,7 +22,8 @@ const NO_GRAVITY: f64 = 3.0;
 pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
     let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis])));
     let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
-    if (median - gravity).norm() < GRAVITY_TOLERANCE || is_driven_hard(&median, inputs) {
+    let is_near = (median - gravity).norm() < GRAVITY_TOLERANCE;
+    if is_near || is_driven_hard(&median, inputs) || is_steady_bend(&median, inputs) {
         return Ok(());
     }
     // As the file has it: without the gravity that conversion has added, in the file's unit.
@@ -61,6 +62,12 @@ fn is_driven_hard(median: &Vector3<f64>, inputs: &[Input]) -> bool {
     let distance = |z: f64| (median.z - z).abs();
     let is_level = distance(STANDARD_GRAVITY) < GRAVITY_TOLERANCE && distance(STANDARD_GRAVITY) < distance(tilted);
     is_level && self::median(inputs.iter().map(|input| (input.specific_force - median).xy().norm())) > horizontal
+}
+
+/// True if the speed and the yaw rate explain a lateral median, as on a steady circle.
+fn is_steady_bend(median: &Vector3<f64>, inputs: &[Input]) -> bool {
+    let turning = self::median(inputs.iter().map(|input| input.speed * input.angular_velocity.z));
+    (median - Vector3::new(0.0, turning, STANDARD_GRAVITY)).norm() < GRAVITY_TOLERANCE
 }
 
 /// Gravity in counts of a sensor, and its scale.

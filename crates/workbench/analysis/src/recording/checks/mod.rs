@@ -3,12 +3,15 @@
 //! - [`outliers`] finds samples that no vehicle causes.
 //! - `gravity`, `angles` and `rates` detect wrong units and axes.
 //! - [`consistency`] detects channels that contradict each other, with the sign that `speeds` gives
-//!   the speed, and [`dead`] those that stand still.
+//!   the speed, [`dead`] those that stand still, [`frozen`] those that stop, and [`exchanged`] those
+//!   of another axis.
 //! - [`unusual`] warns about recordings that are possible.
 
 mod angles;
 pub mod consistency;
 pub mod dead;
+pub mod exchanged;
+pub mod frozen;
 mod gravity;
 pub mod outliers;
 mod rates;

@@ -141,12 +141,13 @@ fn data(text: &str) -> Option<&str> {
     text.lines().take(LONGEST_PREAMBLE).filter(|line| line.len() < LONGEST_HEADER).find(is_data)
 }
 
-/// True for fields that may be names: no numbers, and not mostly units.
+/// True for fields that may be names: no numbers, not mostly units, and no bars between others.
 fn is_names(titles: &[String]) -> bool {
     let written = titles.iter().filter(|title| !title.trim().is_empty());
     let units = written.clone().filter(|title| any_spelled(title).is_some()).count();
     let numbers = titles.iter().filter(|title| is_number(title)).count();
-    numbers == 0 && units * 2 <= written.clone().count() && written.count() > 0
+    let is_parted = titles.iter().any(|title| title == "|");
+    numbers == 0 && !is_parted && units * 2 <= written.clone().count() && written.count() > 0
 }
 
 /// True where one of the next lines, behind those of units and sources, has as many fields, and the

@@ -53,8 +53,9 @@ pub fn text(file: &Path) -> Result<Text, RecordingError> {
     // Loggers that do not write UTF-8 write Latin-1, of which headers use ° and ².
     let text = String::from_utf8(bytes);
     let mut text = text.unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect());
-    if !text.contains('\n') {
-        text = text.replace('\r', "\n");
+    // Lines that end as on old computers, perhaps but for the last.
+    if text.matches('\r').count() > 1 && text.matches('\n').count() <= 1 {
+        text = text.replace("\r\n", "\n").replace('\r', "\n");
     }
     Ok(Text { text, is_cut: end.is_some() })
 }

@@ -18,6 +18,8 @@ const JITTER: f64 = 0.2;
 const COARSEST: f64 = 0.25;
 /// Finest step: below it, time is in another unit \[s\].
 const FINEST: f64 = 1e-4;
+/// Gap from which it may be longer than the recording \[s\].
+const LONGEST_REFUSED: f64 = 10.0;
 /// Largest number of samples: about a day at 100 Hz.
 const MOST_SAMPLES: f64 = 1e7;
 
@@ -45,7 +47,11 @@ fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let usual = usual_step(&table.time);
     let (unit, _) = table.unit(Quantity::Time);
     let reason = if usual > COARSEST {
-        format!("too coarse for a washout; if time is in ms or another unit, give it with {}", named("time-unit"))
+        format!(
+            "too coarse for a washout; if time is in ms or another unit, give it with {}; if it counts samples, use {}",
+            named("time-unit"),
+            given("rate", "HERTZ")
+        )
     } else if usual < FINEST {
         let others = TimeUnit::ALL.iter().map(|other| other.unit());
         let rate = |other: Unit| unit.in_si / (usual * other.in_si);
@@ -87,9 +93,24 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     Err(table.refused_at(odd, Quantity::Time, reason))
 }
 
+/// Time from the sample before to a sample \[s\].
+fn step_to(table: &Table, sample: usize) -> f64 {
+    table.time[sample] - table.time[sample - 1]
+}
+
 /// Linear interpolation at `rate` samples a second, with warnings about gaps.
 fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<String>), RecordingError> {
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
+    let longest = (1..table.time.len()).max_by(|&a, &b| step_to(&table, a).total_cmp(&step_to(&table, b))).unwrap_or(1);
+    let gap = step_to(&table, longest);
+    // Of a usual recording a gap is a small part.
+    if gap > LONGEST_REFUSED && gap > last - first - gap {
+        let reason = format!(
+            "nothing was recorded for {gap:.0} s before this line, which is longer than all that was: the clock has \
+             jumped, or these are two recordings; cut one of them off"
+        );
+        return Err(table.refused_at(longest, Quantity::Time, reason));
+    }
     let steps = (last - first) * rate + 1e-6;
     if steps > MOST_SAMPLES {
         let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);

@@ -1,0 +1,81 @@
+//! Channels that are another axis's.
+
+use std::f64::consts::TAU;
+
+use moris_washout::Input;
+
+use super::consistency::{LEAST_CHANGE, changes, derivative_and_rate};
+use super::speeds::signed_speeds;
+use crate::recording::conventions::{Conventions, Quantity, RateFrame};
+use crate::recording::message::{given, named};
+use crate::recording::signal::{centred, integral, regression, root_mean_square};
+use crate::recording::table::Table;
+
+/// Ratios of two signals that are the same, of either sign.
+const SAME: [f64; 2] = [0.67, 1.5];
+/// Least rate that is compared, as a root mean square \[rad/s\].
+const LEAST_RATE: f64 = 0.002;
+
+/// Warnings about a speed that goes with the force along y, and a roll that goes with the rate of
+/// pitch.
+pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
+    [forces(table, inputs, conventions), rates(table, inputs, conventions)].into_iter().flatten().collect()
+}
+
+fn is_same(ratio: Option<f64>) -> bool {
+    ratio.is_some_and(|ratio| (SAME[0]..SAME[1]).contains(&ratio.abs()))
+}
+
+fn forces(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
+    table.columns.get(&Quantity::Speed)?;
+    let step = table.step();
+    let (speeds, _) = signed_speeds(inputs, step);
+    let needed = centred(changes(&speeds, step).into_iter());
+    if root_mean_square(&needed) < LEAST_CHANGE {
+        return None;
+    }
+    let ratio = |axis: usize| {
+        let force = integral(inputs.iter().map(|input| input.specific_force[axis]), step);
+        let driven = centred(changes(&force, step).into_iter());
+        // Noise goes with nothing.
+        (root_mean_square(&driven) > 0.0).then(|| regression(&driven, &needed)).flatten()
+    };
+    if ratio(0).is_some() || !is_same(ratio(1)) {
+        return None;
+    }
+    let sign = if ratio(1)? > 0.0 { "" } else { "-" };
+    Some(format!(
+        "The speed goes with the force along y, and not with that along x: the axes seem to be exchanged. {}",
+        remedy(conventions, [Quantity::Force(0), Quantity::Force(1)], sign)
+    ))
+}
+
+fn rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
+    let has_angles = [0, 1].iter().all(|axis| table.columns.contains_key(&Quantity::Angle(*axis)));
+    if !has_angles || conventions.rate_frame != RateFrame::Body {
+        return None;
+    }
+    let signals = [0, 1].map(|axis| derivative_and_rate(inputs, axis, table.step(), TAU));
+    let ratio = |angle: usize, rate: usize| {
+        let (derivative, rate) = (&signals[angle].0, &signals[rate].1);
+        let is_small = |values: &[f64]| root_mean_square(values) < LEAST_RATE;
+        if is_small(derivative) || is_small(rate) { None } else { regression(derivative, rate) }
+    };
+    let is_exchanged = ratio(0, 0).is_none() && ratio(1, 1).is_none() && is_same(ratio(0, 1)) && is_same(ratio(1, 0));
+    is_exchanged.then(|| {
+        format!(
+            "Roll goes with the angular velocity wy, and pitch with wx: the rates seem to be exchanged. {}",
+            remedy(conventions, [Quantity::Rate(0), Quantity::Rate(1)], "")
+        )
+    })
+}
+
+/// The remedy where two columns are exchanged.
+fn remedy(conventions: &Conventions, [one, other]: [Quantity; 2], sign: &str) -> String {
+    if conventions.mounting.is_some() {
+        return format!("Check {}.", named("mounting"));
+    }
+    let [first, second] = [one, other].map(|quantity| conventions.column(quantity));
+    let columns = format!("{}={sign}{second},{}={first}", one.key(), other.key());
+    format!("If they are, use {}.", given("columns", columns))
+}

@@ -1,0 +1,103 @@
+//! Sensors that stop in the middle of a recording, and values that are repeated.
+
+use moris_washout::Input;
+
+use super::consistency::{LEAST_CHANGE, LEAST_SWAY, changes};
+use super::speeds::signed_speeds;
+use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::message::given;
+use crate::recording::signal::{is_constant, median, root_mean_square, smooth, sorted};
+use crate::recording::table::Table;
+
+/// Time from which a value that stays is looked at \[s\].
+const STAYS: f64 = 2.0;
+/// Largest part of a recording in which a sensor has stopped: one that never moves was never there.
+const MOST: f64 = 0.95;
+/// Speed above which bends need a yaw rate \[m/s\].
+const DRIVES: f64 = 3.0;
+/// Times that each value is repeated, from which the steps are felt.
+const REPEATED: usize = 3;
+/// Least number of steps that are looked at, and the part of the samples that they must be.
+const STEPS: usize = 20;
+const MOSTLY: f64 = 0.6;
+
+/// Warnings about forces and yaw rates that stay at one value for seconds, while the speed changes
+/// or the vehicle drives bends.
+pub fn stops(table: &Table, inputs: &[Input]) -> Vec<String> {
+    if !table.columns.contains_key(&Quantity::Speed) {
+        return Vec::new();
+    }
+    let step = table.step();
+    let (speeds, _) = signed_speeds(inputs, step);
+    let forces: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
+    let lateral = |part: std::ops::Range<usize>| smooth(inputs[part].iter().map(|input| input.specific_force.y), step);
+    let of_force = |&(first, last): &(usize, usize)| {
+        let speeds = changes(&speeds[first..last], step);
+        let span = speeds.len();
+        let window = (last - first - span) as f64 * step;
+        let left: Vec<f64> = speeds.iter().map(|change| change - forces[first] * window).collect();
+        root_mean_square(&left) >= LEAST_CHANGE
+    };
+    let of_rate = |&(first, last): &(usize, usize)| {
+        median(speeds[first..last].iter().map(|speed| speed.abs())) > DRIVES
+            && root_mean_square(&lateral(first..last)) >= LEAST_SWAY
+    };
+    let found = |quantity: Quantity, contradicts: &dyn Fn(&(usize, usize)) -> bool, fact: &str| {
+        let values = table.columns.get(&quantity).filter(|values| !is_constant(values))?;
+        // One that stays throughout is not measured at all.
+        let is_part = |(first, last): &(usize, usize)| ((last - first) as f64) < MOST * values.len() as f64;
+        let stays = stays(values, (STAYS / step) as usize);
+        let (first, last) = stays.into_iter().filter(is_part).find(contradicts)?;
+        let [from, to] = [first, last].map(|sample| sample as f64 * step);
+        Some(format!(
+            "Column {} stays at one value from {from:.1} s to {to:.1} s, while {fact}: the sensor has stopped. Cut this \
+             part off.",
+            quantity.key()
+        ))
+    };
+    [
+        found(Quantity::Force(0), &of_force, "the speed changes otherwise"),
+        found(Quantity::Rate(2), &of_rate, "the lateral force is that of bends"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The stretches in which a value stays the same, from the first sample to behind the last.
+fn stays(values: &[f64], least: usize) -> Vec<(usize, usize)> {
+    let mut end = 0;
+    let runs = values.chunk_by(|a, b| a == b).map(|run| {
+        end += run.len();
+        (end - run.len(), end)
+    });
+    runs.filter(|(first, last)| last - first > least.max(REPEATED)).collect()
+}
+
+/// A warning about channels whose values come several times in a row: they were sampled at a lower
+/// rate than they are written.
+pub fn repeats(table: &Table, conventions: &Conventions) -> Option<String> {
+    let step = table.step();
+    let times = |quantity: &Quantity| {
+        let values = table.columns.get(quantity).filter(|values| !is_constant(values))?;
+        // At rest a value may stay for long.
+        let runs: Vec<usize> = values.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
+        let short: Vec<usize> = runs.into_iter().filter(|run| (*run as f64) * step <= 1.0).collect();
+        let repeated: usize = short.iter().filter(|run| **run >= REPEATED).sum();
+        let is_held = short.len() >= STEPS && repeated as f64 > MOSTLY * short.iter().sum::<usize>() as f64;
+        let usual = sorted(short.iter().map(|run| *run as f64));
+        let usual = usual.get(usual.len() / 2).copied().unwrap_or(0.0) as usize;
+        (is_held && usual >= REPEATED).then_some(usual)
+    };
+    let all = (0..3).map(Quantity::Force).chain((0..3).map(Quantity::Rate));
+    let found: Vec<(Quantity, usize)> = all.filter_map(|quantity| Some((quantity, times(&quantity)?))).collect();
+    let &(_, usual) = found.iter().min_by_key(|(_, usual)| *usual)?;
+    let names: Vec<&str> = found.iter().map(|(quantity, _)| conventions.column(*quantity)).collect();
+    let rate = 1.0 / (usual as f64 * step);
+    Some(format!(
+        "Each value of {} comes {usual} times: measured at about {rate:.1} Hz, it changes in steps, which are felt as \
+         jolts. {} takes each value once.",
+        names.join(", "),
+        given("resample", format!("{rate:.1}"))
+    ))
+}

@@ -1,0 +1,245 @@
+//! Recordings that would be simulated wrongly without a word: each is said, with the remedy.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::fs;
+
+use moris::recording::conventions::AngleUnit;
+use moris::recording::{ConventionOptions, Recording};
+
+const GRAVITY: f64 = 9.80665;
+const HEADER: &str = "time,ax,ay,az,wx,wy,wz,speed,roll,pitch,yaw";
+
+/// Channels of a sample.
+#[derive(Clone, Copy)]
+struct Sample {
+    t: f64,
+    force: [f64; 3],
+    rate: [f64; 3],
+    speed: f64,
+    angle: [f64; 3],
+}
+
+/// A car that speeds up and slows down in bends, at a sample of 50 a second.
+fn car(k: usize) -> Sample {
+    let t = 0.02 * k as f64;
+    let wave = |frequency: f64, at: f64| (TAU * frequency * t + at).sin();
+    let speed = 9.0 - 5.0 * (TAU / 15.0 * t).cos();
+    let angle = [0.02 * wave(0.23, 0.0), 0.015 * wave(0.31, 1.0), -0.6 * wave(0.08, TAU / 4.0)];
+    let rate = [
+        0.02 * TAU * 0.23 * wave(0.23, TAU / 4.0),
+        0.015 * TAU * 0.31 * wave(0.31, 1.0 + TAU / 4.0),
+        0.6 * TAU * 0.08 * wave(0.08, 0.0),
+    ];
+    let force = [5.0 * TAU / 15.0 * wave(1.0 / 15.0, 0.0), speed * rate[2], GRAVITY + 0.3 * wave(1.3, 0.0)];
+    Sample { t, force, rate, speed, angle }
+}
+
+/// What is said of the car's recording with each sample changed: its warnings, or the refusal.
+fn said_of(header: &str, options: &ConventionOptions, change: impl Fn(usize, Sample) -> Sample) -> String {
+    let width = header.split(',').count();
+    let mut text = format!("{header}\n");
+    for k in 0..1501 {
+        let Sample { t, force, rate, speed, angle } = change(k, car(k));
+        let fields = [&[t][..], &force, &rate, &[speed], &angle].concat();
+        let fields: Vec<String> = fields.iter().take(width).map(|value| format!("{value:.7}")).collect();
+        writeln!(text, "{}", fields.join(",")).unwrap();
+    }
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("drive.csv");
+    fs::write(&file, text).unwrap();
+    match Recording::read(&file, &options.load().unwrap()) {
+        Ok(recording) => recording.warnings.join(" "),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn said(change: impl Fn(usize, Sample) -> Sample) -> String {
+    said_of(HEADER, &ConventionOptions::default(), change)
+}
+
+/// A number that looks like noise.
+fn noise(k: usize) -> f64 {
+    (12.9898 * k as f64).sin() * 43_758.545_3 % 1.0
+}
+
+#[test]
+fn a_right_ride_is_not_accused() {
+    assert_eq!(said(|_, sample| sample), "");
+}
+
+#[test]
+fn noise_alone_is_no_measurement() {
+    let of_force = said(|k, mut sample| {
+        sample.force[0] = 0.003 * noise(k);
+        sample
+    });
+    assert!(of_force.contains("Column ax hardly changes while the speed changes"), "{of_force}");
+    let of_rate = said_of("time,ax,ay,az,wx,wy,wz,speed", &ConventionOptions::default(), |k, mut sample| {
+        sample.rate[2] = 0.001 * noise(k);
+        sample
+    });
+    assert!(of_rate.contains("Column wz hardly changes while the lateral force is that of bends"), "{of_rate}");
+    let of_speed = said(|_, mut sample| {
+        sample.speed = 9.0;
+        sample
+    });
+    assert!(of_speed.contains("Column speed is constant, 9, while the force along x changes it"), "{of_speed}");
+}
+
+/// A two-wheeler has no lateral force in bends, and what it has along z is that of its lean.
+#[test]
+fn a_vehicle_that_leans_needs_no_lateral_force() {
+    let leaning = said(|_, mut sample| {
+        let lateral = sample.speed * sample.rate[2];
+        sample.force = [sample.force[0], 0.0, lateral.hypot(GRAVITY)];
+        sample
+    });
+    assert_eq!(leaning, "");
+    let upright = said(|_, mut sample| {
+        sample.force[1] = 0.0;
+        sample
+    });
+    assert!(upright.contains("Column ay is constant, 0, while the vehicle drives bends"), "{upright}");
+}
+
+#[test]
+fn a_sensor_that_stops_is_named_with_the_time() {
+    let stopped = |from: usize| {
+        said_of("time,ax,ay,az,wx,wy,wz,speed", &ConventionOptions::default(), |k, sample| {
+            let held = car(k.min(from));
+            Sample { force: held.force, rate: held.rate, ..sample }
+        })
+    };
+    let late = stopped(900);
+    assert!(late.contains("Column ax stays at one value from 18.0 s to 30.0 s, while the speed changes"), "{late}");
+    // Its last value may look like a wrong axis.
+    let early = stopped(200);
+    assert!(early.contains("from 4.0 s") && early.contains("the sensor has stopped. Cut this part off"), "{early}");
+}
+
+#[test]
+fn values_that_are_repeated_are_steps() {
+    let held = said(|k, sample| {
+        let held = car(k / 10 * 10);
+        Sample { force: held.force, rate: held.rate, ..sample }
+    });
+    assert!(held.contains("Each value of ax, ay, az, wx, wy, wz comes 10 times"), "{held}");
+    assert!(held.contains("--resample 5.0 takes each value once"), "{held}");
+}
+
+#[test]
+fn axes_that_are_exchanged_are_named() {
+    let forces = said(|_, mut sample| {
+        sample.force.swap(0, 1);
+        sample
+    });
+    assert!(forces.contains("use --columns ax=ay,ay=ax"), "{forces}");
+    let rates = said(|_, mut sample| {
+        sample.rate.swap(0, 1);
+        sample
+    });
+    assert!(rates.contains("use --columns wx=wy,wy=wx"), "{rates}");
+}
+
+#[test]
+fn units_of_single_channels_are_named_by_the_others() {
+    let titled = |rates: &str| HEADER.replace("wx,wy,wz", rates);
+    let plain = ConventionOptions::default();
+    let rates = said_of(&titled("wx [deg/s],wy [deg/s],wz [deg/s]"), &plain, |_, sample| sample);
+    assert!(rates.contains("seem to be in rad/s, not in deg/s: correct the header"), "{rates}");
+    let horizontal = said(|_, mut sample| {
+        sample.force[0] /= GRAVITY;
+        sample.force[1] /= GRAVITY;
+        sample
+    });
+    assert!(horizontal.contains("--columns \"ax=ax * 9.80665,ay=ay * 9.80665\""), "{horizontal}");
+    let slow = said(|_, mut sample| {
+        sample.speed *= 100.0;
+        sample
+    });
+    assert!(slow.contains("--columns \"speed=speed * 0.01\""), "{slow}");
+}
+
+#[test]
+fn time_at_another_pace_is_named_with_and_without_a_speed() {
+    for (pace, expected) in [(0.5, "2.0 times too fast"), (3.0, "3.0 times too slow")] {
+        let scaled = |header: &str| {
+            said_of(header, &ConventionOptions::default(), |_, mut sample| {
+                sample.t *= pace;
+                sample
+            })
+        };
+        let with_speed = scaled(HEADER);
+        assert!(with_speed.contains(expected), "{with_speed}");
+        assert!(!with_speed.contains("--speed-unit"), "{with_speed}");
+    }
+    let without_speed = said_of(HEADER, &ConventionOptions::default(), |_, mut sample| {
+        sample.t *= 3.0;
+        sample.speed = 0.0;
+        sample
+    });
+    assert!(
+        without_speed.contains("times the derivatives of the angles: the time seems to run 3.0"),
+        "{without_speed}"
+    );
+}
+
+/// A steady circle has a lasting lateral force and nothing else.
+#[test]
+fn a_steady_circle_is_no_wrong_axis() {
+    let steady = |k: usize, mut sample: Sample| {
+        let yaw = 0.5 * 0.02 * k as f64;
+        sample = Sample { force: [0.0, 5.0, GRAVITY], rate: [0.0, 0.0, 0.5], speed: 10.0, ..sample };
+        sample.angle = [0.0, 0.0, yaw];
+        sample
+    };
+    let circle = said(steady);
+    assert!(!circle.contains("vertical") && !circle.contains("not measured"), "{circle}");
+    // Its heading in degrees.
+    let degrees = |k: usize, sample: Sample| {
+        let mut sample = steady(k, sample);
+        sample.angle[2] = sample.angle[2].to_degrees() % 360.0;
+        sample
+    };
+    let open = said(degrees);
+    assert!(open.contains("these are degrees, not radians; use --angle-unit deg"), "{open}");
+    let given = ConventionOptions { angle_unit: Some(AngleUnit::Degree), ..ConventionOptions::default() };
+    let given = said_of(HEADER, &given, degrees);
+    assert!(!given.contains("not measured") && !given.contains("degrees, not"), "{given}");
+}
+
+#[test]
+fn a_clock_that_jumps_is_no_gap() {
+    let options = ConventionOptions { resample: Some(50.0), ..ConventionOptions::default() };
+    let jump = said_of(HEADER, &options, |k, mut sample| {
+        sample.t += if k > 700 { 86_400.0 } else { 0.0 };
+        sample
+    });
+    assert!(jump.contains("nothing was recorded for 86400 s") && jump.contains("the clock has jumped"), "{jump}");
+    let count = said_of(HEADER, &ConventionOptions::default(), |k, mut sample| {
+        sample.t = k as f64;
+        sample
+    });
+    assert!(count.contains("if it counts samples, use --rate"), "{count}");
+}
+
+/// A lasting bend is reached ever more slowly; a peak that is cut off is not.
+#[test]
+fn a_lasting_bend_is_no_end_of_the_range() {
+    let bend = |t: f64| {
+        let x = ((t - 5.0) / 2.0).clamp(0.0, 1.0) - ((t - 9.0) / 2.0).clamp(0.0, 1.0);
+        0.3 * x * x * (3.0 - 2.0 * x) + 0.01 * (TAU * 0.08 * t).sin() * f64::from(!(6.9..9.1).contains(&t))
+    };
+    let turning = |rate: &dyn Fn(f64) -> f64| {
+        said_of("time,ax,ay,az,wx,wy,wz,speed", &ConventionOptions::default(), |_, mut sample| {
+            sample.rate[2] = rate(sample.t);
+            sample.force[1] = sample.speed * sample.rate[2];
+            sample
+        })
+    };
+    let lasting = turning(&bend);
+    assert!(!lasting.contains("end of its range"), "{lasting}");
+    let cut = turning(&|t| (0.4 * (TAU * 0.2 * t).sin()).min(0.3));
+    assert!(cut.contains("Column wz stays at its extreme 0.3"), "{cut}");
+}
