@@ -100,8 +100,8 @@ fn ratio_of_force(step: f64, force: &[f64], speeds: &[f64]) -> Option<f64> {
     if is_small { None } else { regression(&expected, &centred(found.into_iter())) }
 }
 
-/// True where slopes explain the changes of speed beside the force along x, as the pitch or the rate
-/// of pitch gives them.
+/// True where slopes explain the changes of speed beside the force along x, as the pitch or the
+/// rate of pitch gives them.
 pub fn slopes_explain(step: f64, inputs: &[Input], speeds: &[f64]) -> bool {
     // Pitch is positive with the nose down, where gravity accelerates.
     let pitch: Vec<f64> = inputs.iter().map(|input| input.orientation.pitch).collect();

@@ -3,8 +3,8 @@
 //! - [`outliers`] finds samples that no vehicle causes.
 //! - `gravity`, `angles` and `rates` detect wrong units and axes.
 //! - [`consistency`] detects channels that contradict each other, with the sign that `speeds` gives
-//!   the speed, [`dead`] those that stand still, [`frozen`] those that stop, and [`exchanged`] those
-//!   of another axis.
+//!   the speed. [`dead`] finds those that stand still, [`frozen`] those that stop, [`exchanged`]
+//!   those of another axis.
 //! - [`unusual`] warns about recordings that are possible.
 
 mod angles;
