@@ -223,23 +223,3 @@ fn a_clock_that_jumps_is_no_gap() {
     });
     assert!(count.contains("if it counts samples, use --rate"), "{count}");
 }
-
-/// A lasting bend is reached ever more slowly; a peak that is cut off is not.
-#[test]
-fn a_lasting_bend_is_no_end_of_the_range() {
-    let bend = |t: f64| {
-        let x = ((t - 5.0) / 2.0).clamp(0.0, 1.0) - ((t - 9.0) / 2.0).clamp(0.0, 1.0);
-        0.3 * x * x * (3.0 - 2.0 * x) + 0.01 * (TAU * 0.08 * t).sin() * f64::from(!(6.9..9.1).contains(&t))
-    };
-    let turning = |rate: &dyn Fn(f64) -> f64| {
-        said_of("time,ax,ay,az,wx,wy,wz,speed", &ConventionOptions::default(), |_, mut sample| {
-            sample.rate[2] = rate(sample.t);
-            sample.force[1] = sample.speed * sample.rate[2];
-            sample
-        })
-    };
-    let lasting = turning(&bend);
-    assert!(!lasting.contains("end of its range"), "{lasting}");
-    let cut = turning(&|t| (0.4 * (TAU * 0.2 * t).sin()).min(0.3));
-    assert!(cut.contains("Column wz stays at its extreme 0.3"), "{cut}");
-}

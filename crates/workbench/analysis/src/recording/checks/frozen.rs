@@ -20,6 +20,8 @@ const REPEATED: usize = 3;
 /// Least number of steps that are looked at, and the part of the samples that they must be.
 const STEPS: usize = 20;
 const MOSTLY: f64 = 0.6;
+/// Part of the steps that are as long as the usual one.
+const EVENLY: f64 = 0.9;
 
 /// Warnings about forces and yaw rates that stay at one value for seconds, while the speed changes
 /// or the vehicle drives bends.
@@ -87,7 +89,9 @@ pub fn repeats(table: &Table, conventions: &Conventions) -> Option<String> {
         let is_held = short.len() >= STEPS && repeated as f64 > MOSTLY * short.iter().sum::<usize>() as f64;
         let usual = sorted(short.iter().map(|run| *run as f64));
         let usual = usual.get(usual.len() / 2).copied().unwrap_or(0.0) as usize;
-        (is_held && usual >= REPEATED).then_some(usual)
+        // Signals of few digits stay for as long as they are slow, and not for a fixed time.
+        let even = short.iter().filter(|run| run.abs_diff(usual) <= 1).count();
+        (is_held && usual >= REPEATED && even as f64 >= EVENLY * short.len() as f64).then_some(usual)
     };
     let all = (0..3).map(Quantity::Force).chain((0..3).map(Quantity::Rate));
     let found: Vec<(Quantity, usize)> = all.filter_map(|quantity| Some((quantity, times(&quantity)?))).collect();

@@ -222,7 +222,9 @@ impl ConventionOptions {
 /// `key=name` of an option.
 #[cfg(feature = "clap")]
 fn column_name(text: &str) -> Result<(Quantity, String), String> {
-    let (key, name) = text.split_once('=').ok_or("write KEY=NAME, as in ax=accel_x")?;
+    let (key, name) = text
+        .split_once('=')
+        .ok_or("write KEY=NAME, as in ax=accel_x; a name with a comma is given by its part before it")?;
     Ok((Quantity::of_key(key.trim())?, name.trim().to_owned()))
 }
 
