@@ -2,4 +2,5 @@
 
 mod felt;
 mod memory;
+mod motorcycle;
 mod track;
