@@ -12,6 +12,7 @@
 pub mod dual_active_set;
 pub mod expected;
 pub mod forecast;
+mod homing;
 pub mod horizon;
 pub mod legs;
 pub mod preview;
@@ -24,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Rows, Status};
 use self::forecast::{Forecaster, Memory, Tables};
+use self::homing::Homing;
 use self::horizon::{BLOCKS, Horizon, SAMPLE, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::PreviewedCue;
@@ -35,6 +37,8 @@ use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
 /// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
 const ITERATIONS_PER_STEP: f64 = 8.0;
 const PACE: f64 = 0.001;
+/// Length of a preview below which nothing counts as known: the host's own step may be one \[s\].
+const SHORTEST_PREVIEW: f64 = 0.1;
 /// Length of a preview above which the far horizon is used \[s\].
 const LONG_PREVIEW: f64 = 2.0;
 /// A plan that takes more iterations is abandoned.
@@ -71,6 +75,7 @@ pub struct Predictive {
     plan: Plan,
     /// Dropped forces in force \[m/s2\]. They go linearly from node to node of the plan.
     dropped_forces: [f64; 2],
+    homing: [Homing; 2],
 }
 
 /// A plan, and how far it has been carried out.
@@ -111,9 +116,18 @@ impl Law for Box<Predictive> {
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
         let Situation { states, references, circumstances } = situation;
         let decisions = self.decide(states, &Surroundings::of(circumstances), circumstances.time_to_stop, step);
-        let beside = [0, 1].map(|k: usize| references[k] - circumstances.force[k]);
-        self.observe(*references, beside, step);
-        decisions
+        let cue = [0, 1].map(|k: usize| circumstances.force[k]);
+        let unknown = self.preview_length() < SHORTEST_PREVIEW && circumstances.time_to_stop.is_infinite();
+        for (homing, cue) in self.homing.iter_mut().zip(cue) {
+            homing.advance(cue, unknown, step);
+        }
+        self.observe(*references, [0, 1].map(|k: usize| references[k] - cue[k]), step);
+        decisions.map(|decisions| {
+            [0, 1].map(|k: usize| Decision {
+                dropped_force: decisions[k].dropped_force + self.homing[k].force(&states[k]),
+                ..decisions[k]
+            })
+        })
     }
 
     fn largest_heave(&self) -> f64 {
@@ -174,6 +188,7 @@ impl Predictive {
             begun: 0.0,
             plan,
             dropped_forces: [0.0; 2],
+            homing: [Homing::default(); 2],
         })
     }
 
@@ -258,7 +273,7 @@ impl Predictive {
     fn begin(&mut self, states: &[AxisState; 2], surroundings: &Surroundings, time_to_stop: f64) {
         self.due = false;
         self.begun = 0.0;
-        let preview = self.forecasters.iter().fold(0.0_f64, |most, axis| most.max(axis.preview_length()));
+        let preview = self.preview_length();
         let far = preview > LONG_PREVIEW || time_to_stop.is_finite();
         let horizon = if far { Horizon::Far } else { Horizon::Near };
         if horizon != self.horizon {
@@ -284,6 +299,11 @@ impl Predictive {
         }
         self.limit_legs(surroundings);
         self.solver.start(&self.programs.over(horizon).factor, &gradient);
+    }
+
+    /// The time ahead for which the cue is known \[s\].
+    fn preview_length(&self) -> f64 {
+        self.forecasters.iter().fold(0.0, |most, axis| most.max(axis.preview_length()))
     }
 
     /// Sets the rows of the actuators, in halves of the stroke.
