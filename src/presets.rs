@@ -1,18 +1,18 @@
 //! Parameter sets shipped beside the default, as names and values of the interface's variables.
 //!
 //! ```
-//! use moris_washout::presets::{self, MOTORCYCLE, PREDICTIVE};
-//! use moris_washout::Washout;
+//! use moris_washout::presets::{self, CLASSICAL};
+//! use moris_washout::{Parameters, Washout};
 //!
-//! let classical = Washout::new(&presets::parameters(MOTORCYCLE))?;
-//! let predictive = Washout::new(&presets::parameters(PREDICTIVE))?;
+//! let predictive = Washout::new(&Parameters::default())?;
+//! let classical = Washout::new(&presets::parameters(CLASSICAL))?;
 //! assert_eq!(classical.output().length, predictive.output().length, "both are at rest");
 //! # Ok::<(), moris_washout::ParameterError>(())
 //! ```
 
 use moris_interface::{Causality, Model, SlotModel};
 
-use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, StrategyKind};
+use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, StrategyKind, TiltTracking};
 use crate::washout::Washout;
 
 /// The set of the paper's runs.
@@ -41,14 +41,12 @@ pub const SMALL_MOTIONS: &[(&str, f64)] =
 
 /// Common part of the sets for the paper's runs.
 const OF_THE_PAPER: &[(&str, f64)] = &[
+    ("strategy", item(StrategyKind::Classical as i32)),
     ("splitter.order", 4.0),
     ("angular.order", 4.0),
     ("angular.roll.omega1", 1.0),
     ("angular.pitch.omega1", 1.0),
     ("angular.yaw.omega1", 1.0),
-    ("scale.specificForce.x", 1.0),
-    ("scale.specificForce.y", 1.0),
-    ("scale.specificForce.z", 1.0),
     ("scale.angularVelocity.y", 1.0),
     ("scale.angularVelocity.z", 1.0),
     ("compensation", item(Compensation::Full as i32)),
@@ -57,6 +55,7 @@ const OF_THE_PAPER: &[(&str, f64)] = &[
     ("tilt.rateLimit", 0.052_359_877_559_829_88),
     ("tilt.accelerationLimit", 0.2),
     ("tilt.angleLimit", 0.38),
+    ("tilt.tracking", item(TiltTracking::Exact as i32)),
     ("limit.specificForce.x", 8.0),
     ("limit.specificForce.y", 8.0),
     ("softLimit.pace", 0.0),
@@ -96,10 +95,12 @@ const LONG_TRAVEL: &[(&str, f64)] = &[
     ("scale.angularVelocity.x", 0.3),
 ];
 
-/// For motorcycles: the default with less surge, and with tilt that is smaller and slower. A
+/// For motorcycles: the classical strategy with less surge, and with tilt that is small and slow. A
 /// slalom's braking and accelerating at 7 m/s2 then fits.
 pub const MOTORCYCLE: &[(&str, f64)] = &[
+    ("strategy", item(StrategyKind::Classical as i32)),
     ("splitter.x.omega1", 5.5),
+    ("splitter.x.zeta1", 1.3),
     ("splitter.x.omega2", 1.3),
     ("splitter.y.omega1", 1.6),
     ("splitter.y.zeta1", 1.8),
@@ -109,6 +110,8 @@ pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("angular.pitch.omega1", 0.35),
     ("angular.yaw.omega1", 0.3),
     ("scale.specificForce.x", 0.75),
+    ("scale.specificForce.y", 0.9),
+    ("scale.specificForce.z", 0.9),
     ("scale.angularVelocity.x", 0.28),
     ("scale.angularVelocity.y", 0.45),
     ("scale.angularVelocity.z", 0.3),
@@ -118,9 +121,12 @@ pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.15),
 ];
 
-/// For cars, which turn slowly and sway hard: the default with less sway, roll and pitch down to a
-/// lower frequency, slower tilt, and heave down to a lower frequency.
+/// For cars, which turn slowly and sway hard: the classical strategy with less sway, roll and pitch
+/// down to a low frequency, slow tilt, and heave down to a low frequency.
 pub const CAR: &[(&str, f64)] = &[
+    ("strategy", item(StrategyKind::Classical as i32)),
+    ("splitter.x.omega1", 3.0),
+    ("splitter.x.zeta1", 1.3),
     ("splitter.x.omega2", 0.35),
     ("splitter.y.omega1", 3.2),
     ("splitter.y.zeta1", 1.8),
@@ -131,6 +137,7 @@ pub const CAR: &[(&str, f64)] = &[
     ("angular.yaw.omega1", 0.12),
     ("scale.specificForce.x", 0.9),
     ("scale.specificForce.y", 0.6),
+    ("scale.specificForce.z", 0.9),
     ("scale.angularVelocity.x", 0.25),
     ("scale.angularVelocity.y", 0.3),
     ("scale.angularVelocity.z", 0.4),
@@ -144,14 +151,16 @@ pub const CAR: &[(&str, f64)] = &[
 /// surge act before it comes.
 pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
 
-/// The adaptive strategy, with the specific force unscaled.
-pub const ADAPTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Adaptive);
-/// The optimal strategy, with the specific force unscaled.
-pub const OPTIMAL: &[(&str, f64)] = &unscaled(StrategyKind::Optimal);
-/// The robust strategy, with the specific force unscaled.
-pub const ROBUST: &[(&str, f64)] = &unscaled(StrategyKind::Robust);
-/// The predictive strategy, with the specific force unscaled.
-pub const PREDICTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Predictive);
+/// The classical strategy. The start values of its parameters are made for any kind of motion.
+pub const CLASSICAL: &[(&str, f64)] = &only(StrategyKind::Classical);
+/// The adaptive strategy.
+pub const ADAPTIVE: &[(&str, f64)] = &only(StrategyKind::Adaptive);
+/// The optimal strategy.
+pub const OPTIMAL: &[(&str, f64)] = &only(StrategyKind::Optimal);
+/// The robust strategy.
+pub const ROBUST: &[(&str, f64)] = &only(StrategyKind::Robust);
+/// The predictive strategy, which is the start value.
+pub const PREDICTIVE: &[(&str, f64)] = &only(StrategyKind::Predictive);
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
 /// wider, since what comes after is known.
@@ -165,17 +174,9 @@ const FARTHER: &[(&str, f64)] = &[
     ("softLimit.pace", 9.0),
 ];
 
-/// Number of values of [`unscaled`].
-const UNSCALED: usize = 4;
-
-/// A strategy with the specific force as the vehicle's.
-const fn unscaled(strategy: StrategyKind) -> [(&'static str, f64); UNSCALED] {
-    [
-        ("strategy", item(strategy as i32)),
-        ("scale.specificForce.x", 1.0),
-        ("scale.specificForce.y", 1.0),
-        ("scale.specificForce.z", 1.0),
-    ]
+/// The choice of a strategy, and nothing else.
+const fn only(strategy: StrategyKind) -> [(&'static str, f64); 1] {
+    [("strategy", item(strategy as i32))]
 }
 
 /// The value of an enumeration's item: they count from 1.

@@ -4,7 +4,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::interface::TiltParameters;
+use crate::cueing::strategy::law::AxisState;
+use crate::cueing::strategy::smooth_tilt::TiltLimits;
+use crate::interface::{TiltParameters, TiltTracking};
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 
@@ -14,6 +16,8 @@ pub struct GravitationalStrategy {
     pub roll: Motion,
     pub pitch: Motion,
     target: Tilt,
+    /// Rate of the target over the last step \[rad/s\].
+    target_rate: Tilt,
     /// True if a limit kept the tilt from its target in the last step.
     pub limited: bool,
 }
@@ -54,7 +58,7 @@ fn limited_tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit
 
 impl GravitationalStrategy {
     /// Advances by `step` seconds towards the tilt for this low-frequency force in head axes, under
-    /// the rate and the acceleration limit. No step is ever longer than `longest_step`.
+    /// the limits and by the law of the parameters. No step is ever longer than `longest_step`.
     pub fn advance(
         &mut self,
         force: Vector3<f64>,
@@ -64,26 +68,45 @@ impl GravitationalStrategy {
         longest_step: f64,
         step: f64,
     ) {
-        let TiltParameters { rate_limit, acceleration_limit, angle_limit } = *parameters;
+        let TiltParameters { rate_limit, acceleration_limit, angle_limit, tracking } = *parameters;
         let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, longest_step);
         let (target, clipped) = tilt_target(force, gravity, lean, angle_limit);
-        let (roll, roll_limited) = track(&self.roll, self.target.roll, target.roll, &limits, step);
-        let (pitch, pitch_limited) = track(&self.pitch, self.target.pitch, target.pitch, &limits, step);
-        *self = GravitationalStrategy { roll, pitch, target, limited: clipped || roll_limited || pitch_limited };
+        let rate = |now: f64, before: f64| ((now - before) / step).clamp(-rate_limit, rate_limit);
+        let target_rate =
+            Tilt { roll: rate(target.roll, self.target.roll), pitch: rate(target.pitch, self.target.pitch) };
+        let smooth = TiltLimits::new(angle_limit, rate_limit, acceleration_limit);
+        let track = |motion: &Motion, position: f64, velocity: f64, rate_before: f64| {
+            let goal = Motion { position, velocity, acceleration: (velocity - rate_before) / step };
+            let next = match tracking {
+                TiltTracking::Exact => limits.follow(motion, &goal, limits.acceleration, step),
+                TiltTracking::Smooth => follow_smoothly(motion, &goal, &smooth, &limits, step),
+            };
+            (next, (next.position - position).abs() > LAGGING)
+        };
+        let (roll, roll_limited) = track(&self.roll, target.roll, target_rate.roll, self.target_rate.roll);
+        let (pitch, pitch_limited) = track(&self.pitch, target.pitch, target_rate.pitch, self.target_rate.pitch);
+        let limited = clipped || roll_limited || pitch_limited;
+        *self = GravitationalStrategy { roll, pitch, target, target_rate, limited };
     }
 }
 
 /// Deviation of the tilt from its target above which it counts as limited \[rad\]: 0.001 degrees.
 const LAGGING: f64 = 2e-5;
 
-/// One step of one angle towards its target, and true if the angle then lags behind.
-///
-/// The target's rate is taken from its last two values. A target inside the limits is tracked
-/// without lag. Any other is tracked in nearly the shortest time and without overshoot.
-#[inline(always)]
-fn track(motion: &Motion, previous: f64, target: f64, limits: &Limits, step: f64) -> (Motion, bool) {
-    let rate = ((target - previous) / step).clamp(-limits.velocity, limits.velocity);
-    let goal = Motion { position: target, velocity: rate, acceleration: 0.0 };
-    let next = limits.follow(motion, &goal, limits.acceleration, step);
-    (next, (next.position - target).abs() > LAGGING)
+/// Pace at which a deviation from the target is taken back \[rad/s\].
+const CATCH_UP: f64 = 7.0;
+
+/// One step of one angle towards its goal: the goal's acceleration, and critically damped what the
+/// angle deviates by, within the limits.
+fn follow_smoothly(motion: &Motion, goal: &Motion, smooth: &TiltLimits, limits: &Limits, step: f64) -> Motion {
+    let behind = goal.position - step * goal.velocity - motion.position;
+    let demanded = goal.acceleration + CATCH_UP * (CATCH_UP * behind + 2.0 * (goal.velocity - motion.velocity));
+    let state = AxisState {
+        tilt: motion.position,
+        tilt_rate: motion.velocity,
+        tilt_acceleration: motion.acceleration,
+        ..AxisState::default()
+    };
+    let acceleration = smooth.nearest_acceleration(&state, demanded, step);
+    limits.at_velocity(motion, motion.velocity + acceleration * step, step)
 }

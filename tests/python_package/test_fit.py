@@ -34,7 +34,8 @@ def test_a_smaller_scale_has_the_right_sign_and_shape(slalom):
 
 def test_the_file_has_the_parameters(slalom, tmp_path):
     found = moris.fit(slalom, strategy="classical", error=0.8, inverted=0.05)
-    assert found.best.breaks <= 1.0
+    own = moris.parameters(strategy="classical")["splitter.y.omega1"]
+    assert found.parameters["splitter.y.omega1"] == pytest.approx(own * found.best.breaks)
     assert moris.parameters(parameters=found.save(tmp_path / "fit.toml")) == found.parameters
 
 

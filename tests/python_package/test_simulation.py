@@ -232,11 +232,11 @@ def test_a_simulation_is_pickled_with_everything(ride):
 
 def test_a_preview_without_the_predictive_strategy_is_an_error(ride):
     with pytest.raises(ValueError, match='preview is for the predictive strategy alone; add strategy="predictive"'):
-        moris.simulate(ride, preview=1.0)
+        moris.simulate(ride, strategy="classical", preview=1.0)
 
 
 def test_a_washout_is_shown_in_pythons_words():
-    assert repr(moris.Washout()) == "Washout(strategy='classical', started=False)"
+    assert repr(moris.Washout()) == "Washout(strategy='predictive', started=False)"
 
 
 def test_a_misspelt_option_is_found_before_it_runs(tmp_path):

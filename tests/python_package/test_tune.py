@@ -18,7 +18,7 @@ def recordings(rides):
 
 @pytest.fixture(scope="module")
 def tuned(recordings):
-    return moris.tune(recordings, folds=0, evaluations=150, progress=False)
+    return moris.tune(recordings, strategy="classical", folds=0, evaluations=150, progress=False)
 
 
 def test_tuning_lowers_the_error_and_keeps_the_limits(tuned, recordings):
@@ -41,7 +41,7 @@ def test_the_command_finds_the_same(tuned, rides, tmp_path):
     for name, columns in rides:
         pandas.DataFrame(columns).to_csv(tmp_path / f"{name.replace(' ', '-')}.csv", index=False)
     files = [str(tmp_path / f"ride-{k}.csv") for k in range(3)]
-    command = ["cargo", "moris", "tune", *files, "--folds", "0", "--evaluations", "150"]
+    command = ["cargo", "moris", "tune", *files, "--strategy", "classical", "--folds", "0", "--evaluations", "150"]
     command += ["--output", str(tmp_path / "tuned.toml"), "--report", str(tmp_path / "report")]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -62,13 +62,13 @@ def test_workers_find_the_same_to_the_bit_though_one_is_killed(tuned, recordings
                 killed.append(next(iter(client.run(os.getpid).values())))
                 os.kill(killed[0], signal.SIGKILL)
 
-        found = moris.tune(recordings, folds=0, evaluations=150, client=client, progress=progress)
+        found = moris.tune(recordings, strategy="classical", folds=0, evaluations=150, client=client, progress=progress)
     assert killed
     assert found.parameters == tuned.parameters and found.errors == tuned.errors
 
 
 def test_left_out_recordings_are_tried(recordings):
-    found = moris.tune(recordings[:2], hold_out=recordings[2], groups=["scale"], evaluations=40)
+    found = moris.tune(recordings[:2], strategy="classical", hold_out=recordings[2], groups=["scale"], evaluations=40)
     assert found.errors["ride-2"]["tuned"] is None and found.errors["ride-2"]["unseen"] > 0
     assert all(name.startswith("scale.") for name in found.changed)
 
@@ -82,16 +82,16 @@ def test_a_search_ends_early_and_keeps_the_best(recordings):
     def stop(search, tried, error):
         return tried > 60
 
-    found = moris.tune(recordings[:1], evaluations=5000, stop=stop, progress=progress)
+    found = moris.tune(recordings[:1], strategy="classical", evaluations=5000, stop=stop, progress=progress)
     assert found.interrupted and found.changed and "was interrupted" in found.summary
     assert calls[-1][0] < 5000 and calls[-1][1] == 5000 and "error 0." in calls[-1][2]
-    patient = moris.tune(recordings[:1], groups=["scale"], evaluations=5000, patience=30, progress=progress)
+    patient = moris.tune(recordings[:1], strategy="classical", groups=["scale"], evaluations=5000, patience=30, progress=progress)
     assert not patient.interrupted and calls[-1][0] < 4000
 
     def interrupt(done, total, text):
         signal.raise_signal(signal.SIGINT)
 
-    interrupted = moris.tune(recordings[:1], evaluations=5000, progress=interrupt)
+    interrupted = moris.tune(recordings[:1], strategy="classical", evaluations=5000, progress=interrupt)
     assert interrupted.interrupted and interrupted.errors["ride-0"]["tuned"] <= interrupted.errors["ride-0"]["before"]
 
 
@@ -100,7 +100,7 @@ def test_an_error_of_the_callers_function_ends_the_search(recordings):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        moris.tune(recordings[:1], evaluations=5000, stop=stop)
+        moris.tune(recordings[:1], strategy="classical", evaluations=5000, stop=stop)
 
 
 def test_limits_that_no_parameters_keep_are_told(recordings):
@@ -112,7 +112,7 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
         "actuator": {"minLength": 1.0, "maxLength": 1.6, "velocityLimit": 1.0, "accelerationLimit": 15.0},
     }
     with pytest.raises(moris.NoFeasibleParameters, match="no parameters were found with which every recording stays clear"):
-        moris.tune(recordings[:1], rig=rig, stroke_reserve=0.29, groups=["angular"], evaluations=20)
+        moris.tune(recordings[:1], strategy="classical", rig=rig, stroke_reserve=0.29, groups=["angular"], evaluations=20)
 
 
 @pytest.mark.parametrize(
@@ -133,12 +133,12 @@ def test_arguments_that_cannot_be_are_refused(recordings, arguments, message):
     if "hold_out" in arguments:
         arguments = {"hold_out": recordings[0]}
     with pytest.raises(ValueError, match=message):
-        moris.tune(recordings[0], **arguments)
+        moris.tune(recordings[0], strategy="classical", **arguments)
 
 
 def test_a_result_is_the_same_for_the_same_seed(recordings):
-    once, again = (moris.tune(recordings[:1], groups=["scale"], evaluations=60, seed=3) for _ in range(2))
+    once, again = (moris.tune(recordings[:1], strategy="classical", groups=["scale"], evaluations=60, seed=3) for _ in range(2))
     assert once.parameters == again.parameters
-    other = moris.tune(recordings[:1], groups=["scale"], evaluations=60, seed=4)
+    other = moris.tune(recordings[:1], strategy="classical", groups=["scale"], evaluations=60, seed=4)
     assert other.parameters != once.parameters
     assert np.isfinite([value["tuned"] for value in other.errors.values()]).all()

@@ -45,7 +45,7 @@ def numbers():
     yield moris.simulate(recording, parameters="preview", preview=1.0).array
     swept = moris.sweep(recording, [{"splitter.x.omega1": 1.0 + 0.125 * k} for k in range(8)])
     yield [result.values for result in swept.value]
-    tuned = moris.tune(recording, groups=["scale"], evaluations=30)
+    tuned = moris.tune(recording, strategy="classical", groups=["scale"], evaluations=30)
     yield [value for value in tuned.parameters.values() if isinstance(value, float)]
 
 

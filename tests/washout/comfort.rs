@@ -5,19 +5,15 @@ use nalgebra::Vector3;
 
 use crate::common::{G, accelerating, ride_between};
 
-/// The sets, and each strategy alone.
-const SETS: [(&str, &[(&str, f64)]); 11] = [
-    ("classical", &[]),
+/// The sets.
+const SETS: [(&str, &[(&str, f64)]); 7] = [
+    ("classical", presets::CLASSICAL),
     ("motorcycle", presets::MOTORCYCLE),
     ("car", presets::CAR),
     ("adaptive", presets::ADAPTIVE),
     ("optimal", presets::OPTIMAL),
     ("robust", presets::ROBUST),
     ("predictive", presets::PREDICTIVE),
-    ("adaptive alone", &[("strategy", 2.0)]),
-    ("optimal alone", &[("strategy", 3.0)]),
-    ("robust alone", &[("strategy", 5.0)]),
-    ("predictive alone", &[("strategy", 4.0)]),
 ];
 
 /// Goes from 0 to 1 without a kink in `duration` from `start` on.

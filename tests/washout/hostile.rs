@@ -59,20 +59,25 @@ enum Steps {
     Irregular(f64),
 }
 
-/// Variations of the default set: long travel, strong cues, steps so long that limits act coarsely,
+/// Variations of the start values: long travel, strong cues, steps so long that limits act coarsely,
 /// a slow machine, tight safety limits; and the paper's sets.
 const SETS: [&[(&str, f64)]; 11] = [
-    &[],
-    &[("splitter.x.omega1", 0.3), ("splitter.y.omega2", 0.3), ("splitter.z.omega1", 0.3)],
+    presets::CLASSICAL,
+    &[("strategy", 1.0), ("splitter.x.omega1", 0.3), ("splitter.y.omega2", 0.3), ("splitter.z.omega1", 0.3)],
     &[("limit.specificForce.x", 1e6), ("limit.specificForce.y", 1e6), ("limit.angularVelocity.y", 100.0)],
     &[("solver.maxStep", 0.02)],
     &[("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 3.0)],
-    &[("safety.x.velocityLimit", 0.2), ("safety.y.accelerationLimit", 2.0), ("safety.z.positionLimit", 0.1)],
+    &[
+        ("strategy", 1.0),
+        ("safety.x.velocityLimit", 0.2),
+        ("safety.y.accelerationLimit", 2.0),
+        ("safety.z.positionLimit", 0.1),
+    ],
     presets::PAPER,
     presets::SMALL_MOTIONS,
     &[("strategy", 2.0), ("adaptive.gain1", 5.0), ("adaptive.gain2", 5.0)],
     &[("strategy", 3.0), ("limit.specificForce.x", 1e6)],
-    &[("strategy", 4.0)],
+    &[],
 ];
 
 /// Rides through `count` steps of hostile input, then rests until the platform is neutral,

@@ -2,7 +2,7 @@
 //! lag inside the limits.
 
 use moris_washout::cueing::gravitational::{GravitationalStrategy, tilt_target};
-use moris_washout::interface::TiltParameters;
+use moris_washout::interface::{TiltParameters, TiltTracking};
 use moris_washout::{Washout, presets};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -31,8 +31,10 @@ proptest! {
     #[test]
     fn limits_hold_for_hostile_targets(
         seed: u64, rate_limit in 0.01..0.5, acceleration_limit in 0.02..3.0, step in 0.0005..0.02, hold in 1..400_u64,
+        smooth: bool,
     ) {
-        let limits = TiltParameters { rate_limit, acceleration_limit, angle_limit: 0.35 };
+        let tracking = if smooth { TiltTracking::Smooth } else { TiltTracking::Exact };
+        let limits = TiltParameters { rate_limit, acceleration_limit, angle_limit: 0.35, tracking };
         let mut tracker = GravitationalStrategy::default();
         let mut random = Random::new(seed);
         let (mut force, mut lean) = (Vector3::zeros(), 0.0);
@@ -61,7 +63,8 @@ proptest! {
     fn a_step_is_reached_without_overshoot_in_nearly_the_shortest_time(
         angle in 0.002..0.34, rate_limit in 0.02..0.3, acceleration_limit in 0.05..2.0,
     ) {
-        let limits = TiltParameters { rate_limit, acceleration_limit, angle_limit: 0.35 };
+        let tracking = TiltTracking::Exact;
+        let limits = TiltParameters { rate_limit, acceleration_limit, angle_limit: 0.35, tracking };
         let to_full_rate = rate_limit * rate_limit / acceleration_limit;
         let shortest = if angle >= to_full_rate {
             angle / rate_limit + rate_limit / acceleration_limit
@@ -82,13 +85,30 @@ fn a_target_inside_the_limits_is_followed_within_20_ms() {
     let limits = parameters(&[]).tilt;
     for (amplitude, omega) in [(0.03_f64, 1.2_f64), (0.1, 0.5), (0.01, 4.0)] {
         assert!(amplitude * omega < limits.rate_limit && amplitude * omega * omega < limits.acceleration_limit);
-        for step in [0.001, 0.01] {
+        for (tracking, step) in TiltTracking::ALL.iter().flat_map(|&law| [(law, 0.001), (law, 0.01)]) {
+            let limits = TiltParameters { tracking, ..limits };
             let positions = tracker_after(30.0, step, &limits, |t| amplitude * (omega * t).sin());
             for (k, position) in positions.iter().enumerate().skip((10.0 / step) as usize) {
                 let target = amplitude * (omega * (k + 1) as f64 * step).sin();
-                assert!((position - target).abs() < 0.020 * amplitude * omega, "step {step}, {k}");
+                assert!((position - target).abs() < 0.020 * amplitude * omega, "{tracking:?}, step {step}, {k}");
             }
         }
+    }
+}
+
+/// A smooth tilt reaches a target that jumps without overshoot, and its acceleration has no jump.
+#[test]
+fn a_smooth_tilt_reaches_what_jumps_without_overshoot_and_without_a_jump_of_its_own() {
+    let tracking = TiltTracking::Smooth;
+    let limits = TiltParameters { rate_limit: 0.0524, acceleration_limit: 0.4, angle_limit: 0.257, tracking };
+    for (angle, step) in [(0.01, 0.001), (0.1, 0.001), (0.25, 0.001), (0.1, 0.01)] {
+        let positions = tracker_after(12.0, step, &limits, |_| angle);
+        let farthest = positions.iter().copied().fold(0.0, f64::max);
+        assert!(farthest <= 1.01 * angle, "overshoot to {farthest} of {angle}");
+        assert!((positions[positions.len() - 1] - angle).abs() < 1e-6, "{angle}");
+        let thirds = positions.windows(4).map(|p| p[3] - 3.0 * p[2] + 3.0 * p[1] - p[0]);
+        let slope = thirds.fold(0.0_f64, |most, third| most.max(third.abs())) / step.powi(3);
+        assert!(slope <= 6.5, "slope of the acceleration: {slope} rad/s3");
     }
 }
 
@@ -108,7 +128,8 @@ fn the_target_is_eq_8_kept_inside_the_angle_limit() {
 /// Each angle's tracker and the limit of the angles can limit the tilt alone.
 #[test]
 fn a_limit_of_one_angle_alone_is_reported() {
-    let quick = TiltParameters { rate_limit: 1e3, acceleration_limit: 1e6, angle_limit: 0.35 };
+    let quick =
+        TiltParameters { rate_limit: 1e3, acceleration_limit: 1e6, angle_limit: 0.35, tracking: TiltTracking::Exact };
     let slow = TiltParameters { rate_limit: 0.05, ..quick };
     let limited = |force: [f64; 2], limits: &TiltParameters| {
         let mut tracker = GravitationalStrategy::default();

@@ -75,7 +75,7 @@ fn values_are_in_the_descriptions_under_another_guid() {
 #[test]
 fn the_model_s_own_values_are_no_others() {
     let own = Start::own(&WASHOUT);
-    let defaults = named(&[("splitter.x.omega1", 3.0), ("tilt.angleLimit", 0.257)]);
+    let defaults = named(&[("splitter.x.omega1", 0.8), ("tilt.angleLimit", 0.257)]);
     assert_eq!(Start::with(&WASHOUT, &defaults).unwrap(), own);
     assert!(
         !contents(&WASHOUT, &own, FmiVersion::Fmi2, Vec::new(), None).contains_key("documentation/start-values.toml")

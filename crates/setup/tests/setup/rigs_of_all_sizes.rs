@@ -83,7 +83,7 @@ fn a_smooth_drive_jolts_on_no_rig() {
     for (name, strategy, parameters) in setups() {
         for drive in [stops, swinging] {
             let Felt { error, jolt, peak } = felt(&parameters, 1.0, drive);
-            assert!(jolt < 0.55 && peak < 0.65, "{name}: jolt of {jolt}, peak of {peak} m/s2");
+            assert!(jolt < 0.55 && peak < 0.7, "{name}: jolt of {jolt}, peak of {peak} m/s2");
             if strategy == StrategyKind::Predictive {
                 assert!(jolt < 0.2 && error < 0.85, "{name}: jolt of {jolt} m/s2, error {error} of that at rest");
             }

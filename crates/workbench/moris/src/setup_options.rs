@@ -15,14 +15,14 @@ pub struct SetupOptions {
     #[arg(long, value_name = "FILE")]
     pub rig: Option<PathBuf>,
 
-    /// Parameter file, or a preset: default, motorcycle, car, paper, small-motions,
+    /// Parameter file, or a preset: default, classical, motorcycle, car, paper, small-motions,
     /// preaction, adaptive, optimal, robust, predictive, preview. May be given several times: later
     /// ones override earlier ones
     #[arg(long, value_name = "FILE|NAME")]
     pub parameters: Vec<String>,
 
-    /// Strategy that divides the cue between surge, sway and tilt, with the preset of its name
-    /// below the parameters given; overrides their strategy
+    /// Strategy that divides the cue between surge, sway and tilt; overrides the parameters'
+    /// [default: predictive]
     #[arg(long, value_parser = strategies())]
     pub strategy: Option<StrategyKind>,
 }
@@ -31,7 +31,7 @@ pub struct SetupOptions {
 pub(crate) fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
     let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
     PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()))
-        .map(move |name| named(name).unwrap_or(StrategyKind::Classical))
+        .map(move |name| named(name).unwrap_or(StrategyKind::Predictive))
 }
 
 /// The parameter that is on in what drives at once.
@@ -59,18 +59,12 @@ impl SetupOptions {
     /// # Errors
     /// As [`Setup::load`].
     pub fn load(&self) -> Result<Setup, Error> {
-        let Some(strategy) = self.strategy else { return Setup::load(self.rig.as_deref(), &self.parameters) };
-        let name = strategy.name().to_owned();
-        // The set of a strategy's name has the limits that the strategy is made for.
-        let own = (strategy != StrategyKind::Classical).then(|| name.clone());
-        let sets: Vec<String> = own.into_iter().chain(self.parameters.iter().cloned()).collect();
-        let mut setup = Setup::load(self.rig.as_deref(), &sets)?;
+        let mut setup = Setup::load(self.rig.as_deref(), &self.parameters)?;
+        let Some(strategy) = self.strategy else { return Ok(setup) };
         setup.parameters.structure.strategy = strategy;
-        setup.parameters_name = if self.parameters.is_empty() {
-            name
-        } else {
-            format!("{} + {name}", Setup::load(self.rig.as_deref(), &self.parameters)?.parameters_name)
-        };
+        let name = strategy.name();
+        setup.parameters_name =
+            if self.parameters.is_empty() { name.to_owned() } else { format!("{} + {name}", setup.parameters_name) };
         Ok(setup)
     }
 }

@@ -73,7 +73,7 @@ fn a_lap_with_help_stays_on_the_road_and_has_ratings() {
     assert!((seconds - lap.time).abs() < 0.03, "{lap:?}");
     let [surge, sway] = ride.ratings(&lap).unwrap();
     for rating in [surge, sway] {
-        assert!(rating.rms_error > 0.05 && rating.rms_error < 1.5, "{rating:?}");
+        assert!(rating.rms_error > 0.01 && rating.rms_error < 1.5, "{rating:?}");
         assert!(rating.jolt >= 0.0 && rating.jolt < 5.0 && rating.peak < 3.0, "{rating:?}");
     }
 }
@@ -93,7 +93,8 @@ fn a_held_throttle_with_help_stays_on_the_road() {
 /// The file's samples through a washout of its own give what was felt in the ride.
 #[test]
 fn the_file_of_a_ride_gives_the_same_cues() {
-    let mut ride = ride();
+    // A plan is made at other instants where the file's steps are longer.
+    let mut ride = Ride::new(&presets::parameters(presets::CLASSICAL)).unwrap();
     go(&mut ride, 30.0, |ride| at_speed(ride, output(ride).planned_speed.min(15.0)));
     let csv = ride.recording().csv();
     let mut lines = csv.lines();

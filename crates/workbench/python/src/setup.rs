@@ -18,7 +18,7 @@ use crate::error;
 pub type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 
 /// The rig, parameters and strategy, put together and checked. The strategy sets the parameter of
-/// this name alone; the commands' `--strategy` also lays the preset of its name below.
+/// this name alone.
 ///
 /// # Errors
 /// `ParameterError`: a name, a value or the combination cannot be used.

@@ -25,8 +25,7 @@ use crate::{error, setup};
 /// - parameters: name of a preset, path of a parameter file, dict of values by the names of the
 ///   FMU's variables, or a list of these. In a list, later ones override earlier ones.
 /// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". It sets the parameter
-///   `strategy` and no other; the preset of its name goes into `parameters`. None is the
-///   parameters' strategy.
+///   `strategy` and no other. None is the parameters' strategy, by default the predictive one.
 ///
 /// Raises ParameterError for a name or a value that cannot be used.
 #[pyclass(module = "moris", name = "Washout", eq)]

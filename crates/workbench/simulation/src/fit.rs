@@ -24,7 +24,7 @@ const GRID: [f64; 13] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.
 /// Bisections between two of them.
 const BISECTIONS: usize = 3;
 /// Factors on the break frequencies of the classical strategy.
-const BREAKS: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
+const BREAKS: [f64; 7] = [1.0, 4.0, 2.5, 1.6, 0.6, 0.35, 0.15];
 /// Factors on heave, the largest first.
 const HEAVE: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
 
@@ -314,10 +314,11 @@ mod tests {
     fn the_classical_strategy_gets_lower_break_frequencies_where_they_give_more() {
         let hard = slalom(3.0, 0.25);
         let search = Search::new(&hard, 0.0, Aims::default());
-        let fit = search.fit(&Parameters::default()).unwrap();
+        let quick = presets::parameters(presets::MOTORCYCLE);
+        let fit = search.fit(&quick).unwrap();
         assert!(fit.fits && fit.best.factors.breaks < 1.0, "{fit:?}");
-        let found = fit.best.factors.applied(&Parameters::default());
-        let omega = Parameters::default().splitter.omega1;
+        let found = fit.best.factors.applied(&quick);
+        let omega = quick.splitter.omega1;
         assert!((found.splitter.omega1.y - fit.best.factors.breaks * omega.y).abs() < 1e-12);
         assert_eq!(found.splitter.omega1.z, omega.z);
     }

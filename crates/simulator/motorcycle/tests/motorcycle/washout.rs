@@ -63,7 +63,7 @@ fn without_gravity_the_washout_is_left_with_the_heads_acceleration_and_the_angle
 fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
     let mut washout = Washout::new(&Tuning::default()).unwrap();
     let mut vehicle = motorcycle(&at_speed(0.0));
-    for k in 0..30_000 {
+    for k in 0..40_000 {
         let before = connected(&vehicle.output());
         let time = f64::from(k) * 1e-3;
         vehicle.step(&ride(time), 1e-3);
@@ -74,7 +74,7 @@ fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
             assert_eq!(vehicle.output().speed, 0.0);
         }
     }
-    // More than ten seconds after the stop surge and heave are back; sway follows the rider, who goes on balancing.
+    // More than twenty seconds after the stop surge and heave are back; sway follows the rider, who goes on balancing.
     let off = washout.output().position - Vector3::new(0.0, 0.0, Tuning::default().rig.neutral_height);
     assert!(off.xz().norm() < 0.005 && off.y.abs() < 0.1, "{off}");
 }

@@ -86,7 +86,7 @@ fn positions_of_other_names_and_units_are_measured_and_missing_ones_named() {
     assert_ne!(rows(&named), rows(&measure(&[])));
     let missing = measure(&["--learn"]);
     assert!(missing.contains("x, y") || missing.contains("x and y"), "{missing}");
-    let refused = moris(directory.path(), &["simulate", "rounds.csv", "--learn"]);
+    let refused = moris(directory.path(), &["simulate", "rounds.csv", "--strategy", "classical", "--learn"]);
     let message = String::from_utf8_lossy(&refused.stderr);
     assert!(message.contains("--learn is for the predictive strategy alone"), "{message}");
 }

@@ -14,7 +14,12 @@ use moris::tune::space::{Group, Space};
 use moris_setup::Setup;
 use moris_simulation::Manoeuvre;
 use moris_washout::interface::AngularVelocityFrame;
-use moris_washout::{Input, Parameters};
+use moris_washout::{Input, Parameters, presets};
+
+/// The classical strategy, which is quick to search with.
+fn classical() -> Parameters {
+    presets::parameters(presets::CLASSICAL)
+}
 
 const STEP: f64 = 0.01;
 const EQUAL: [f64; 6] = [1.0; 6];
@@ -48,7 +53,7 @@ fn weaving() -> Recording {
 }
 
 fn objective(recording: Recording, stroke_reserve: f64) -> Objective {
-    Objective::new(recording, &Parameters::default(), &EQUAL, stroke_reserve).unwrap()
+    Objective::new(recording, &classical(), &EQUAL, stroke_reserve).unwrap()
 }
 
 fn simulation(objective: &Objective, parameters: &Parameters) -> Simulation {
@@ -58,7 +63,7 @@ fn simulation(objective: &Objective, parameters: &Parameters) -> Simulation {
 #[test]
 fn a_platform_at_rest_scores_1() {
     let objective = objective(weaving(), NO_RESERVE);
-    let mut still = Parameters::default();
+    let mut still = classical();
     still.conditioning.force_scale *= 0.0;
     still.conditioning.rate_scale *= 0.0;
     let cost = objective.cost(&simulation(&objective, &still)).unwrap();
@@ -70,7 +75,7 @@ fn a_platform_at_rest_scores_1() {
 #[test]
 fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
     let objective = objective(weaving(), NO_RESERVE);
-    let mut perfect = simulation(&objective, &Parameters::default());
+    let mut perfect = simulation(&objective, &classical());
     for share in [1.0, 0.5] {
         for (input, output) in perfect.inputs.iter().zip(&mut perfect.outputs) {
             let rest = Input::default().specific_force;
@@ -85,15 +90,15 @@ fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
 fn only_channels_with_weight_count() {
     let mut weights = [0.0; 6];
     weights[1] = 2.0;
-    let objective = Objective::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
-    let cost = objective.cost(&simulation(&objective, &Parameters::default())).unwrap();
+    let objective = Objective::new(weaving(), &classical(), &weights, NO_RESERVE).unwrap();
+    let cost = objective.cost(&simulation(&objective, &classical())).unwrap();
     assert!((cost.error - cost.channels[1] / objective.desired_rms()[1]).abs() < 1e-12);
 }
 
 #[test]
 fn the_search_s_short_way_comes_to_what_a_recording_comes_to() {
     let objective = objective(weaving(), NO_RESERVE);
-    let mut parameters = Parameters::default();
+    let mut parameters = classical();
     parameters.structure.max_step = STEP;
     parameters.splitter.omega1.x = 1.3;
     parameters.angular.zeta2.roll = 0.6;
@@ -106,7 +111,7 @@ fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
     let wild = recording("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
     let tight = objective(wild.clone(), 0.29);
     let loose = objective(wild, NO_RESERVE);
-    let simulation = simulation(&loose, &Parameters::default());
+    let simulation = simulation(&loose, &classical());
     let acted = simulation.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
     assert_eq!(loose.cost(&simulation).unwrap().violated, acted as f64 / simulation.outputs.len() as f64);
     assert!(tight.cost(&simulation).unwrap().violated > loose.cost(&simulation).unwrap().violated);
@@ -115,12 +120,12 @@ fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
 #[test]
 fn comfort_is_bounded_by_the_greater_of_bound_and_start() {
     let wild = recording("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
-    let mut calm = Parameters::default();
+    let mut calm = classical();
     calm.conditioning.force_scale *= 0.1;
     let from = |start: &Parameters, bounds| {
         Objective::new(wild.clone(), start, &EQUAL, NO_RESERVE).unwrap().with_comfort_bounds(bounds)
     };
-    let rough = Parameters::default();
+    let rough = classical();
     let tight = from(&calm, [1e-3; 3]);
     let cost = tight.cost(&simulation(&tight, &rough)).unwrap();
     assert!(cost.excess > 1.0 && cost.comfort[1] > 0.1, "{cost:?}");
@@ -138,7 +143,7 @@ fn comfort_is_bounded_by_the_greater_of_bound_and_start() {
 #[test]
 fn parameters_beyond_the_bounds_of_comfort_never_win() {
     let objective = objective(weaving(), NO_RESERVE);
-    let start = Parameters::default();
+    let start = classical();
     let space = Space::new(&start, &[Group::Splitter]);
     let budget = Budget { evaluations: 150, seed: 1 };
     let bound = 1.2 * start.splitter.omega1.x;
@@ -160,7 +165,7 @@ fn parameters_beyond_the_bounds_of_comfort_never_win() {
 
 fn searched(threads: usize, seed: u64) -> Parameters {
     let (first, second) = (objective(weaving(), NO_RESERVE), objective(brisk(), NO_RESERVE));
-    let space = Space::new(&Parameters::default(), &DEFAULT);
+    let space = Space::new(&classical(), &DEFAULT);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let budget = Budget { evaluations: 120, seed };
     pool.install(|| search(&[&first, &second], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].parameters)
@@ -180,7 +185,7 @@ fn the_search_finds_the_same_however_many_threads_there_are_and_another_for_anot
 #[test]
 fn the_search_finds_something_better_that_keeps_the_limits() {
     let objective = objective(weaving(), NO_RESERVE);
-    let start = Parameters::default();
+    let start = classical();
     let space = Space::new(&start, &DEFAULT);
     let mut tried = Vec::new();
     let budget = Budget { evaluations: 600, seed: 3 };
@@ -201,8 +206,11 @@ fn the_search_takes_the_order_that_serves_best() {
     let objective = objective(weaving(), NO_RESERVE);
     let budget = Budget { evaluations: 120, seed: 1 };
     let best = |order: i32, groups: &[Group]| {
-        let mut start = Parameters::default();
+        let mut start = classical();
         start.structure.splitter_order = order;
+        // Short of travel, at high break frequencies.
+        (start.splitter.omega1, start.splitter.omega2) = ([3.0, 2.2, 5.0].into(), [2.0, 1.0, 0.3].into());
+        start.splitter.zeta1 = [1.3, 1.6, 1.0].into();
         // A slow tilt, which leaves it to travel what a higher order takes.
         (start.tilt.rate_limit, start.tilt.acceleration_limit) = (0.045, 0.11);
         let space = Space::new(&start, groups);
@@ -219,7 +227,7 @@ fn the_search_takes_the_order_that_serves_best() {
 fn groups_without_a_number_to_search_are_an_error_with_a_remedy() {
     let objective = objective(weaving(), NO_RESERVE);
     for group in [Group::Order, Group::Strategy] {
-        let space = Space::new(&Parameters::default(), &[group]);
+        let space = Space::new(&classical(), &[group]);
         let budget = Budget { evaluations: 10, seed: 1 };
         let error = search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap_err();
         assert!(error.to_string().contains("--tune"), "{error}");
@@ -229,7 +237,7 @@ fn groups_without_a_number_to_search_are_an_error_with_a_remedy() {
 #[test]
 fn a_search_that_is_broken_off_keeps_what_it_has() {
     let objective = objective(weaving(), NO_RESERVE);
-    let space = Space::new(&Parameters::default(), &DEFAULT);
+    let space = Space::new(&classical(), &DEFAULT);
     let mut generations = 0;
     let budget = Budget { evaluations: 100_000, seed: 1 };
     let searched = search(&[&objective], &evaluate_here, &space, budget, |_, _| {
@@ -243,7 +251,7 @@ fn a_search_that_is_broken_off_keeps_what_it_has() {
 #[test]
 fn what_the_rides_have_nothing_to_say_about_stays_as_it_was() {
     let objective = objective(brisk(), NO_RESERVE);
-    let start = Parameters::default();
+    let start = classical();
     let space = Space::new(&start, &DEFAULT);
     let best =
         search(&[&objective], &evaluate_here, &space, Budget { evaluations: 300, seed: 1 }, |_, _| true).unwrap().best;
@@ -273,7 +281,10 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     let here = directory.path();
     write_recording(here, &weaving());
     write_recording(here, &brisk());
-    let output = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--report", "out"]);
+    let output = moris(
+        here,
+        &["tune", "weaving.csv", "brisk.csv", "--strategy", "classical", "--evaluations", "100", "--report", "out"],
+    );
     let printed = String::from_utf8(output.stdout).unwrap();
     // Two rides that have little in common: what is tuned on one may be worse on the other, and then it is said first.
     let first = printed.lines().next().unwrap();
@@ -287,11 +298,24 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     assert!(printed.contains("On recordings that it was not tuned on, the mean error goes from"), "{printed}");
     assert!(!printed.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{printed}");
     let tuned = Setup::load(None, &[here.join("tuned.toml").display().to_string()]).unwrap();
-    assert_ne!(tuned.parameters, Parameters::default());
+    assert_ne!(tuned.parameters, classical());
     for file in ["out/tune.md", "out/weaving.tuned.html", "out/brisk.tuned.html"] {
         assert!(here.join(file).exists(), "{file}");
     }
-    let again = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--output", "again.toml"]);
+    let again = moris(
+        here,
+        &[
+            "tune",
+            "weaving.csv",
+            "brisk.csv",
+            "--strategy",
+            "classical",
+            "--evaluations",
+            "100",
+            "--output",
+            "again.toml",
+        ],
+    );
     assert_eq!(again.status.code(), Some(status));
     assert_eq!(fs::read(here.join("tuned.toml")).unwrap(), fs::read(here.join("again.toml")).unwrap());
 }
@@ -302,12 +326,26 @@ fn rides_that_are_held_out_are_not_tuned_on() {
     let here = directory.path();
     write_recording(here, &weaving());
     write_recording(here, &brisk());
-    let alone = moris(here, &["tune", "weaving.csv", "--evaluations", "60", "--output", "alone.toml"]);
+    let alone = moris(
+        here,
+        &["tune", "weaving.csv", "--strategy", "classical", "--evaluations", "60", "--output", "alone.toml"],
+    );
     let printed = String::from_utf8(alone.stdout).unwrap();
     assert!(printed.contains("No recording was held out: nothing is known of other recordings."), "{printed}");
     let tried = moris(
         here,
-        &["tune", "weaving.csv", "--evaluations", "60", "--output", "tried.toml", "--hold-out", "brisk.csv"],
+        &[
+            "tune",
+            "weaving.csv",
+            "--strategy",
+            "classical",
+            "--evaluations",
+            "60",
+            "--output",
+            "tried.toml",
+            "--hold-out",
+            "brisk.csv",
+        ],
     );
     let printed = String::from_utf8(tried.stdout).unwrap();
     assert!(printed.contains("On recordings that it was not tuned on"), "{printed}");
@@ -336,7 +374,10 @@ fn a_rig_s_values_are_not_written_into_the_parameter_file() {
 fn a_ride_that_cannot_be_kept_within_the_limits_is_named() {
     let directory = tempfile::tempdir().unwrap();
     write_recording(directory.path(), &weaving());
-    let output = moris(directory.path(), &["tune", "weaving.csv", "--evaluations", "40", "--stroke-reserve", "0.31"]);
+    let output = moris(
+        directory.path(),
+        &["tune", "weaving.csv", "--strategy", "classical", "--evaluations", "40", "--stroke-reserve", "0.31"],
+    );
     assert!(!output.status.success());
     let printed = String::from_utf8(output.stderr).unwrap();
     assert!(
@@ -353,7 +394,7 @@ fn ctrl_c_keeps_the_best_so_far() {
     write_recording(directory.path(), &weaving());
     write_recording(directory.path(), &brisk());
     let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
-        .args(["tune", "weaving.csv", "brisk.csv", "--evaluations", "10000000"])
+        .args(["tune", "weaving.csv", "brisk.csv", "--strategy", "classical", "--evaluations", "10000000"])
         .current_dir(directory.path())
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())
@@ -379,7 +420,18 @@ fn worse_parameters_have_an_exit_status_of_their_own() {
     let here = directory.path();
     write_recording(here, &weaving());
     write_recording(here, &brisk());
-    let arguments = ["tune", "weaving.csv", "--folds", "0", "--evaluations", "100", "--hold-out", "brisk.csv"];
+    let arguments = [
+        "tune",
+        "weaving.csv",
+        "--strategy",
+        "classical",
+        "--folds",
+        "0",
+        "--evaluations",
+        "100",
+        "--hold-out",
+        "brisk.csv",
+    ];
     let output = moris(here, &arguments);
     let printed = String::from_utf8(output.stdout).unwrap();
     assert!(
