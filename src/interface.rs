@@ -172,9 +172,9 @@ enumeration! {
 enumeration! {
     /// Law by which the classical strategy's tilt follows its target.
     pub enum TiltTracking {
-        /// The braking law: without lag inside the limits, otherwise in nearly the shortest time. The acceleration jumps, and travel makes up for it (the paper).
+        /// The braking law. The acceleration jumps, and travel makes up for it (the paper).
         "exact" Exact,
-        /// The acceleration builds up and fades without jumps, also where a limit keeps travel from making up for it.
+        /// The acceleration builds up and fades, for a travel that limits may stop.
         "smooth" Smooth,
     }
 }

@@ -121,8 +121,8 @@ pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.15),
 ];
 
-/// For cars, which turn slowly and sway hard: the classical strategy with less sway, roll and pitch
-/// down to a low frequency, slow tilt, and heave down to a low frequency.
+/// For cars, which turn slowly and sway hard: the classical strategy with less sway and slow tilt.
+/// Roll, pitch and heave go down to a low frequency.
 pub const CAR: &[(&str, f64)] = &[
     ("strategy", item(StrategyKind::Classical as i32)),
     ("splitter.x.omega1", 3.0),

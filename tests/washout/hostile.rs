@@ -59,8 +59,8 @@ enum Steps {
     Irregular(f64),
 }
 
-/// Variations of the start values: long travel, strong cues, steps so long that limits act coarsely,
-/// a slow machine, tight safety limits; and the paper's sets.
+/// Variations of the start values: long travel, strong cues, steps so long that limits act
+/// coarsely, a slow machine, tight safety limits; and the paper's sets.
 const SETS: [&[(&str, f64)]; 11] = [
     presets::CLASSICAL,
     &[("strategy", 1.0), ("splitter.x.omega1", 0.3), ("splitter.y.omega2", 0.3), ("splitter.z.omega1", 0.3)],
