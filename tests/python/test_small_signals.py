@@ -8,8 +8,12 @@ STEP = 1e-3
 GRAVITY = 9.80665
 COMPENSATION_NONE = 1
 RECONSTRUCTION_HOLD = 1
+CLASSICAL = 1
+TRACKING_EXACT = 1
 # Filters of fourth order on cues as they are given, inputs held.
 PLAIN = {
+    "strategy": CLASSICAL,
+    "tilt.tracking": TRACKING_EXACT,
     "splitter.order": 4,
     **{f"splitter.{axis}.{omega}": 2.5 for axis in "xyz" for omega in ("omega1", "omega2")},
     **{f"splitter.{axis}.{zeta}": 1.0 for axis in "xyz" for zeta in ("zeta1", "zeta2")},

@@ -26,7 +26,7 @@ use super::lateness::Lateness;
 use super::lines::Lines;
 use super::page::Order;
 use super::watch::Part;
-use super::wire::Wire;
+use super::wire::{Actuators, Wire};
 use super::{Shared, pace};
 
 /// Time in which a serial line must take a frame.
@@ -458,13 +458,13 @@ const ASKS: Duration = Duration::from_millis(200);
 const MOST_ERRORS: u32 = 10;
 
 impl<'a> Sender<'a> {
-    /// A sender of frames at this interval \[s\] to actuators of this largest speed \[m/s\].
+    /// A sender of frames at this interval \[s\] to these actuators.
     pub fn new(
         ring: Consumer<Sending>,
         device: Device,
         sink: Sink,
         orders: Producer<Order>,
-        (interval, speed): (f64, f64),
+        (interval, actuators): (f64, Actuators),
         shared: &'a Shared,
     ) -> Self {
         Sender {
@@ -472,7 +472,7 @@ impl<'a> Sender<'a> {
             device,
             sink,
             orders,
-            wire: Wire::new(interval, speed),
+            wire: Wire::new(interval, actuators),
             contact: Contact::new(interval),
             time_out: None,
             shared,
@@ -673,7 +673,15 @@ mod tests {
         let (orders, _) = RingBuffer::new(4);
         let sender = std::thread::spawn(move || {
             let device = Device::Template(Box::new(encoder));
-            Sender::new(messages, device, sink, orders, (0.01, 1.0), &Shared::default()).run()
+            Sender::new(
+                messages,
+                device,
+                sink,
+                orders,
+                (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }),
+                &Shared::default(),
+            )
+            .run()
         });
         let panicking = std::thread::spawn(move || {
             let moving = Values { length: [1.3; 6], velocity: [0.4; 6], ..Values::default() };
@@ -704,7 +712,17 @@ mod tests {
         let (mut ring, messages) = RingBuffer::new(256);
         let (orders, mut reported) = RingBuffer::new(64);
         let sent = std::thread::scope(|scope| {
-            let sender = scope.spawn(move || Sender::new(messages, device, sink, orders, (0.01, 1.0), shared).run());
+            let sender = scope.spawn(move || {
+                Sender::new(
+                    messages,
+                    device,
+                    sink,
+                    orders,
+                    (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }),
+                    shared,
+                )
+                .run()
+            });
             let send = |ring: &mut Producer<Sending>, message| {
                 ring.push(Sending { message, values: Values::default(), arrival: None, made: pace::now() }).unwrap();
                 sender.thread().unpark();
@@ -754,7 +772,14 @@ mod tests {
             let (mut ring, messages) = RingBuffer::new(256);
             let (orders, mut reported) = RingBuffer::new(64);
             let shared = Shared::default();
-            let mut sender = Sender::new(messages, csv(), sink, orders, (0.01, 1.0), &shared);
+            let mut sender = Sender::new(
+                messages,
+                csv(),
+                sink,
+                orders,
+                (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }),
+                &shared,
+            );
             sender.time_out = Some(Duration::from_millis(200));
             let sent = std::thread::scope(|scope| {
                 let sender = scope.spawn(move || sender.run());
@@ -797,7 +822,10 @@ mod tests {
         shared.asks.store(true, Ordering::Relaxed);
         std::thread::scope(|scope| {
             let shared = &shared;
-            let sender = scope.spawn(move || Sender::new(messages, csv(), sink, orders, (0.01, 1.0), shared).run());
+            let sender = scope.spawn(move || {
+                Sender::new(messages, csv(), sink, orders, (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }), shared)
+                    .run()
+            });
             let mut packet = [0; 100];
             let (length, from) = device.recv_from(&mut packet).unwrap();
             assert_eq!(&packet[..length], b"legs?\n");

@@ -73,6 +73,7 @@ use page::{Desk, Server, Start};
 use place::LegPlace;
 use signals::{Interrupts, Signals};
 use watch::{Failed, Part, watch};
+use wire::Actuators;
 
 /// Largest recording of a session \[bytes\]. One of a day is smaller.
 const LARGEST_SESSION: u64 = 200_000_000;
@@ -344,13 +345,14 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let listening = Arc::clone(&shared);
     thread::spawn(move || watch(&listening.failed, Part::Commands, || commands::read(stdin(), commands)));
     let interval = if options.dry { interval.max(0.1) } else { interval };
-    let speed = setup.parameters.rig.velocity_limit;
+    let rig = &setup.parameters.rig;
+    let actuators = Actuators { speed: rig.velocity_limit, stroke: [rig.min_length, rig.max_length] };
     let summary = thread::scope(|scope| {
         let (shared, desk) = (&*shared, &desk);
         let page = server.as_ref().map(|_| &**desk);
         let sender = scope.spawn(move || {
             prepare_helper(options);
-            let mut sender = Sender::new(to_send, device, sink, from_device, (interval, speed), shared);
+            let mut sender = Sender::new(to_send, device, sink, from_device, (interval, actuators), shared);
             sender.time_out = time_out;
             sender.run()
         });

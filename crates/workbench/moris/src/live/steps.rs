@@ -329,7 +329,7 @@ mod tests {
 
     use super::*;
     use crate::live::frames::{Message, Sending};
-    use crate::live::wire::Wire;
+    use crate::live::wire::{Actuators, Wire};
 
     /// The loop's parts on a computed clock, and what it has noted.
     struct Computed<'a> {
@@ -374,7 +374,7 @@ mod tests {
         };
         let text = header(&Parameters::default(), &settings, None);
         let (summary, digest) = (Summary::default(), Digest::default());
-        let wire = Wire::new(0.01, 1.0);
+        let wire = Wire::new(0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] });
         test(&mut Computed { steps, summary, notes, sent, wire, digest, text, said: Vec::new() })
     }
 

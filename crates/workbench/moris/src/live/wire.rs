@@ -2,7 +2,8 @@
 //!
 //! The loop's commands change within the limits from step to step. Frames may be left out or
 //! delayed on their way, so that the next one is far from the last that left. Then the difference
-//! goes to zero: a glide, whose speed comes on top of the commands' own.
+//! goes to zero: a glide, whose speed comes on top of the commands' own. Actuators that have come to
+//! rest are taken from there to the commands, so that no glide leaves the stroke.
 
 use std::time::Duration;
 
@@ -21,13 +22,21 @@ const SHORTEST: f64 = 0.2;
 /// Numbers of a frame that a glide changes.
 const NUMBERS: usize = 17;
 
+/// Limits of the actuators.
+#[derive(Clone, Copy, Debug)]
+pub struct Actuators {
+    /// Largest speed \[m/s\].
+    pub speed: f64,
+    /// Shortest and longest length \[m\].
+    pub stroke: [f64; 2],
+}
+
 /// The way of frames to the controller.
 #[derive(Clone, Debug)]
 pub struct Wire {
     /// Time between frames \[s\].
     interval: f64,
-    /// Largest speed of an actuator \[m/s\].
-    speed: f64,
+    actuators: Actuators,
     last: Option<(Duration, Values)>,
     glide: Option<Glide>,
     /// The actuators have stopped since the last frame.
@@ -36,7 +45,10 @@ pub struct Wire {
 
 #[derive(Clone, Copy, Debug)]
 struct Glide {
+    /// What the last frame had beyond the commands at the beginning.
     difference: [f64; NUMBERS],
+    /// The last frame, if the actuators have come to rest there.
+    rest: Option<[f64; NUMBERS]>,
     /// Its beginning in the session's time, and its length \[s\].
     begin: f64,
     duration: f64,
@@ -51,9 +63,9 @@ impl Glide {
 }
 
 impl Wire {
-    /// A way with frames at this interval \[s\], for actuators of this largest speed \[m/s\].
-    pub fn new(interval: f64, speed: f64) -> Self {
-        Wire { interval, speed, last: None, glide: None, is_lost: false }
+    /// A way with frames at this interval \[s\] to these actuators.
+    pub fn new(interval: f64, actuators: Actuators) -> Self {
+        Wire { interval, actuators, last: None, glide: None, is_lost: false }
     }
 
     /// The actuators are where the next frame has them, as a person or the controller says: it has
@@ -80,7 +92,7 @@ impl Wire {
         if let Some((_, last)) = self.last {
             let change =
                 |values: &Values| (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
-            if change(&values) > LARGEST * self.speed * self.interval {
+            if change(&values) > LARGEST * self.actuators.speed * self.interval {
                 self.begin(&last, commanded, has_stopped);
                 values = self.with_glide(commanded);
             }
@@ -93,19 +105,21 @@ impl Wire {
     fn begin(&mut self, last: &Values, commanded: &Values, has_stopped: bool) {
         // Whoever was lost stands still.
         let has_stopped = has_stopped || self.was_long_ago(last, commanded);
+        let fastest = self.actuators.speed;
         let (goes_on, speed) = match has_stopped {
-            true => (0.0, LOST_SPEED.min(GLIDE_SPEED * self.speed)),
-            false => (self.interval, GLIDE_SPEED * self.speed),
+            true => (0.0, LOST_SPEED.min(GLIDE_SPEED * fastest)),
+            false => (self.interval, GLIDE_SPEED * fastest),
         };
         let mut from = *last;
         for (length, velocity) in from.length.iter_mut().zip(commanded.velocity) {
-            *length += goes_on * velocity.clamp(-self.speed, self.speed);
+            *length += goes_on * velocity.clamp(-fastest, fastest);
         }
         let [from, to] = [&from, commanded].map(numbers);
         let difference: [f64; NUMBERS] = std::array::from_fn(|k| from[k] - to[k]);
         let farthest = difference[..6].iter().fold(0.0, |most: f64, one| most.max(one.abs()));
         let duration = (STEEPEST * farthest / speed).max(SHORTEST);
-        self.glide = Some(Glide { difference, begin: commanded.time, duration });
+        let rest = has_stopped.then_some(from);
+        self.glide = Some(Glide { difference, rest, begin: commanded.time, duration });
     }
 
     /// True if the actuators have come to rest since the last frame.
@@ -119,14 +133,19 @@ impl Wire {
         if left <= 0.0 {
             self.glide = None;
         }
-        let mut numbers = numbers(commanded);
-        numbers.iter_mut().zip(glide.difference).for_each(|(number, difference)| *number += left * difference);
+        let commands = numbers(commanded);
+        // From rest the commands come in as the difference goes out: a mean of two places in the stroke.
+        let difference = glide.rest.map_or(glide.difference, |rest| std::array::from_fn(|k| rest[k] - commands[k]));
         let velocity = (left - glide.left(commanded.time - self.interval)) / self.interval;
+        let own = if glide.rest.is_some() { 1.0 - left } else { 1.0 };
         let mut values = *commanded;
         for (k, speed) in values.velocity.iter_mut().enumerate() {
-            *speed += velocity * glide.difference[k];
+            *speed = own * *speed + velocity * difference[k];
         }
-        set(&mut values, &numbers);
+        set(&mut values, &std::array::from_fn(|k| commands[k] + left * difference[k]));
+        // Commands that have come nearer to the stroke's end since the glide began leave it less room.
+        let [shortest, longest] = self.actuators.stroke;
+        values.length = values.length.map(|length| length.clamp(shortest, longest));
         values
     }
 }
@@ -149,6 +168,7 @@ mod tests {
 
     const INTERVAL: f64 = 0.01;
     const SPEED: f64 = 1.0;
+    const ACTUATORS: Actuators = Actuators { speed: SPEED, stroke: [1.0, 1.6] };
 
     /// A command at a time \[s\]: a sine of 0.1 m and 0.9 m/s at most.
     fn commanded(time: f64) -> Values {
@@ -166,7 +186,7 @@ mod tests {
 
     #[test]
     fn frames_on_time_pass_as_they_are() {
-        let mut wire = Wire::new(INTERVAL, SPEED);
+        let mut wire = Wire::new(INTERVAL, ACTUATORS);
         for (k, values) in passed(&mut wire, (0..3000).step_by(10)).iter().enumerate() {
             assert_eq!(*values, commanded(k as f64 * 10.0 * 1e-3));
         }
@@ -175,7 +195,7 @@ mod tests {
     #[test]
     fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
         for gap in [20, 30, 106, 219, 700, 1670, 5000] {
-            let mut wire = Wire::new(INTERVAL, SPEED);
+            let mut wire = Wire::new(INTERVAL, ACTUATORS);
             let times = (0..500).step_by(10).chain((490 + gap..12_000).step_by(10));
             let frames = passed(&mut wire, times);
             let steps = frames.windows(2).map(|pair| (pair[1].length[0] - pair[0].length[0]).abs());
@@ -187,16 +207,39 @@ mod tests {
         }
     }
 
+    /// Frames that were left out near the end of the stroke, and commands that come back there.
+    #[test]
+    fn no_glide_leaves_the_stroke() {
+        let mut wire = Wire::new(INTERVAL, ACTUATORS);
+        let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
+        wire.pass(Duration::ZERO, &at(0.0, 1.59));
+        for k in 20..1000 {
+            let time = f64::from(k) * INTERVAL;
+            let now = wire.pass(Duration::from_secs_f64(time), &at(time, (1.4 + 0.2 * (time - 0.2)).min(1.6)));
+            assert!((1.0..=1.6).contains(&now.length[0]), "{} m at {time} s", now.length[0]);
+        }
+    }
+
     #[test]
     fn a_controller_that_was_lost_is_followed_from_where_it_was() {
-        let mut wire = Wire::new(INTERVAL, SPEED);
+        let mut wire = Wire::new(INTERVAL, ACTUATORS);
         passed(&mut wire, (0..500).step_by(10));
         let before = wire.last.unwrap().1.length[0];
         wire.lose();
-        let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.6; 6], ..Values::default() });
+        let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.0; 6], ..Values::default() });
         assert!((first.length[0] - before).abs() < 1e-9);
+        // The commands go up meanwhile: no frame leaves the stroke, and none jumps.
+        let mut last = first.length[0];
+        for k in 1..4000 {
+            let time = 9.0 + 0.01 * f64::from(k);
+            let up = [1.0 + 0.6 * (0.2 * (time - 9.0)).min(1.0); 6];
+            let now = wire.pass(Duration::from_secs_f64(time), &Values { time, length: up, ..Values::default() });
+            assert!((1.0..=1.6).contains(&now.length[0]) && (now.length[0] - last).abs() < 0.0025, "{time} s");
+            last = now.length[0];
+        }
+        assert_eq!(last, 1.6);
         // Somebody knows where the platform is.
         wire.begin_anew();
-        assert_eq!(wire.pass(Duration::from_secs(10), &commanded(10.0)).length, commanded(10.0).length);
+        assert_eq!(wire.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
     }
 }
