@@ -12,7 +12,7 @@ from conftest import gentle
 def fine():
     """A ride at the washout's own rate, and its simulation."""
     ride = gentle(12.0, 0.001)
-    return ride, moris.simulate(ride)
+    return ride, moris.simulate(ride, strategy="classical")
 
 
 def differences(own, other):

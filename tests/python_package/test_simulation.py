@@ -274,7 +274,7 @@ def test_a_preview_is_learned_from_earlier_rounds():
     with pytest.raises(ValueError, match="exclude each other"):
         moris.simulate(ride, parameters="preview", preview=1.0, learn=True)
     with pytest.raises(ValueError, match="predictive strategy alone"):
-        moris.simulate(ride, learn=True)
+        moris.simulate(ride, strategy="classical", learn=True)
 
 
 def test_a_learned_road_is_kept_in_a_file(tmp_path):
