@@ -454,7 +454,8 @@ def every_limit_has_its_lane(browser):
             seen = assert_lanes(page, run["limited"], run["times"], run["name"])
         assert all(seen[kind] > 5 for kind in ("tilt", "safety", "actuator")), seen
     with tuned(browser, quiet=False) as page:
-        # A short stroke.
+        # A short stroke, and a strategy that does not plan for it.
+        control(page, "strategy").select_option(label="classical")
         move(page, "actuator.maxLength", 60)
         page.wait_for_timeout(400)
         limited = page.evaluate("Object.fromEntries(Object.entries(simulationReport.now.run.limited).map(([kind, flags]) => [kind, [...flags]]))")
@@ -625,11 +626,11 @@ def the_page_simulates_as_the_command(browser):
     with tuned(browser) as page:
         move(page, "scale.specificForce.x", 300)
         assert_same(page, of_command("--parameters", saved(page)), "a scale")
-        control(page, "strategy").select_option(label="predictive")
-        move(page, "predictive.weightPosition", 260)
+        control(page, "strategy").select_option(label="optimal")
+        move(page, "optimal.weightPosition", 260)
         file = saved(page)
-        assert 'strategy = "predictive"' in file.read_text().replace('"strategy"', "strategy"), file.read_text()
-        assert_same(page, of_command("--parameters", file), "predictive")
+        assert 'strategy = "optimal"' in file.read_text().replace('"strategy"', "strategy"), file.read_text()
+        assert_same(page, of_command("--parameters", file), "optimal")
         # The bound belongs to the limits that the page started with.
         move(page, "tilt.rateLimit", 100)
         assert_same(page, of_command("--no-bound", "--parameters", saved(page)), "another limit")

@@ -53,7 +53,7 @@ fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
 }
 
 fn two_runs() -> Report {
-    let shipped = Parameters::default();
+    let shipped = presets::parameters(presets::CLASSICAL);
     let mut soft = shipped;
     soft.conditioning.force_scale.fill(0.7);
     soft.conditioning.rate_scale.fill(0.3);
