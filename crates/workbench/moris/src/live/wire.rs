@@ -2,8 +2,8 @@
 //!
 //! The loop's commands change within the limits from step to step. Frames may be left out or
 //! delayed on their way, so that the next one is far from the last that left. Then the difference
-//! goes to zero: a glide, whose speed comes on top of the commands' own. Actuators that have come to
-//! rest are taken from there to the commands, so that no glide leaves the stroke.
+//! goes to zero: a glide, whose speed comes on top of the commands' own. Actuators that have come
+//! to rest are taken from there to the commands, so that no glide leaves the stroke.
 
 use std::time::Duration;
 
