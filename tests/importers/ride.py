@@ -8,7 +8,9 @@ from xml.etree import ElementTree
 
 LAYERED_STANDARD = "extra/org.fmi-standard.fmi-ls-ref"
 # The reference has ten decimals, and importers compute the time of a step each in their own way.
-TOLERANCE = 1e-9
+EXACT = 1e-9
+# Of the washout, whose plan's active limits depend on the last digits of the inputs.
+TOLERANCE = 1e-3
 
 
 class Ride:
