@@ -272,7 +272,11 @@ def test_the_example_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(
     slalom = (time > 14.0) & (time < 30.0)
     assert correlation("specificForce.x", "specificForce.x", time > 0) > 0.85
     assert correlation("specificForce.y", "specificForce.y", slalom) > 0.9
-    assert correlation("angularVelocity.x", "angularVelocity.x", slalom) > 0.8
+    # The felt force has the scaled size, because the tilt takes back what roll would add. What is left of the roll rate
+    # has the right sign.
+    desired, felt = 0.65 * result["motorcycle.vehicle.specificForce.y"][slalom], result["platform.rider.specificForce.y"][slalom]
+    assert np.sqrt(np.mean((felt - desired) ** 2)) < 0.3 * np.sqrt(np.mean(desired**2))
+    assert correlation("angularVelocity.x", "angularVelocity.x", slalom) > 0.2
     # The platform is where it was commanded, but for the delay of its drives.
     late = 0.004 + 2 * np.sqrt(0.5) / 62.83 + 2e-3
     for i in range(1, 7):
