@@ -474,6 +474,15 @@ impl Washout {
         &self.parameters
     }
 
+    /// True if the soft limits of these parameters stop the platform from its motion now, at this
+    /// part of their pace. Those that do not would leave it to the guard, which brakes hard. Speeds
+    /// up to `slow` \[m/s\] do not count.
+    pub fn soft_limits_stop(&self, parameters: &Parameters, part: f64, slow: f64) -> bool {
+        let limits = SoftLimits::new(parameters, self.strategy.largest_heave());
+        let state = soft_limits::State { coordinates: self.guard.coordinates(), legs: self.guard.legs() };
+        !limits.enabled() || limits.stop_from(&state, part, slow)
+    }
+
     /// The platform's motion as commanded, with its accelerations.
     pub fn motion(&self) -> &PlatformMotion {
         self.guard.motion()

@@ -72,6 +72,11 @@ impl Ends {
         Ends { min: min + margin, max: max - margin, velocity, acceleration: ACCELERATION * acceleration }
     }
 
+    /// True if a motion towards a limit ends before it at this pace, or is as slow as this.
+    fn stop(&self, position: f64, velocity: f64, pace: f64, slow: f64) -> bool {
+        velocity <= max(pace * (self.max - position), slow) && -velocity <= max(pace * (position - self.min), slow)
+    }
+
     /// The least and the largest acceleration with which the limits are approached at this pace.
     #[inline(always)]
     fn range(&self, position: f64, velocity: f64, pace: f64) -> (f64, f64) {
@@ -149,6 +154,15 @@ impl SoftLimits {
     /// True if the demand was changed in the last step.
     pub fn active(&self) -> bool {
         self.sides.any()
+    }
+
+    /// True if axes and legs come to rest before their limits at this part of the pace. Those up to
+    /// `slow` \[m/s\] do anyway.
+    pub fn stop_from(&self, state: &State, part: f64, slow: f64) -> bool {
+        let pace = part * self.pace;
+        let linear = &state.coordinates.linear;
+        let axes = (0..3).all(|k| self.axis_ends[k].stop(linear.position[k], linear.velocity[k], pace, slow));
+        axes && (0..6).all(|i| self.leg_ends.stop(state.legs.length[i], state.legs.velocity[i], pace, slow))
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.

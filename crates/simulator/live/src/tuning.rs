@@ -1,7 +1,7 @@
 //! Parameters that glide to chosen values within about 2 s.
 
 use moris_interface::{Group as _, Kind, Reader, refuse};
-use moris_washout::interface::SafetyParameters;
+use moris_washout::interface::{SafetyParameters, SoftLimitParameters};
 use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::log::name_of;
@@ -12,6 +12,10 @@ const INTERVAL: u64 = 40;
 const PART: f64 = 0.108;
 /// Parts of new limits within which the platform must be before they come into force.
 const INSIDE: f64 = 0.8;
+/// Speed below which the platform may come to rest anywhere \[m/s\].
+const SLOW: f64 = 0.01;
+/// Most by which the soft limits' margin grows in an interval \[m\].
+const NARROWER: f64 = 0.01;
 /// Least pace with which a limit is approached \[1/s\], where the soft limits have none.
 const SLOWEST: f64 = 1.0;
 
@@ -110,6 +114,21 @@ pub fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters
         }
     }
     safety
+}
+
+/// The soft limits of these parameters, towards which they change gradually. Those in force stay
+/// while the platform is so fast that a lower pace or a larger margin would not stop it in time:
+/// the guard would have to.
+pub fn with_pace(parameters: &Parameters, washout: &Washout) -> SoftLimitParameters {
+    let before = washout.parameters().soft_limit;
+    let SoftLimitParameters { pace, margin } = parameters.soft_limit;
+    let soft_limit = SoftLimitParameters {
+        pace: pace.max((1.0 - PART) * before.pace),
+        margin: margin.min(before.margin + NARROWER),
+    };
+    let is_gentler = soft_limit.pace < before.pace || soft_limit.margin > before.margin;
+    let stops = !is_gentler || washout.soft_limits_stop(&Parameters { soft_limit, ..*parameters }, INSIDE, SLOW);
+    if stops { soft_limit } else { before }
 }
 
 /// A value that has gone a part of the way to another.

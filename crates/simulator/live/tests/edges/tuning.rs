@@ -1,5 +1,6 @@
 //! Parameters that are changed in motion.
 
+use moris_interface::{Group as _, Reader};
 use moris_live::log::slot_of;
 use moris_live::{Motion, STEP, Sample, Settings};
 use moris_washout::{Parameters, presets};
@@ -46,6 +47,36 @@ fn scales_and_paces_glide_and_sliders_are_no_jolt() {
             let jolts = [at_once.jolt(17.0, 38.0), slider.jolt(17.0, 38.0)];
             println!("{name}: {jolts:.2?} m/s2");
             assert!(jolts.iter().all(|jolt| *jolt <= 1.0), "{name}: {jolts:?}");
+        }
+    }
+}
+
+/// Soft limits that become gentler while the platform is fast would leave it to the guard.
+#[test]
+fn sliders_of_the_soft_limits_add_nothing_to_their_extremes() {
+    let all = packets(40.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    });
+    for set in [&[][..], presets::OPTIMAL] {
+        let parameters = presets::parameters(set);
+        for (name, low, high) in
+            [("softLimit.pace", 0.5, 100.0), ("softLimit.pace", 0.5, 8.0), ("softLimit.margin", 0.01, 1.0)]
+        {
+            let held = [low, high].map(|value| {
+                let mut slots = moris_interface::slots_of(&parameters);
+                slots[slot_of(name).unwrap()] = value;
+                let parameters = Parameters::read(&mut Reader::new(&slots));
+                course(&parameters, &Settings::default(), &all, 39.0, |_| ()).1.jolt(17.0, 38.0)
+            });
+            let slider = |part: &dyn Fn(f64) -> f64| {
+                let value = |t: f64| (t > 18.0).then(|| low + (high - low) * part(t.min(28.99)));
+                tuned(&parameters, name, value).jolt(17.0, 38.0)
+            };
+            let moved =
+                [slider(&|t| f64::from(t < 24.0)), slider(&|t| 0.5 + 0.5 * (2.0 * t).sin()), slider(&|t| t.fract())];
+            println!("{name} {low} to {high}: held {held:.2?}, moved {moved:.2?} m/s2");
+            let most = held.into_iter().fold(1.0, f64::max);
+            assert!(moved.iter().all(|jolt| *jolt <= most), "{name} {low} to {high}: held {held:?}, moved {moved:?}");
         }
     }
 }
