@@ -2,7 +2,7 @@
 //!
 //! A forecast is M + b D. M is the force of the earlier passes at the place to come, and D how far
 //! the present force is from theirs. For each time ahead, b is the least-squares fit to what came
-//! in the last minute, with a prior of 0.
+//! in the last minute, with a prior that fades with the time ahead.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,10 +21,15 @@ const FIT_TIME: f64 = 60.0;
 const PRIOR: f64 = 50.0;
 /// Time constant with which a trend fades \[s\].
 const TREND_TIME: f64 = 1.5;
+/// Time constant of the prior of b \[s\].
+const LASTING_TIME: f64 = 0.5;
 /// Range of b.
 const CARRIED: [f64; 2] = [0.0, 1.0];
-/// Time constants with which a mean squared error follows larger and smaller ones \[s\].
+/// Time constants with which a mean squared error follows larger and smaller ones \[s\]. The first
+/// is that of a forecast that proves itself, too.
 const ERROR_TIMES: [f64; 2] = [2.0, 8.0];
+/// A forecast proves itself where its squared error now is below this part of that without memory.
+const PROVED: f64 = 0.25;
 /// Elements whose errors count: 0.4, 1 and 2 s ahead.
 const COMPARED: [usize; 3] = [1, 4, 9];
 /// Squared error added to the least one without memory \[(m/s2)^2\].
@@ -55,6 +60,11 @@ fn trend(element: usize) -> f64 {
     TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME))
 }
 
+/// Part of a difference that is expected to last up to an element.
+fn lasting(element: usize) -> f64 {
+    libm::exp(-TICK * ((element + 1) * SPACING) as f64 / LASTING_TIME)
+}
+
 /// Sums of D^2 and of D times the error of M.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Fit {
@@ -63,8 +73,8 @@ struct Fit {
 }
 
 impl Fit {
-    fn carried(&self) -> f64 {
-        (self.products / (self.squares + PRIOR)).clamp(CARRIED[0], CARRIED[1])
+    fn carried(&self, prior: f64) -> f64 {
+        ((self.products + PRIOR * prior) / (self.squares + PRIOR)).clamp(CARRIED[0], CARRIED[1])
     }
 }
 
@@ -114,7 +124,7 @@ impl Record {
         self.made[self.latest] = Made { is_known: true, held, slope, ..Made::default() };
         let (passes, now) = passes?;
         let difference = held - now;
-        let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried() * difference);
+        let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried(lasting(k)) * difference);
         let forces = COMPARED.map(|k| forecast[k]);
         self.made[self.latest] =
             Made { is_known: true, is_made: true, passes: *passes, difference, forces, held, slope };
@@ -131,22 +141,25 @@ impl Record {
                 fit.products = keep * fit.products + made.difference * (truth - made.passes[k]);
             }
         }
-        let (mut square, mut count) = (0.0, 0.0);
+        let [mut square, mut without, mut count] = [0.0; 3];
         for (k, element) in COMPARED.into_iter().enumerate() {
             let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
-            for (error, forecast) in
-                self.plain[k].iter_mut().zip([made.held, 0.0, made.held + made.slope * trend(element)])
-            {
-                *error += falling * ((forecast - truth) * (forecast - truth) - *error);
-            }
+            let plain = [made.held, 0.0, made.held + made.slope * trend(element)];
+            let squares = plain.map(|forecast| (forecast - truth) * (forecast - truth));
             if made.is_made {
+                let best = (0..3).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);
+                without += squares[best];
                 square += (made.forces[k] - truth) * (made.forces[k] - truth);
                 count += 1.0;
+            }
+            for (error, square) in self.plain[k].iter_mut().zip(squares) {
+                *error += falling * (square - *error);
             }
         }
         if count > 0.0 {
             let mean = square / count;
-            self.error += if mean > self.error { rising } else { falling } * (mean - self.error);
+            let is_quick = mean > self.error || square < PROVED * without;
+            self.error += if is_quick { rising } else { falling } * (mean - self.error);
         } else {
             self.error = self.error_without_memory() + FLOOR;
         }

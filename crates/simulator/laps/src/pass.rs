@@ -21,6 +21,8 @@ const PACES: [f64; 2] = [0.5, 2.0];
 const PACE_TIME: f64 = 0.1;
 /// Time constant with which the pace is expected to become that of the pass \[s\].
 const PACE_FADE: f64 = 3.0;
+/// Difference of the pace from 1 up to which it mostly wanders; beyond, it is expected to return.
+const WANDER: f64 = 0.1;
 /// Fraction of a difference in place that is corrected at each tick.
 const CORRECTION: f64 = 0.4;
 /// Time constant of the squared error \[s\].
@@ -72,14 +74,16 @@ impl Pass {
     /// line is not known \[m/s2\].
     pub fn force(&self, line: &Line, time: f64) -> Option<[f64; 2]> {
         let excess = self.pace - 1.0;
-        let (advance, pace) = if time > 0.0 {
+        let (advance, pace, change) = if time > 0.0 {
             let fade = libm::exp(-time / PACE_FADE);
-            (time + excess * PACE_FADE * (1.0 - fade), 1.0 + excess * fade)
+            let square = excess * excess;
+            let change = -excess * fade / PACE_FADE * square / (square + WANDER * WANDER);
+            (time + excess * PACE_FADE * (1.0 - fade), 1.0 + excess * fade, change)
         } else {
-            (time * self.pace, self.pace)
+            (time * self.pace, self.pace, 0.0)
         };
         let there = line.at(self.number + advance / TICK)?;
-        Some([there.force(0), there.force(1) * pace * pace])
+        Some([there.force(0) + change * there.speed(), there.force(1) * pace * pace])
     }
 
     /// Compares the pass with the force [`LAG`] ticks ago.

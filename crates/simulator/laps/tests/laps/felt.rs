@@ -82,7 +82,7 @@ fn the_motorcycle_s_lap_is_felt_better_from_its_second_round_on() {
     let plain = by_lap(squares(inputs.clone(), &parameters, None));
     let learned = by_lap(squares(inputs, &parameters, Some(&previews(&samples))));
     assert_eq!(plain[0], learned[0]);
-    assert!(learned[1] <= 0.9 * plain[1], "{learned:?} {plain:?}");
+    assert!(learned[1] <= 0.6 * learned[0], "{learned:?} {plain:?}");
     assert!(learned[2..].iter().all(|error| *error <= 0.55 * learned[0]), "{learned:?} {plain:?}");
 }
 

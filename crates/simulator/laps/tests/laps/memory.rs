@@ -93,6 +93,49 @@ fn a_curve_driven_at_another_pace_has_its_lateral_force_by_the_square() {
 }
 
 #[test]
+fn a_difference_of_the_present_force_lasts_for_the_next_half_second() {
+    let samples = laps(1.5, 1.0);
+    let (past, now) = samples.split_at(samples.len() - 10);
+    let pushed = |push: f64| {
+        let mut memory = after(past);
+        now.iter().for_each(|s| memory.step(&Sample { force: [s.force[0], s.force[1] + push], ..*s }));
+        memory.preview()
+    };
+    let [as_ever, pushed] = [0.0, 1.0].map(pushed);
+    let kept: Vec<f64> = pushed.sway.iter().zip(&as_ever.sway).map(|(pushed, as_ever)| pushed - as_ever).collect();
+    assert!(kept[0] > 0.4 && kept[2] < kept[0] && kept[10].abs() < 0.1, "{kept:?}");
+}
+
+#[test]
+fn a_vehicle_much_faster_than_ever_here_is_expected_to_slow_down() {
+    let at = |x: f64, beside: f64, speed: f64| Sample {
+        step: STEP,
+        position: [x, beside, 0.0],
+        speed: Some(speed),
+        force: [2.0 * (0.4 * x).sin(), 0.0],
+    };
+    let surge = |last_speed: f64| {
+        let mut memory = Laps::new();
+        (0..2000).for_each(|k| memory.step(&at(10.0 * STEP * f64::from(k), 0.0, 10.0)));
+        memory.interrupt();
+        let mut x = 0.0;
+        for k in 0..780 {
+            let speed = if k < 750 { 10.0 } else { last_speed };
+            x += speed * STEP;
+            memory.step(&at(x, 1.0, speed));
+        }
+        let preview = memory.preview();
+        assert_eq!(preview.count, 20, "{last_speed}");
+        // The force of the place there, where the pace returns with 3 s.
+        let excess = last_speed / 10.0 - 1.0;
+        let there = x + 10.0 * (1.0 + excess * 3.0 * (1.0 - (-1.0_f64 / 3.0).exp()));
+        preview.surge[4] - at(there, 0.0, 10.0).force[0]
+    };
+    assert!(surge(10.3).abs() < 0.15, "{}", surge(10.3));
+    assert!(surge(14.0) < -0.5, "{}", surge(14.0));
+}
+
+#[test]
 fn nothing_is_known_in_the_first_lap_and_on_another_track() {
     let mut samples = laps(0.9, 1.0);
     // The crossing of the track with itself is passed in another direction.
