@@ -33,6 +33,22 @@ def test_tuning_lowers_the_error_and_keeps_the_limits(tuned, recordings):
     assert list(tuned.to_pandas().columns) == ["before", "tuned", "unseen"]
 
 
+def test_each_strategy_is_tuned_and_the_best_is_the_result(recordings):
+    best = moris.tune(recordings[0], strategy="all", groups=["scale"], evaluations=10, progress=False)
+    assert set(best.strategies) == {"classical", "adaptive", "optimal", "predictive", "robust"}
+    assert best.error == min(tuned.error for tuned in best.strategies.values())
+    assert best.parameters == best.strategies[best.parameters["strategy"]].parameters
+
+
+def test_the_objective_is_the_shape_or_the_sensed_error(recordings):
+    by_shape, by_error = (
+        moris.tune(recordings[0], strategy="classical", groups=["scale"], evaluations=40, objective=objective)
+        for objective in ("shape", "error")
+    )
+    assert by_shape.parameters != by_error.parameters
+    assert by_shape.errors["ride-0"]["before"] != by_error.errors["ride-0"]["before"]
+
+
 def test_the_parameter_file_is_the_result(tuned, tmp_path):
     assert moris.parameters(parameters=tuned.save(tmp_path / "tuned.toml")) == tuned.parameters
 
@@ -91,6 +107,7 @@ def test_a_search_ends_early_and_keeps_the_best(recordings):
     def interrupt(done, total, text):
         signal.raise_signal(signal.SIGINT)
 
+    # Every call is another Ctrl-C: none of them loses the result.
     interrupted = moris.tune(recordings[:1], strategy="classical", evaluations=5000, progress=interrupt)
     assert interrupted.interrupted and interrupted.errors["ride-0"]["tuned"] <= interrupted.errors["ride-0"]["before"]
 
@@ -122,6 +139,7 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
         ({"weights": [0, 0, 0, 0, 0, 0]}, "must be six numbers, none below 0 and not all 0"),
         ({"stroke_reserve": -0.1}, "stroke_reserve is -0.1 m"),
         ({"comfort": [0.2, 0, 4]}, "must be bounds of shake, jolt and peak above 0 m/s2"),
+        ({"objective": "size"}, "objective is size, but must be shape or error"),
         ({"evaluations": 0}, "evaluations is 0, but must be 1 at least"),
         ({"patience": 0}, "patience is 0, but must be 1 at least"),
         ({"folds": -1}, "folds is -1, but must be 0 at least"),

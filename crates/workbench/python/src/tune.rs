@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use moris_analysis::tune::cost::{Cost, Objective};
+use moris_analysis::tune::cost::{Aim, Cost, Objective};
 use moris_analysis::tune::folds;
 use moris_analysis::tune::search::{Budget, Evaluate, evaluate_here};
 use moris_analysis::tune::space::{Group, Space};
@@ -62,6 +62,7 @@ impl PyTuning {
         weights: [f64; 6],
         stroke_reserve: f64,
         comfort: [f64; 3],
+        objective: &str,
     ) -> PyResult<Self> {
         let before = setup::load(py, rig, parameters, strategy)?;
         if !weights.iter().all(|weight| (0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
@@ -79,10 +80,13 @@ impl PyTuning {
                 "comfort is {comfort:?}, but must be bounds of shake, jolt and peak above 0 m/s2"
             )));
         }
+        let Some(aim) = Aim::named(objective) else {
+            return Err(PyValueError::new_err(format!("objective is {objective}, but must be shape or error")));
+        };
         let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
         let objective = |recording: &PyRef<PyRecording>| {
             let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, stroke_reserve);
-            let objective = objective.map(|objective| objective.with_comfort_bounds(comfort));
+            let objective = objective.map(|objective| objective.with_comfort_bounds(comfort).with_aim(aim));
             objective.map_err(|error| error::refused(py, &error, &all(&before.parameters)))
         };
         let objectives = recordings.iter().map(objective).collect::<PyResult<_>>()?;
@@ -142,6 +146,7 @@ impl PyTuning {
                 interrupted: Arc::clone(&interrupted),
                 tried: AtomicUsize::new(0),
                 show: &|_, _| (),
+                so_far: Arc::default(),
             };
             self.tune(&tuner, folds)
         };
@@ -231,7 +236,7 @@ fn remote<'a>(
 }
 
 fn received((channels, error, violated, comfort, excess): Sent) -> Cost {
-    Cost { channels, error, violated, comfort, excess }
+    Cost { channels, error, violated, comfort, excess, ..Cost::default() }
 }
 
 /// Reports progress to Python and checks for signals. Returns false if the search is to end.

@@ -1,9 +1,20 @@
-//! The objective: sensed error of a recording, time with active limits, and discomfort.
+//! The objective: shape of the felt force of a recording, then its size, time with active limits,
+//! and discomfort.
+//!
+//! The error of a recording is a weighted sum of three parts, each 0 where it is perfect and 1 for
+//! a platform at rest:
+//!
+//! - what is felt wrong: 1 - shape + 2 inverted, the mean of surge and sway;
+//! - what is felt too small: 1 - size, where a size above 1 counts as its reciprocal;
+//! - the sensed error of all channels.
+//!
+//! Axes of surge and sway on which hardly anything is desired do not count. Where neither counts,
+//! the sensed error is the error.
 //!
 //! A recording has six channels: specific force and angular velocity along x, y and z. Each is the
 //! vestibular model's response in units of the perception threshold, so that forces and rates can
 //! be added. With e_k the RMS of felt minus desired on channel k, d_k the RMS of desired, and w_k
-//! the channel's weight, the recording's error is
+//! the channel's weight, the sensed error is
 //!
 //! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2),
 //!
@@ -15,6 +26,7 @@ use std::sync::OnceLock;
 
 use moris_measures::comfort::{Reference, divisions};
 use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
+use moris_measures::shape::{AxisShape, Desired, Shape};
 use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
@@ -28,12 +40,14 @@ use moris_simulation::Simulation;
 pub type Channels<T> = [T; 6];
 
 /// Cost of a recording.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
     /// RMS error of each channel, in thresholds.
     pub channels: Channels<f64>,
     /// The recording's error: 0 is perfect, 1 is a platform at rest.
     pub error: f64,
+    /// Shape, size and inverted time of surge and sway.
+    pub shape: Shape,
     /// Fraction of the steps in which a safety unit or the actuator guard was active or the
     /// reserve of stroke was touched.
     pub violated: f64,
@@ -51,6 +65,33 @@ impl Cost {
     }
 }
 
+/// Aim of a search.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Aim {
+    /// Shape of surge and sway, then their size, then the sensed error
+    #[default]
+    Shape,
+    /// The sensed error alone
+    Error,
+}
+
+impl Aim {
+    /// The aim of this name.
+    pub fn named(name: &str) -> Option<Aim> {
+        match name {
+            "shape" => Some(Aim::Shape),
+            "error" => Some(Aim::Error),
+            _ => None,
+        }
+    }
+}
+
+/// Weights of what is felt wrong, of what is felt too small, and of the sensed error; 1 together.
+const WEIGHTS_OF_SHAPE: [f64; 3] = [0.5, 0.25, 0.25];
+/// Weight of the inverted fraction of the time beside the shape.
+const WEIGHT_OF_INVERTED: f64 = 2.0;
+
 /// A recording that parameters are judged on.
 #[derive(Clone, Debug)]
 pub struct Objective {
@@ -59,6 +100,9 @@ pub struct Objective {
     /// RMS of each channel as it is desired, in thresholds.
     desired_rms: Channels<f64>,
     weights: Channels<f64>,
+    aim: Aim,
+    /// The desired force of surge and sway, for its comparison with a felt one.
+    cue: Desired,
     /// Every actuator stays this far from either end of its stroke \[m\].
     stroke_reserve: f64,
     /// The fixed parameters, with the recording's step as internal step, at most [`LONGEST_STEP`].
@@ -125,11 +169,14 @@ impl Objective {
         parameters.structure.max_step = recording.step().min(LONGEST_STEP).max(parameters.structure.max_step);
         parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], recording.step()));
+        let force: Vec<[f64; 3]> = recording.inputs().iter().map(|input| input.specific_force.into()).collect();
         let objective = Objective {
+            cue: Desired::new(&force, recording.step()),
             recording,
             desired,
             desired_rms,
             weights: *weights,
+            aim: Aim::default(),
             stroke_reserve,
             fixed: parameters,
             coarse: Default::default(),
@@ -146,6 +193,11 @@ impl Objective {
     /// \[m/s2\]. All are positive; an infinite one bounds nothing.
     pub fn with_comfort_bounds(self, comfort_bounds: [f64; 3]) -> Self {
         Objective { comfort_bounds, ..self }
+    }
+
+    /// The objective with another aim than the shape.
+    pub fn with_aim(self, aim: Aim) -> Self {
+        Objective { aim, ..self }
     }
 
     /// The parameters that the search starts from.
@@ -239,13 +291,31 @@ impl Objective {
         let channels = std::array::from_fn(|k| sensed_rms(k, &errors.channels[k], self.recording.step()));
         // If the desired motion is below a threshold, its error is not magnified.
         let whole = self.weighted(&self.desired_rms).max(1.0);
+        let sensed = self.weighted(&channels) / whole;
+        let scale = &self.start.conditioning.force_scale;
+        let shape = self.cue.shape(&errors.felt, [scale.x, scale.y]);
         Ok(Cost {
             channels,
-            error: self.weighted(&channels) / whole,
+            error: self.error(&shape, sensed),
+            shape,
             violated: errors.violated as f64 / errors.channels[0].len() as f64,
             comfort,
             excess: self.excess(&comfort, steps, start)?,
         })
+    }
+
+    /// The error of a recording with this shape and this sensed error.
+    fn error(&self, shape: &Shape, sensed: f64) -> f64 {
+        let axes = || (0..2).filter_map(|axis| Some((self.weights[axis], shape.axes[axis]?)));
+        let whole: f64 = axes().map(|(weight, _)| weight).sum();
+        if self.aim == Aim::Error || whole == 0.0 {
+            return sensed;
+        }
+        let mean = |of: fn(&AxisShape) -> f64| axes().map(|(weight, axis)| weight * of(&axis)).sum::<f64>() / whole;
+        let wrong = mean(|axis| 1.0 - axis.shape + WEIGHT_OF_INVERTED * axis.inverted);
+        let small = mean(|axis| 1.0 - axis.size.min(1.0 / axis.size));
+        let parts = [wrong, small, sensed];
+        parts.iter().zip(WEIGHTS_OF_SHAPE).map(|(part, weight)| weight * part).sum()
     }
 
     /// Shake, jolt and peak of a felt specific force, the largest of the axes.
@@ -298,6 +368,8 @@ impl Objective {
 struct Errors<'a> {
     objective: &'a Objective,
     channels: Channels<Vec<f64>>,
+    /// The felt specific force.
+    felt: Vec<[f64; 3]>,
     /// Number of outputs with limits active or the reserve of stroke touched.
     violated: usize,
 }
@@ -305,7 +377,8 @@ struct Errors<'a> {
 impl<'a> Errors<'a> {
     fn new(objective: &'a Objective) -> Self {
         let samples = objective.desired[0].len();
-        Errors { objective, channels: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
+        let channels = std::array::from_fn(|_| Vec::with_capacity(samples));
+        Errors { objective, channels, felt: Vec::with_capacity(samples), violated: 0 }
     }
 
     fn add(&mut self, output: &Output) {
@@ -314,6 +387,7 @@ impl<'a> Errors<'a> {
         for (k, felt) in channels(force, output.felt_angular_velocity).into_iter().enumerate() {
             self.channels[k].push(felt - self.objective.desired[k][sample]);
         }
+        self.felt.push(output.felt_specific_force.into());
         let touched = output.stroke_margin < self.objective.stroke_reserve;
         self.violated += usize::from(output.safety_active || output.actuator_limited || touched);
     }

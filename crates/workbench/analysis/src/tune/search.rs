@@ -74,9 +74,9 @@ pub struct Searched {
 /// Searches for parameters with the smallest objective over these recordings that
 /// keep all constraints.
 ///
-/// `evaluate` computes the costs, on this machine or on others. `progress` is called after
-/// each generation with the number of evaluated sets and the least error so far. It returns
-/// false to end the search.
+/// `evaluate` computes the costs, on this machine or on others. `progress` is called within the
+/// scan, with 0, and after each generation with the number of evaluated sets. It also gets the best
+/// set so far, and returns false to end the search.
 ///
 /// # Errors
 /// Parameters of the space cannot be used.
@@ -85,7 +85,7 @@ pub fn search(
     evaluate: &Evaluate,
     space: &Space,
     budget: Budget,
-    mut progress: impl FnMut(usize, Option<f64>) -> bool,
+    mut progress: impl FnMut(usize, Option<&Candidate>) -> bool,
 ) -> Result<Searched> {
     ensure!(
         space.dimension() > 0,
@@ -93,7 +93,12 @@ pub fn search(
          are searched only beside others; add a group, such as --tune splitter,order"
     );
     let recordings = &Recordings::new(objectives, evaluate, space)?;
-    let Beginning { space, best, point: start, .. } = &beginning(recordings, space, || progress(0, None));
+    let mut continues = true;
+    let beginning = beginning(recordings, space, |best| {
+        continues = continues && progress(0, best);
+        continues
+    });
+    let Beginning { space, best, point: start, .. } = &beginning;
     let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point, best);
     let mut search = CMAESOptions::new(start.clone(), FIRST_STEP)
         .seed(budget.seed)
@@ -101,20 +106,17 @@ pub fn search(
         .tol_fun(TOLERANCE)
         .build(cost)
         .map_err(|error| anyhow!("CMA-ES rejects the start of the search: {error:?}"))?;
-    // The best set has the least cost, but its error may be slightly above an earlier set's.
-    let mut least: Option<f64> = None;
-    loop {
+    while continues {
         let ended = search.next_parallel().is_some();
-        let error = best.lock().expect("no evaluation panics").0.first().map(|found| found.error);
-        least = error.map(|error| least.map_or(error, |least| least.min(error))).or(least);
-        let continues = progress(search.function_evals(), least);
-        if ended || !continues {
+        let first = best.lock().expect("no evaluation panics").0.first().cloned();
+        continues = progress(search.function_evals(), first.as_ref());
+        if ended {
             break;
         }
     }
     let nearest = search.overall_best_individual().map(|best| at(space, &best.point));
     let mut best = best.lock().expect("no evaluation panics").0.clone();
-    if let Some(first) = best.first() {
+    if let Some(first) = best.first().filter(|_| continues) {
         let tidied = tidied(recordings, space, first);
         best.insert(0, tidied);
     }
@@ -126,6 +128,10 @@ pub fn search(
 /// nearest to its start.
 const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
 const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+/// Factors on the scales of surge, sway and all rates together, which are tried before, and with
+/// each of them on the break frequencies of surge and sway.
+const JOINT_SCALES: [f64; 7] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1];
+const JOINT_FREQUENCIES: [f64; 4] = [1.0, 0.5, 0.25, 2.0];
 
 /// Start of a search.
 struct Beginning {
@@ -138,15 +144,25 @@ struct Beginning {
 }
 
 /// The best start: first with the initial orders, then, if orders are tuned, with others,
-/// while `continues` is true.
-fn beginning(recordings: &Recordings, space: &Space, mut continues: impl FnMut() -> bool) -> Beginning {
-    let mut first = scan(recordings, space);
+/// while `continues` is true. It receives the best set so far.
+fn beginning(
+    recordings: &Recordings,
+    space: &Space,
+    mut continues: impl FnMut(Option<&Candidate>) -> bool,
+) -> Beginning {
+    let (mut first, mut goes_on) = scan(recordings, space, &mut continues);
     for order in 0..2 {
         for other in first.space.with_other_order(order) {
-            if !continues() {
+            if !goes_on {
                 return first;
             }
-            let scanned = scan(recordings, &other);
+            let mut best = first.best.lock().expect("no evaluation panics").0.first().cloned();
+            let (scanned, on) = scan(recordings, &other, &mut |found| {
+                let is_better = |found: &&Candidate| best.as_ref().is_none_or(|best| found.cost < best.cost);
+                best = found.filter(is_better).cloned().or(best.take());
+                continues(best.as_ref())
+            });
+            goes_on = on;
             if scanned.cost < first.cost {
                 first = scanned;
             }
@@ -155,15 +171,31 @@ fn beginning(recordings: &Recordings, space: &Space, mut continues: impl FnMut()
     first
 }
 
-/// The best point of a coarse scan from the start, channel by channel.
-fn scan(recordings: &Recordings, space: &Space) -> Beginning {
+/// The best point of a coarse scan from the start: all of surge, sway and rates together, then
+/// channel by channel. False beside it if it was to end.
+fn scan(
+    recordings: &Recordings,
+    space: &Space,
+    continues: &mut dyn FnMut(Option<&Candidate>) -> bool,
+) -> (Beginning, bool) {
     let found = Mutex::new(Best::default());
     let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point, &found);
     let mut best = start_within_limits(recordings, space);
     let mut least = cost(&best);
-    for channel in 0..6 {
-        let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
-        let points: Vec<_> = factors.map(|(f, s)| space.with_channel(&best, channel, f, s)).collect();
+    let mut goes_on = true;
+    for stage in 0..7 {
+        goes_on = continues(found.lock().expect("no evaluation panics").0.first());
+        if !goes_on {
+            break;
+        }
+        let points: Vec<_> = if stage == 0 {
+            let factors = JOINT_FREQUENCIES.iter().flat_map(|&frequency| JOINT_SCALES.map(|scale| (frequency, scale)));
+            factors.map(|(frequency, scale)| space.with_all_channels(&best, frequency, scale)).collect()
+        } else {
+            let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
+            factors.map(|(f, s)| space.with_channel(&best, stage - 1, f, s)).collect()
+        };
+        let points = different(points);
         let costs: Vec<f64> = points.par_iter().map(&cost).collect();
         for (point, cost) in points.into_iter().zip(costs) {
             if cost < least {
@@ -171,7 +203,18 @@ fn scan(recordings: &Recordings, space: &Space) -> Beginning {
             }
         }
     }
-    Beginning { space: space.clone(), point: best, cost: least, best: found }
+    (Beginning { space: space.clone(), point: best, cost: least, best: found }, goes_on)
+}
+
+/// The points without repetitions, which a strategy without break frequencies has.
+fn different(points: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+    let mut different: Vec<DVector<f64>> = Vec::new();
+    for point in points {
+        if !different.contains(&point) {
+            different.push(point);
+        }
+    }
+    different
 }
 
 /// Factor between successive trials, and their number: down to about a hundredth.

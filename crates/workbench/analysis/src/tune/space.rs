@@ -179,6 +179,20 @@ impl Space {
         self.clamped(&moved).0
     }
 
+    /// A point with other scales of surge, sway and all rates, and with other frequencies of the
+    /// splitter on surge and sway: those of the start times these factors, as far as the box goes.
+    pub fn with_all_channels(&self, point: &DVector<f64>, frequency: f64, scale: f64) -> DVector<f64> {
+        let mut moved = point.clone();
+        for (coordinate, tuned) in moved.iter_mut().zip(tuned(&mut self.start.clone(), &self.groups)) {
+            match (tuned.range.role, tuned.channel) {
+                (Role::Scale, Some(0 | 1 | 3..)) => *coordinate = scale.ln(),
+                (Role::Frequency, Some(0 | 1)) => *coordinate = frequency.ln(),
+                _ => {}
+            }
+        }
+        self.clamped(&moved).0
+    }
+
     /// The spaces in which the order number `k` of [`Orders`] has its other values; none unless
     /// orders are tuned.
     pub fn with_other_order(&self, k: usize) -> Vec<Space> {
@@ -243,19 +257,22 @@ fn tuned<'a>(parameters: &'a mut Parameters, groups: &[Group]) -> Vec<Tuned<'a>>
     let Parameters { structure, splitter, angular, conditioning, tilt, adaptive, optimal, robust, predictive, .. } =
         parameters;
     let mut tuned = Vec::new();
-    let mut vector = |values: &'a mut Vector3<f64>, range, first: usize| {
-        let tuned_part = |(axis, value)| Tuned { value, range, channel: Some(first + axis) };
-        tuned.extend(values.iter_mut().enumerate().map(tuned_part));
+    let mut vector = |values: &'a mut Vector3<f64>, range, channels: std::ops::Range<usize>| {
+        let tuned_part = |(value, channel)| Tuned { value, range, channel: Some(channel) };
+        let first = channels.start % 3;
+        tuned.extend(values.iter_mut().skip(first).zip(channels).map(tuned_part));
     };
     if groups.contains(&Group::Splitter) {
-        vector(&mut splitter.omega1, FREQUENCIES, 0);
-        vector(&mut splitter.zeta1, DAMPINGS, 0);
-        vector(&mut splitter.omega2, FREQUENCIES, 0);
-        vector(&mut splitter.zeta2, DAMPINGS, 0);
+        // The other strategies divide surge and sway without the splitter.
+        let first = if structure.strategy == StrategyKind::Classical { 0 } else { 2 };
+        vector(&mut splitter.omega1, FREQUENCIES, first..3);
+        vector(&mut splitter.zeta1, DAMPINGS, first..3);
+        vector(&mut splitter.omega2, FREQUENCIES, first..3);
+        vector(&mut splitter.zeta2, DAMPINGS, first..3);
     }
     if groups.contains(&Group::Scale) {
-        vector(&mut conditioning.force_scale, SCALES, 0);
-        vector(&mut conditioning.rate_scale, SCALES, 3);
+        vector(&mut conditioning.force_scale, SCALES, 0..3);
+        vector(&mut conditioning.rate_scale, SCALES, 3..6);
     }
     let mut angles = |RollPitchYaw { roll, pitch, yaw }: &'a mut RollPitchYaw, range| {
         let tuned_part = |(axis, value)| Tuned { value, range, channel: Some(3 + axis) };
@@ -332,6 +349,37 @@ mod tests {
 
     const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
 
+    /// The default with the strategy that every group has a part in.
+    fn classical() -> Parameters {
+        let mut classical = Parameters::default();
+        classical.structure.strategy = StrategyKind::Classical;
+        classical
+    }
+
+    #[test]
+    fn a_strategy_without_a_splitter_tunes_that_of_heave_alone() {
+        let of = |start: &Parameters| Space::new(start, &[Group::Splitter]).dimension();
+        assert_eq!((of(&classical()), of(&Parameters::default())), (12, 4));
+        let space = Space::new(&Parameters::default(), &[Group::Splitter]);
+        let moved = space.parameters(&DVector::from_element(4, 0.1)).splitter;
+        let start = Parameters::default().splitter;
+        assert!(moved.omega1.z > start.omega1.z && moved.zeta2.z > start.zeta2.z);
+        assert_eq!((moved.omega1.xy(), moved.omega2.xy()), (start.omega1.xy(), start.omega2.xy()));
+    }
+
+    #[test]
+    fn surge_sway_and_rates_have_other_scales_together() {
+        let start = classical();
+        let space = Space::new(&start, &DEFAULT);
+        let moved = space.parameters(&space.with_all_channels(&DVector::zeros(30), 0.5, 0.25));
+        let (scales, were) = (moved.conditioning.force_scale, start.conditioning.force_scale);
+        assert!((scales.x - 0.25 * were.x).abs() < 1e-12 && (scales.y - 0.25 * were.y).abs() < 1e-12);
+        assert_eq!(scales.z, were.z);
+        assert!((moved.conditioning.rate_scale - 0.25 * start.conditioning.rate_scale).norm() < 1e-12);
+        assert!((moved.splitter.omega1.x - 0.5 * start.splitter.omega1.x).abs() < 1e-12);
+        assert_eq!((moved.splitter.omega1.z, moved.angular), (start.splitter.omega1.z, start.angular));
+    }
+
     #[cfg(feature = "clap")]
     #[test]
     fn a_group_has_the_name_of_the_option() {
@@ -352,7 +400,7 @@ mod tests {
 
     #[test]
     fn the_origin_is_the_start() {
-        let start = Parameters::default();
+        let start = classical();
         let space = Space::new(&start, &DEFAULT);
         assert_eq!(space.dimension(), 30);
         assert_eq!(space.parameters(&DVector::zeros(30)), start);
@@ -360,7 +408,7 @@ mod tests {
 
     #[test]
     fn every_coordinate_moves_one_parameter_and_no_two_the_same() {
-        let start = Parameters::default();
+        let start = classical();
         let space = Space::new(&start, &DEFAULT);
         let before = moris_setup::all(&start);
         let mut moved = Vec::new();
@@ -381,7 +429,7 @@ mod tests {
 
     #[test]
     fn ranges_are_those_of_their_parameters() {
-        let start = Parameters::default();
+        let start = classical();
         let names: Vec<(String, f64)> = moris_setup::all(&start);
         let found = ranges(&start, &[Group::Scale, Group::Tilt]);
         let named: Vec<(&str, [f64; 2])> =
@@ -393,7 +441,7 @@ mod tests {
 
     #[test]
     fn a_fraction_of_the_way_is_by_logarithms_with_the_orders_found() {
-        let mut start = Parameters::default();
+        let mut start = classical();
         start.conditioning.rate_scale.x = 0.0;
         let space = Space::new(&start, &DEFAULT);
         let mut found = start;
@@ -411,7 +459,7 @@ mod tests {
 
     #[test]
     fn orders_have_their_other_values_where_they_are_tuned() {
-        let start = Parameters::default();
+        let start = classical();
         assert!((0..2).all(|k| Space::new(&start, &DEFAULT).with_other_order(k).is_empty()));
         let space = Space::new(&start, &[Group::Order, Group::Splitter]);
         let others = |k: usize| {
@@ -430,7 +478,7 @@ mod tests {
             (StrategyKind::Robust, "robust.", 9),
             (StrategyKind::Predictive, "predictive.", 6),
         ] {
-            let mut start = Parameters::default();
+            let mut start = classical();
             start.structure.strategy = strategy;
             let space = Space::new(&start, &[Group::Strategy]);
             assert_eq!(space.dimension(), count);
@@ -451,7 +499,7 @@ mod tests {
 
     #[test]
     fn a_point_outside_comes_back_to_the_edge_where_scales_are_1_and_frequencies_can_be_used() {
-        let space = Space::new(&Parameters::default(), &DEFAULT);
+        let space = Space::new(&classical(), &DEFAULT);
         for sign in [-1.0, 1.0] {
             let (inside, distance) = space.clamped(&DVector::from_element(30, 100.0 * sign));
             assert!(distance > 100.0);
@@ -463,18 +511,18 @@ mod tests {
 
     #[test]
     fn a_scaled_start_has_other_scales_and_nothing_else() {
-        let space = Space::new(&Parameters::default(), &DEFAULT);
+        let space = Space::new(&classical(), &DEFAULT);
         let scaled = space.parameters(&space.scaled_start(0.5));
-        let start = Parameters::default().conditioning;
+        let start = classical().conditioning;
         assert!((scaled.conditioning.force_scale - 0.5 * start.force_scale).amax() < 1e-12);
         assert!((scaled.conditioning.rate_scale - 0.5 * start.rate_scale).amax() < 1e-12);
-        assert_eq!((scaled.splitter, scaled.angular), (Parameters::default().splitter, Parameters::default().angular));
+        assert_eq!((scaled.splitter, scaled.angular), (classical().splitter, classical().angular));
     }
 
     #[test]
     fn a_channel_has_its_own_frequencies_and_scale() {
-        let space = Space::new(&Parameters::default(), &DEFAULT);
-        let mut expected = Parameters::default();
+        let space = Space::new(&classical(), &DEFAULT);
+        let mut expected = classical();
         expected.splitter.omega1.y *= 0.5;
         expected.splitter.omega2.y *= 0.5;
         expected.conditioning.force_scale.y *= 0.2;
@@ -488,7 +536,7 @@ mod tests {
 
     #[test]
     fn a_scale_of_nothing_is_begun_at_next_to_nothing_and_a_low_pass_that_is_off_far_up() {
-        let mut start = Parameters::default();
+        let mut start = classical();
         start.conditioning.rate_scale.x = 0.0;
         let space = Space::new(&start, &[Group::Scale, Group::Cutoff]);
         assert_eq!(space.dimension(), 8);

@@ -160,8 +160,8 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction
         );
     }
     let verdict = verdict(results, &before.parameters_name);
-    let (errors, comfort, channels) = (errors(results), comfort(results), channels(results));
-    text + &format!("{verdict}\n\n{errors}\n{comfort}\n{channels}\n{}", parameters(before, tuned))
+    let tables = [errors(results), shapes(results), comfort(results), channels(results), parameters(before, tuned)];
+    text + &format!("{verdict}\n\n{}", tables.join("\n"))
 }
 
 /// The mean errors before and after in a few sentences, on recordings tuned on and on others.
@@ -282,6 +282,86 @@ fn with_limits(cost: &Cost) -> String {
     }
 }
 
+/// Shape, inverted time and size of surge and sway, where they count.
+fn shapes(results: &[RecordingResult]) -> String {
+    let rows = results.iter().flat_map(|result| {
+        let after = result.tuned.or(result.unseen).unwrap_or(result.before);
+        let row = move |axis: usize| {
+            let (before, after) = (result.before.shape.axes[axis]?, after.shape.axes[axis]?);
+            Some([
+                format!("{}, {}", result.name, ["surge", "sway"][axis]),
+                format!("{:.2} → {:.2}", before.shape, after.shape),
+                format!("{:.1} → {:.1} %", 100.0 * before.inverted, 100.0 * after.inverted),
+                format!("{:.2} → {:.2}", before.size, after.size),
+            ])
+        };
+        (0..2).filter_map(row)
+    });
+    table(["felt below 2 Hz: before → after", "shape", "inverted", "size"], rows)
+}
+
+/// A strategy's tuning among others'.
+#[derive(Clone, Debug)]
+pub struct OfStrategy {
+    /// The strategy's name.
+    pub name: String,
+    /// Its recordings; none where no parameters keep the limits.
+    pub results: Option<Vec<RecordingResult>>,
+}
+
+/// The cost that counts: on recordings that were not tuned on where there are any.
+fn counting(results: &[RecordingResult]) -> Vec<Cost> {
+    let unseen: Vec<Cost> = results.iter().filter_map(|result| result.unseen).collect();
+    if unseen.is_empty() { results.iter().filter_map(|result| result.tuned).collect() } else { unseen }
+}
+
+/// Mean of a measure; none of nothing.
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+/// Index of the strategy with the least mean error on recordings that were not tuned on, or where
+/// there are none on those that were. None where no strategy has a result.
+pub fn winner(strategies: &[OfStrategy]) -> Option<usize> {
+    let error = |index: usize| {
+        let costs = counting(strategies[index].results.as_ref()?);
+        Some((index, mean(costs.iter().map(|cost| cost.error))?))
+    };
+    let least = |best: (usize, f64), next: (usize, f64)| if next.1 < best.1 { next } else { best };
+    (0..strategies.len()).filter_map(error).reduce(least).map(|(index, _)| index)
+}
+
+/// A table of the strategies with the winner below it.
+pub fn strategies(strategies: &[OfStrategy]) -> String {
+    let row = |strategy: &OfStrategy| {
+        let Some(results) = &strategy.results else {
+            return [strategy.name.as_str(), "none found", "", "", "", "", ""].map(str::to_owned);
+        };
+        let error = |of: fn(&RecordingResult) -> Option<Cost>| {
+            let mean = mean(results.iter().filter_map(of).map(|cost| cost.error));
+            or_undefined(mean.map(|error| format!("{error:.3}")))
+        };
+        let costs = counting(results);
+        let axes = || costs.iter().flat_map(|cost| cost.shape.axes).flatten();
+        let shape = mean(axes().map(|axis| axis.shape)).map(|shape| format!("{shape:.2}"));
+        let inverted = mean(axes().map(|axis| axis.inverted)).map(|inverted| format!("{:.1} %", 100.0 * inverted));
+        let size = mean(axes().map(|axis| axis.size.ln())).map(|size| format!("{:.2}", size.exp()));
+        [
+            strategy.name.clone(),
+            error(|result| Some(result.before)),
+            error(|result| result.tuned),
+            error(|result| result.unseen),
+            or_undefined(shape),
+            or_undefined(inverted),
+            or_undefined(size),
+        ]
+    };
+    let header = ["mean error", "before", "tuned", "tuned without it", "shape", "inverted", "size"];
+    let winner = winner(strategies).map_or("none", |index| strategies[index].name.as_str());
+    format!("{}\nwinner: {winner}\n", table(header, strategies.iter().map(row)))
+}
+
 fn comfort(results: &[RecordingResult]) -> String {
     let row = |result: &RecordingResult| {
         let after = result.tuned.or(result.unseen).unwrap_or(result.before);
@@ -353,7 +433,7 @@ mod tests {
     use super::*;
 
     fn cost(error: f64, violated: f64) -> Cost {
-        Cost { channels: [error; 6], error, violated, comfort: [0.0; 3], excess: 0.0 }
+        Cost { error, violated, ..Cost::default() }
     }
 
     fn result(before: Cost, unseen: Option<Cost>) -> RecordingResult {

@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     fn cost(error: f64, violated: f64) -> Cost {
-        Cost { channels: [error; 6], error, violated, comfort: [0.0; 3], excess: 0.0 }
+        Cost { error, violated, ..Cost::default() }
     }
 
     fn trials(errors: [f64; 6]) -> Trials {

@@ -1,7 +1,7 @@
 //! One tuning: a search, and a check of its result in the internal steps that it will be used with.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use anyhow::Result;
 use moris_setup::Setup;
@@ -39,6 +39,40 @@ pub struct Tuner<'a> {
     /// Receives this number whenever it changes, within a search with its name and least error as
     /// a text.
     pub show: &'a (dyn Fn(usize, Option<&str>) + Sync),
+    /// The best so far of the first search.
+    pub so_far: Arc<SoFar>,
+}
+
+/// The best parameters so far, for an end at once.
+#[derive(Debug, Default)]
+pub struct SoFar(Mutex<Option<BestSoFar>>);
+
+/// Parameters that keep the constraints.
+#[derive(Clone, Copy, Debug)]
+pub struct BestSoFar {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// True if they were simulated with the internal steps that they will be used with.
+    pub is_checked: bool,
+}
+
+impl SoFar {
+    /// The best so far; none before anything keeps the constraints.
+    pub fn get(&self) -> Option<BestSoFar> {
+        *self.lock()
+    }
+
+    /// Notes parameters. Those of later searches, on fewer recordings, do not count.
+    pub fn note(&self, parameters: &Parameters, is_checked: bool) {
+        let mut best = self.lock();
+        if best.is_none_or(|best| !best.is_checked) {
+            *best = Some(BestSoFar { parameters: *parameters, is_checked });
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<BestSoFar>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl Tuner<'_> {
@@ -54,7 +88,13 @@ impl Tuner<'_> {
     /// No parameters keep the constraints ([`NoFeasibleParameters`]), or parameters cannot be used.
     pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup> {
         let begin = self.tried.load(Ordering::Relaxed);
-        let searched = search(objectives, self.evaluate, &self.space, self.budget, |tried, least| {
+        // The best set has the least cost, but its error may be slightly above an earlier set's.
+        let mut least: Option<f64> = None;
+        let searched = search(objectives, self.evaluate, &self.space, self.budget, |tried, best| {
+            if let Some(best) = best {
+                least = Some(least.map_or(best.error, |least| least.min(best.error)));
+                self.so_far.note(&best.parameters, false);
+            }
             let continues = (self.observe)(what, tried, least);
             let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
             (self.show)(begin + tried.min(self.budget.evaluations), Some(&format!("{what}: {error}")));
@@ -72,6 +112,7 @@ impl Tuner<'_> {
             }
             let worsening = worst_ratio(&before, &costs);
             if worsening <= WORST_RATIO {
+                self.so_far.note(&tuned.parameters, true);
                 return Ok(tuned);
             }
             if least_worse.as_ref().is_none_or(|(least, _)| worsening < *least) {
@@ -79,6 +120,7 @@ impl Tuner<'_> {
             }
         }
         if let Some((_, tuned)) = least_worse {
+            self.so_far.note(&tuned.parameters, true);
             return Ok(tuned);
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };

@@ -1,19 +1,21 @@
 //! `moris tune`: finds better parameters for a set of recordings, by [`moris_analysis::tune`].
 
+mod kept;
 mod options;
 
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
-use std::process::{ExitCode, exit};
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use moris_interface::Group as _;
-use moris_setup::{NamedValues, Setup, all, overlaid, parameter_file};
-use moris_washout::{Parameters, check};
+use moris_setup::{Setup, overlaid};
+use moris_washout::check;
+use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 
 use crate::recording::{FADE_IN, Recording, table};
@@ -21,13 +23,14 @@ use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE;
 use crate::votes;
 use cost::Objective;
+use kept::Kept;
 pub use moris_analysis::tune::{cost, folds, search, space, summary, tested, tuner};
-pub use options::Options;
+pub use options::{Choice, Options};
 use search::Budget;
 use space::Space;
-use summary::Verdict;
+use summary::{OfStrategy, RecordingResult, Verdict};
 use tested::{Tested, tune_tested};
-use tuner::Tuner;
+use tuner::{NoFeasibleParameters, Tuner};
 
 /// Runs the command.
 ///
@@ -35,47 +38,133 @@ use tuner::Tuner;
 /// A recording, the rig or the parameters cannot be used, no parameters keep the limits, or a
 /// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let before = start(options)?;
-    let tuned_on = objectives(options, &options.recordings, &before)?;
-    let held_out = objectives(options, &options.hold_out, &before)?;
-    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(tuned_on.len()));
-
-    let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
-    bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
-    let tuner = Tuner {
-        setup: &before,
-        space: Space::new(&before.parameters, &options.tune),
-        budget: Budget { evaluations: options.evaluations, seed: options.seed },
-        evaluate: &search::evaluate_here,
-        observe: &|_, _, _| true,
-        interrupted: listen()?,
-        tried: AtomicUsize::new(0),
-        show: &|tried, text| {
-            bar.set_position(tried as u64);
-            if let Some(text) = text {
-                bar.set_message(text.to_owned());
+    let strategies = options.strategies();
+    let kept = Arc::new(Kept::default());
+    let interrupted = kept::listen(Arc::clone(&kept))?;
+    let mut tunings: Vec<Tuning> = Vec::new();
+    let mut missed: Vec<String> = Vec::new();
+    for strategy in &strategies {
+        let begun = Tuning::of(options, *strategy, &kept, &interrupted);
+        match begun {
+            Ok(tuning) => tunings.push(tuning),
+            Err(error) if strategies.len() > 1 && error.is::<NoFeasibleParameters>() => {
+                missed.extend(strategy.map(|strategy| strategy.name().to_owned()));
+                eprintln!("{error:#}");
             }
-        },
+            Err(error) => return Err(error),
+        }
+        if interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    let of = |tuning: &Tuning| OfStrategy { name: tuning.strategy_name(), results: Some(tuning.results.clone()) };
+    let mut table: Vec<OfStrategy> = tunings.iter().map(of).collect();
+    let Some(winner) = summary::winner(&table) else {
+        bail!("no strategy has parameters that keep the limits on these recordings: {}", missed.join(", "));
     };
-    let everything: Vec<&Objective> = tuned_on.iter().collect();
-    let Tested { setup: tuned, results, fraction } =
-        tune_tested(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &folds)?;
-    bar.finish_and_clear();
-    save(options, &before, &tuned, &summary::first_line(&results, fraction))?;
+    table.extend(missed.into_iter().map(|name| OfStrategy { name, results: None }));
 
-    let text = summary::text(&before, &tuned, &results, fraction, tuner.was_interrupted());
-    write!(out, "{text}")?;
+    let best = &tunings[winner];
+    let mut text = String::new();
+    if strategies.len() > 1 {
+        text = summary::strategies(&table);
+        write!(out, "{text}")?;
+        // Each has a file of its own already; the winner's is the result.
+        fs::copy(&best.file, &options.output).with_context(|| format!("cannot write {}", options.output.display()))?;
+        tunings.iter().for_each(|tuning| text += &format!("\n{}", tuning.text()));
+        for tuning in &tunings {
+            writeln!(out, "wrote {}", tuning.file.display())?;
+        }
+    } else {
+        text += &best.text();
+        write!(out, "{text}")?;
+    }
     writeln!(out, "wrote {}", options.output.display())?;
-    for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[tuned, before])? {
+    for file in write_reports(options, &text, &best.objectives, &[&best.tuned, &best.before])? {
         writeln!(out, "wrote {}", file.display())?;
     }
-    let is_worse = Verdict::of(&results, fraction) == Verdict::Worse;
+    let is_worse = Verdict::of(&best.results, best.fraction) == Verdict::Worse;
     Ok(if is_worse { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
+/// A strategy's tuning.
+struct Tuning {
+    before: Setup,
+    tuned: Setup,
+    /// The recordings, those held out last.
+    objectives: Vec<Objective>,
+    results: Vec<RecordingResult>,
+    fraction: f64,
+    was_interrupted: bool,
+    /// The parameter file.
+    file: PathBuf,
+}
+
+impl Tuning {
+    /// Tunes a strategy, or that of the parameters, and writes its parameter file.
+    fn of(
+        options: &Options,
+        strategy: Option<StrategyKind>,
+        kept: &Kept,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<Tuning> {
+        let before = start(options, strategy)?;
+        let mut all = objectives(options, &options.recordings, &before)?;
+        let count = all.len();
+        all.extend(objectives(options, &options.hold_out, &before)?);
+        let (tuned_on, held_out) = all.split_at(count);
+        let folds = folds::folds(count, options.folds.unwrap_or(count));
+
+        let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
+        bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
+        let name = before.parameters.structure.strategy.name();
+        let file = match options.strategy {
+            Some(Choice::All) => options.output.with_extension(format!("{name}.toml")),
+            _ => options.output.clone(),
+        };
+        let (begin, is_first) = (Instant::now(), AtomicBool::new(true));
+        let tuner = Tuner {
+            setup: &before,
+            space: Space::new(&before.parameters, &options.tune),
+            budget: Budget { evaluations: options.evaluations, seed: options.seed },
+            evaluate: &search::evaluate_here,
+            observe: &|_, _, least| {
+                if let Some(error) = least.filter(|_| is_first.swap(false, Ordering::Relaxed)) {
+                    let seconds = begin.elapsed().as_secs_f64();
+                    bar.suspend(|| eprintln!("{name}: first result after {seconds:.1} s, error {error:.4}"));
+                }
+                true
+            },
+            interrupted: Arc::clone(interrupted),
+            tried: AtomicUsize::new(0),
+            show: &|tried, text| {
+                bar.set_position(tried as u64);
+                if let Some(text) = text {
+                    bar.set_message(format!("{name}, {text}"));
+                }
+            },
+            so_far: kept.begin(&before, &file, &heading(options, &before)),
+        };
+        let (tuned_on, held_out): (Vec<_>, Vec<_>) = (tuned_on.iter().collect(), held_out.iter().collect());
+        let Tested { setup: tuned, results, fraction } = tune_tested(&tuner, &tuned_on, &held_out, &folds)?;
+        bar.finish_and_clear();
+        let was_interrupted = tuner.was_interrupted();
+        kept.finish(&tuned, &summary::first_line(&results, fraction))?;
+        Ok(Tuning { before, tuned, objectives: all, results, fraction, was_interrupted, file })
+    }
+
+    fn strategy_name(&self) -> String {
+        self.before.parameters.structure.strategy.name().to_owned()
+    }
+
+    fn text(&self) -> String {
+        summary::text(&self.before, &self.tuned, &self.results, self.fraction, self.was_interrupted)
+    }
+}
+
 /// The parameters that the search starts from.
-fn start(options: &Options) -> Result<Setup> {
-    let mut setup = options.setup.load()?;
+fn start(options: &Options, strategy: Option<StrategyKind>) -> Result<Setup> {
+    let mut setup = options.setup(strategy).load()?;
     let Some(file) = &options.votes else { return Ok(setup) };
     let Some(values) = votes::preferred(&votes::read(file)?) else { return Ok(setup) };
     setup.parameters = overlaid(&setup.rig_alone, &values);
@@ -89,47 +178,28 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
     let objective = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
         let objective = Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?;
-        Ok(objective.with_comfort_bounds(options.comfort))
+        Ok(objective.with_comfort_bounds(options.comfort).with_aim(options.objective))
     };
     table::recordings(files, &conventions).par_iter().map(objective).collect()
 }
 
-/// True after Ctrl-C; a second one ends the program.
-fn listen() -> Result<Arc<AtomicBool>> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let pressed = Arc::clone(&interrupted);
-    let handler = move || {
-        if pressed.swap(true, Ordering::Relaxed) {
-            exit(130);
-        }
-        eprintln!("ending after this generation; press Ctrl-C again to end at once, with nothing kept");
-    };
-    ctrlc::set_handler(handler).context("cannot listen for Ctrl-C")?;
-    eprintln!("searching; Ctrl-C ends it and keeps the best so far");
-    Ok(interrupted)
-}
-
-/// Writes the parameter file: the values that differ from the rig's with default parameters.
-fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> Result<()> {
-    let heading = format!(
-        "{first_line}\nTuned by moris on {} for {}, from {}, seed {}",
-        options.recordings.iter().map(|recording| recording.display().to_string()).collect::<Vec<_>>().join(", "),
+/// Origin of the tuned parameters.
+fn heading(options: &Options, before: &Setup) -> String {
+    let recordings: Vec<String> = options.recordings.iter().map(|recording| recording.display().to_string()).collect();
+    format!(
+        "Tuned by moris on {} for {}, from {}, seed {}",
+        recordings.join(", "),
         before.rig_name,
         before.parameters_name,
         options.seed
-    );
-    let differing =
-        all(&tuned.parameters).into_iter().zip(all(&before.rig_alone)).filter(|(mine, rigs)| mine.1 != rigs.1);
-    let values: NamedValues = differing.map(|(mine, _)| mine).collect();
-    let text = parameter_file::write(&heading, &values, Parameters::ROWS);
-    fs::write(&options.output, text).with_context(|| format!("cannot write {}", options.output.display()))
+    )
 }
 
-fn write_reports<'a>(
+fn write_reports(
     options: &Options,
     text: &str,
-    objectives: impl Iterator<Item = &'a Objective>,
-    setups: &[Setup; 2],
+    objectives: &[Objective],
+    setups: &[&Setup; 2],
 ) -> Result<Vec<PathBuf>> {
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let file = options.report.join("tune.md");
@@ -152,6 +222,8 @@ fn write_reports<'a>(
 #[cfg(test)]
 mod tests {
     use clap::Parser;
+    use moris_setup::all;
+    use moris_washout::Parameters;
 
     use super::*;
 
@@ -168,7 +240,7 @@ mod tests {
         let start_of = |votes: &str| {
             fs::write(&file, votes).unwrap();
             let line = Line::parse_from(["tune", "ride.csv", "--votes", file.to_str().unwrap()]);
-            start(&line.options)
+            start(&line.options, None)
         };
         let setup = start_of("{\"better\":{\"scale.specificForce.x\":0.6},\"worse\":{}}\n").unwrap();
         assert!(all(&setup.parameters).contains(&("scale.specificForce.x".to_owned(), 0.6)));

@@ -2,32 +2,53 @@
 
 use std::path::PathBuf;
 
-use super::cost::Channels;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use moris_washout::interface::StrategyKind;
+
+use super::cost::{Aim, Channels};
 use super::space::Group;
 use crate::option_values::{number_in, numbers};
 use crate::recording::ConventionOptions;
 use crate::setup_options::SetupOptions;
 
-/// Search for parameters with a smaller sensed error on a rig
+/// Search for parameters with a better shape of the felt force on a rig
 ///
-/// Searches for break frequencies, dampings and scales with a small sensed error on all
-/// recordings. No safety unit and no actuator limit may be active at any time. Shake, jolt and peak
-/// of the felt force may not exceed --comfort. The error of a recording is the vestibular model's
-/// response to felt minus desired. It is the RMS over time in perception thresholds, added in
-/// quadrature over specific force and angular velocity along x, y, z. It is divided by the same
-/// quantity of the desired motion. 0 is perfect; a platform at rest scores 1 on noticeable motion.
+/// Searches for break frequencies, dampings and scales with which surge and sway are felt at the
+/// right time, with the right sign and, as the second aim, as large as can be. The error of a
+/// recording is half of 1 - shape + 2 inverted, a quarter of 1 - size, and a quarter of the sensed
+/// error. 0 is perfect; a platform at rest scores 1. No safety unit and no actuator limit may be
+/// active at any time. Shake, jolt and peak of the felt force may not exceed --comfort.
+///
+/// The sensed error is the vestibular model's response to felt minus desired. It is the RMS over
+/// time in perception thresholds, added in quadrature over specific force and angular velocity
+/// along x, y, z, divided by the same quantity of the desired motion.
 ///
 /// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the given
-/// parameters. Ctrl-C ends it and keeps the best result so far. The same seed gives the same result
-/// on any number of cores.
+/// parameters. Ctrl-C ends it and keeps the best result so far, a second Ctrl-C does so at once.
+/// The same seed gives the same result on any number of cores.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV) to tune on; see `moris simulate --help` for their columns
     #[arg(required = true, value_name = "RECORDING")]
     pub recordings: Vec<PathBuf>,
 
-    #[command(flatten)]
-    pub setup: SetupOptions,
+    /// Rig file [default: the default rig]
+    #[arg(long, value_name = "FILE")]
+    pub rig: Option<PathBuf>,
+
+    /// Parameter file or preset, as for `moris simulate`. May be given several times: later ones
+    /// override earlier ones
+    #[arg(long, value_name = "FILE|NAME")]
+    pub parameters: Vec<String>,
+
+    /// Strategy to tune, in place of the parameters'. With `all` each is tuned, and a table names
+    /// the best
+    #[arg(long, value_parser = choices())]
+    pub strategy: Option<Choice>,
+
+    /// What to search for: the shape, or the sensed error alone
+    #[arg(long, value_enum, default_value_t)]
+    pub objective: Aim,
 
     /// Recordings on which the result is only tested. --folds applies to the other recordings
     #[arg(long, value_name = "RECORDING", num_args = 1..)]
@@ -46,7 +67,8 @@ pub struct Options {
     #[arg(long, value_name = "GROUPS", value_delimiter = ',', default_values = ["splitter", "angular", "scale", "strategy"])]
     pub tune: Vec<Group>,
 
-    /// Weights of the errors of specific force x, y, z and angular velocity x, y, z
+    /// Weights of the sensed errors of specific force x, y, z and angular velocity x, y, z. The
+    /// first two weigh the shapes of surge and sway, too
     #[arg(long, value_name = "WEIGHTS", value_parser = weights, default_value = "1,1,1,1,1,1")]
     pub weights: Channels<f64>,
 
@@ -67,7 +89,8 @@ pub struct Options {
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     pub seed: u64,
 
-    /// The tuned parameters
+    /// The tuned parameters. With --strategy all those of each strategy are beside it, as in
+    /// tuned.robust.toml
     #[arg(long, value_name = "FILE", default_value = "tuned.toml")]
     pub output: PathBuf,
 
@@ -77,6 +100,38 @@ pub struct Options {
 
     #[command(flatten)]
     pub conventions: ConventionOptions,
+}
+
+/// Strategies to tune.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// A single one.
+    One(StrategyKind),
+    /// Each of them.
+    All,
+}
+
+impl Options {
+    /// The strategies to tune; none: that of the parameters.
+    pub fn strategies(&self) -> Vec<Option<StrategyKind>> {
+        match self.strategy {
+            None => vec![None],
+            Some(Choice::One(kind)) => vec![Some(kind)],
+            Some(Choice::All) => StrategyKind::ALL.iter().copied().map(Some).collect(),
+        }
+    }
+
+    /// Rig and parameters, with a strategy if one is chosen.
+    pub fn setup(&self, strategy: Option<StrategyKind>) -> SetupOptions {
+        SetupOptions { rig: self.rig.clone(), parameters: self.parameters.clone(), strategy }
+    }
+}
+
+/// The strategies by name, and `all`.
+fn choices() -> impl TypedValueParser<Value = Choice> {
+    let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
+    PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()).chain(["all"]))
+        .map(move |name| named(name).map_or(Choice::All, Choice::One))
 }
 
 fn weights(text: &str) -> Result<Channels<f64>, String> {

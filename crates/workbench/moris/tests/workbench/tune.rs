@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use moris::recording::Recording;
 use moris::simulate::Simulation;
-use moris::tune::cost::{Cost, Objective};
+use moris::tune::cost::{Aim, Cost, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
 use moris_setup::Setup;
@@ -73,17 +73,73 @@ fn a_platform_at_rest_scores_1() {
 }
 
 #[test]
-fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
-    let objective = objective(weaving(), NO_RESERVE);
-    let mut perfect = simulation(&objective, &classical());
+fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_half_of_the_parts_for_size() {
+    let by_shape = objective(weaving(), NO_RESERVE);
+    let by_error = objective(weaving(), NO_RESERVE).with_aim(Aim::Error);
+    let mut perfect = simulation(&by_shape, &classical());
     for share in [1.0, 0.5] {
         for (input, output) in perfect.inputs.iter().zip(&mut perfect.outputs) {
             let rest = Input::default().specific_force;
             output.felt_specific_force = rest + share * (input.specific_force - rest);
             output.felt_angular_velocity = share * input.angular_velocity;
         }
-        assert!((objective.cost(&perfect).unwrap().error - (1.0 - share)).abs() < 1e-12);
+        assert!((by_error.cost(&perfect).unwrap().error - (1.0 - share)).abs() < 1e-12);
+        assert!((by_shape.cost(&perfect).unwrap().error - 0.5 * (1.0 - share)).abs() < 1e-12);
     }
+}
+
+/// A small force with the right sign is better than a large one with the wrong sign for a third of
+/// the time, though its sensed error is larger.
+#[test]
+fn sign_and_time_count_before_size() {
+    let by_shape = objective(weaving(), NO_RESERVE);
+    let by_error = objective(weaving(), NO_RESERVE).with_aim(Aim::Error);
+    let mut felt = simulation(&by_shape, &classical());
+    let inputs = felt.inputs.clone();
+    let mut errors = |share: f64, late: usize| {
+        for (sample, output) in felt.outputs.iter_mut().enumerate() {
+            let rest = Input::default().specific_force;
+            let earlier = &inputs[sample.saturating_sub(late)];
+            output.felt_specific_force = rest + share * (earlier.specific_force - rest);
+            output.felt_angular_velocity = inputs[sample].angular_velocity;
+        }
+        [&by_shape, &by_error].map(|objective| objective.cost(&felt).unwrap())
+    };
+    let [small, small_sensed] = errors(0.2, 0);
+    let [late, late_sensed] = errors(0.8, 60);
+    assert!(late.shape.most_inverted().unwrap().1 > 0.15 && small.shape.least_shape().unwrap() > 0.999);
+    assert!(late_sensed.error < small_sensed.error, "{} {}", late_sensed.error, small_sensed.error);
+    assert!(small.error < 0.9 * late.error, "{} {}", small.error, late.error);
+}
+
+/// Heave alone has no shape of surge and sway.
+#[test]
+fn without_surge_and_sway_the_sensed_error_counts() {
+    let heave = recording("heave", 5.0, |t, input| input.specific_force.z += (3.0 * t).sin() * t.min(1.0));
+    let by_shape = objective(heave.clone(), NO_RESERVE);
+    let by_error = objective(heave, NO_RESERVE).with_aim(Aim::Error);
+    let cost = by_shape.coarse_cost(&classical()).unwrap();
+    assert_eq!(cost.error, by_error.coarse_cost(&classical()).unwrap().error);
+    assert_eq!(cost.shape.axes, [None, None]);
+}
+
+/// A slalom that demands more than the rig has is felt backwards with the start values.
+#[test]
+fn a_search_rights_what_is_felt_the_wrong_way_round() {
+    let slalom = recording("slalom", 30.0, |t, input| {
+        input.specific_force.y = 4.0 * (1.6 * t).sin() * (t / 3.0).min(1.0);
+    });
+    let objective = objective(slalom, NO_RESERVE);
+    let space = Space::new(&classical(), &DEFAULT);
+    let budget = Budget { evaluations: 150, seed: 1 };
+    let best = search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].parameters;
+    let shape = |parameters: &Parameters| {
+        let sway = objective.cost(&simulation(&objective, parameters)).unwrap().shape.axes[1].unwrap();
+        (sway.shape, sway.inverted, sway.size)
+    };
+    let (before, after) = (shape(&classical()), shape(&best));
+    assert!(before.0 < 0.6 && before.1 > 0.15, "{before:?}");
+    assert!(after.0 > 0.85 && after.1 < 0.02 && after.2 > 0.1, "{after:?}");
 }
 
 #[test]
@@ -91,6 +147,12 @@ fn only_channels_with_weight_count() {
     let mut weights = [0.0; 6];
     weights[1] = 2.0;
     let objective = Objective::new(weaving(), &classical(), &weights, NO_RESERVE).unwrap();
+    let cost = objective.cost(&simulation(&objective, &classical())).unwrap();
+    let sway = cost.shape.axes[1].unwrap();
+    let sensed = cost.channels[1] / objective.desired_rms()[1];
+    let error = 0.5 * (1.0 - sway.shape + 2.0 * sway.inverted) + 0.25 * (1.0 - sway.size) + 0.25 * sensed;
+    assert!((cost.error - error).abs() < 1e-12, "{} {error}", cost.error);
+    let objective = objective.with_aim(Aim::Error);
     let cost = objective.cost(&simulation(&objective, &classical())).unwrap();
     assert!((cost.error - cost.channels[1] / objective.desired_rms()[1]).abs() < 1e-12);
 }
@@ -152,7 +214,7 @@ fn parameters_beyond_the_bounds_of_comfort_never_win() {
         let evaluate = move |_: &[&Objective], parameters: &Parameters| {
             let omega = parameters.splitter.omega1.x;
             let excess = if omega > bound { excess } else { 0.0 };
-            Ok(vec![Cost { channels: [0.0; 6], error: 1.0 / omega, violated: 0.0, comfort: [0.0; 3], excess }])
+            Ok(vec![Cost { error: 1.0 / omega, excess, ..Cost::default() }])
         };
         search(&[&objective], &evaluate, &space, budget, |_, _| true).unwrap().best
     };
@@ -189,21 +251,26 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
     let space = Space::new(&start, &DEFAULT);
     let mut tried = Vec::new();
     let budget = Budget { evaluations: 600, seed: 3 };
-    let searched = search(&[&objective], &evaluate_here, &space, budget, |count, least| {
-        tried.push((count, least));
+    let searched = search(&[&objective], &evaluate_here, &space, budget, |count, best| {
+        tried.push((count, best.map(|best| best.error)));
         true
     });
     let best = &searched.unwrap().best;
     let cost = |parameters: &Parameters| objective.cost(&simulation(&objective, parameters)).unwrap();
     let (before, after) = (cost(&start), cost(&best[0].parameters));
     assert!(after.is_feasible() && after.error < 0.9 * before.error, "{} {}", before.error, after.error);
-    assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 >= pair[1].1), "progress goes on and down");
+    // The scan tells its best before the search counts.
+    let scanned = tried.iter().take_while(|(count, _)| *count == 0).count();
+    assert!(scanned == 7 && tried[0].1.is_some());
+    let errors: Vec<f64> = tried[scanned - 1..].iter().map(|(_, error)| error.unwrap()).collect();
+    assert!(tried[scanned - 1..].windows(2).all(|pair| pair[0].0 < pair[1].0), "progress goes on");
+    assert!(errors.windows(2).all(|pair| pair[1] <= pair[0] + 0.01), "and down");
     assert!(best[1..].windows(2).all(|pair| pair[0].error <= pair[1].error + 0.01));
 }
 
 #[test]
 fn the_search_takes_the_order_that_serves_best() {
-    let objective = objective(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE).with_aim(Aim::Error);
     let budget = Budget { evaluations: 120, seed: 1 };
     let best = |order: i32, groups: &[Group]| {
         let mut start = classical();
@@ -411,6 +478,64 @@ fn ctrl_c_keeps_the_best_so_far() {
     assert!(output.status.success(), "{printed}");
     assert!(printed.contains("was interrupted") && printed.contains("No recording was held out"), "{printed}");
     assert!(directory.path().join("tuned.toml").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_second_ctrl_c_writes_the_best_so_far_before_it_ends() {
+    let directory = tempfile::tempdir().unwrap();
+    write_recording(directory.path(), &weaving());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
+        .args(["tune", "weaving.csv", "--strategy", "classical", "--evaluations", "10000000"])
+        .current_dir(directory.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut reports = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    while !line.contains("first result after") {
+        line.clear();
+        assert!(reports.read_line(&mut line).unwrap() > 0, "it ends before its first result");
+    }
+    // Two signals that are sent before the first is taken count once.
+    let mut presses = 0;
+    while child.try_wait().unwrap().is_none() {
+        let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        presses += 1;
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let status = child.wait().unwrap();
+    // The first press alone may have been enough: the check of so short a ride takes no time.
+    assert!(presses >= 2 && (status.code() == Some(130) || status.success()), "{status} after {presses}");
+    let text = fs::read_to_string(directory.path().join("tuned.toml")).unwrap();
+    assert!(Setup::load(None, &[directory.path().join("tuned.toml").display().to_string()]).is_ok());
+    let first = text.lines().next().unwrap();
+    assert!(first.contains("the best so far") || first.contains("No recording was held out"), "{first}");
+}
+
+#[test]
+fn each_strategy_is_tuned_and_a_table_has_the_winner() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    write_recording(here, &brisk());
+    let output = moris(
+        here,
+        &["tune", "brisk.csv", "--strategy", "all", "--tune", "scale", "--evaluations", "10", "--output", "best.toml"],
+    );
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{printed}{}", String::from_utf8_lossy(&output.stderr));
+    let row = |name: &str| printed.lines().find(|line| line.starts_with(&format!("| {name} "))).map(str::to_owned);
+    let tuned = |name: &str| row(name).unwrap().split('|').nth(3).unwrap().trim().parse::<f64>().unwrap();
+    let winner = printed.lines().find_map(|line| line.strip_prefix("winner: ")).unwrap();
+    for name in ["classical", "adaptive", "optimal", "predictive", "robust"] {
+        assert!(tuned(winner) <= tuned(name), "{printed}");
+        assert!(here.join(format!("best.{name}.toml")).exists(), "{name}");
+        assert!(fs::read_to_string(here.join("moris-report/tune.md")).unwrap().contains(&format!("from {name} on")));
+    }
+    let files = [format!("best.{winner}.toml"), "best.toml".to_owned()].map(|file| fs::read(here.join(file)).unwrap());
+    assert_eq!(files[0], files[1]);
+    assert!(here.join("moris-report/brisk.tuned.html").exists());
 }
 
 /// Parameters for one ride are worse on another, and are written all the same.

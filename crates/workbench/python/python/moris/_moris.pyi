@@ -156,6 +156,7 @@ class Tuning:
         weights: Sequence[float],
         stroke_reserve: float,
         comfort: Sequence[float],
+        objective: str,
     ) -> Tuning: ...
     def costs(self, names: Sequence[str], values: Any) -> list[Any] | None: ...
     def run(

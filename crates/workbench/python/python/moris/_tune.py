@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from . import _moris
 from . import _types as types
 from ._cluster import Cluster
+from ._errors import NoFeasibleParameters
 from ._optional import pandas
 from ._progress import Progress
 from ._recording import recordings_of
@@ -25,8 +26,9 @@ class Tuned:
     parameters: dict of all parameters. changed: those that the search has changed.
     summary: the whole result as Markdown. verdict: its first sentence. is_worse: True where the tuned parameters are worse
         on a recording by more than 5 %, or in the mean over those that they were not tuned on.
-    errors: for each recording a dict with `before`, `tuned` and `unseen`: the sensed error, 0 perfect and 1 a platform at
-        rest; None where there is none. interrupted: True if the search was ended early.
+    errors: for each recording a dict with `before`, `tuned` and `unseen`: the error of its shape, size and sensed motion, 0
+        perfect and 1 a platform at rest; None where there is none. interrupted: True if the search was ended early.
+    strategies: with strategy="all" the Tuned of each strategy by name, with this one as the best; otherwise empty.
     """
 
     parameters: dict[str, Value]
@@ -36,6 +38,7 @@ class Tuned:
     is_worse: bool
     interrupted: bool
     errors: dict[str, dict[str, float | None]]
+    strategies: dict[str, Tuned]
 
     def __init__(
         self,
@@ -55,7 +58,15 @@ class Tuned:
         self.is_worse = is_worse
         self.interrupted = interrupted
         self.errors = {name: {"before": old, "tuned": new, "unseen": unseen} for name, old, new, unseen in errors}
+        self.strategies = {}
         self._rig = rig
+
+    @property
+    def error(self) -> float:
+        """The mean error, on recordings not tuned on where there are any."""
+        unseen = [of["unseen"] for of in self.errors.values() if of["unseen"] is not None]
+        errors = unseen or [of["tuned"] for of in self.errors.values() if of["tuned"] is not None]
+        return sum(errors) / len(errors)
 
     def save(self, path: types.Path) -> Path:
         """Writes the parameter file, for the workbench and for `cargo build-fmu --parameters`; returns the path."""
@@ -76,7 +87,7 @@ def tune(
     recordings: Sources,
     rig: Rig | None = None,
     parameters: ParameterSet | None = None,
-    strategy: Strategy | None = None,
+    strategy: Strategy | Literal["all"] | None = None,
     *,
     hold_out: Sources = (),
     folds: int | None = None,
@@ -84,6 +95,7 @@ def tune(
     weights: Sequence[float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
     stroke_reserve: float = 0.01,
     comfort: Sequence[float] = (0.2, 4.0, 4.0),
+    objective: Literal["shape", "error"] = "shape",
     evaluations: int = 3000,
     seed: int = 1,
     progress: Show = None,
@@ -92,16 +104,20 @@ def tune(
     client: Any = None,
     **options: Unpack[RecordingOptions],
 ) -> Tuned:
-    """Searches for parameters with a small sensed error on all recordings, such that no limit of the platform is active.
+    """Searches for parameters with a good shape of the felt force on all recordings, such that no limit is active.
+
+    With the right sign and at the right time first, as large as can be then.
 
     recordings: to tune on. hold_out: recordings to try the result on only. folds: number of groups of recordings that are
         left out in turn, which decides how far the result goes from the initial parameters; by default each recording by
         itself. 0 leaves none out, and the result goes all the way to the best parameters for the recordings.
-    rig, parameters, strategy: as for Washout; the search starts from these parameters.
+    rig, parameters, strategy: as for Washout; the search starts from these parameters. With strategy="all" each strategy is
+        tuned, and the result is the one with the least error.
     groups: parameters that may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy", "order". Those of
         "strategy" are weights, gains and poles of the strategy in use; the classical one has none. The "order" is that of the
         high-passes of the splitter and the angular channel.
-    weights: of the errors of specific force x, y, z and angular velocity x, y, z. stroke_reserve: of each actuator [m].
+    weights: of the sensed errors of specific force x, y, z and angular velocity x, y, z; the first two weigh the shapes of
+        surge and sway, too. objective: "shape", or "error" for the sensed error alone. stroke_reserve: of each actuator [m].
     comfort: bounds of the felt force's shake, jolt and peak [m/s2], at least their values with the initial parameters.
     evaluations: parameter sets of each search after its coarse scan. seed: of the random numbers.
     progress: True, False, None or a function of (done, total, text).
@@ -112,6 +128,14 @@ def tune(
     docs/tuning-by-search.md has the objective.
     Returns Tuned. Raises NoFeasibleParameters where none keep the limits.
     """
+    if strategy == "all":
+        given = (recordings_of(recordings, options), rig, parameters)
+        fixed: dict[str, Any] = dict(
+            hold_out=recordings_of(hold_out, options), folds=folds, groups=groups, weights=weights, stroke_reserve=stroke_reserve,
+            comfort=comfort, objective=objective, evaluations=evaluations, seed=seed, progress=progress, patience=patience,
+            stop=stop, client=client,
+        )  # fmt: skip
+        return _best(lambda one: tune(*given, one, **fixed))
     tuned_on = recordings_of(recordings, options)
     held_out = recordings_of(hold_out, options)
     recordings = tuned_on + held_out
@@ -127,7 +151,7 @@ def tune(
     folds = len(tuned_on) if folds is None else folds
     arguments = (
         [recording._native for recording in recordings], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,
-        list(comfort),
+        list(comfort), objective,
     )  # fmt: skip
     tuning = _moris.Tuning(*arguments)
     cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)
@@ -156,6 +180,25 @@ def tune(
         bar.close()
     before = _moris.parameter_values(rig, parameters, strategy)
     return Tuned(before, *found, rig)
+
+
+def _best(tune_one: Callable[[Strategy], Tuned]) -> Tuned:
+    """The strategy with the least error; strategies whose search finds nothing do not count."""
+    found: dict[str, Tuned] = {}
+    nothing: Exception | None = None
+    for strategy in get_args(Strategy):
+        try:
+            found[strategy] = tune_one(strategy)
+        except NoFeasibleParameters as error:
+            nothing = error
+            continue
+        if found[strategy].interrupted:
+            break
+    if not found:
+        raise nothing or ValueError("there is no strategy")
+    best = min(found.values(), key=lambda tuned: tuned.error)
+    best.strategies = found
+    return best
 
 
 def _costs(tuning: _moris.Tuning, names: list[str], values: Any) -> Any:
