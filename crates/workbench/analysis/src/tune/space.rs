@@ -179,8 +179,8 @@ impl Space {
         self.clamped(&moved).0
     }
 
-    /// A point with other scales of surge, sway and all rates, and with other frequencies of the
-    /// splitter on surge and sway: those of the start times these factors, as far as the box goes.
+    /// A point with other scales of surge, sway and all rates, and other frequencies of surge and
+    /// sway. They are those of the start times these factors, as far as the box goes.
     pub fn with_all_channels(&self, point: &DVector<f64>, frequency: f64, scale: f64) -> DVector<f64> {
         let mut moved = point.clone();
         for (coordinate, tuned) in moved.iter_mut().zip(tuned(&mut self.start.clone(), &self.groups)) {

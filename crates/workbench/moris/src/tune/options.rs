@@ -14,14 +14,14 @@ use crate::setup_options::SetupOptions;
 /// Search for parameters with a better shape of the felt force on a rig
 ///
 /// Searches for break frequencies, dampings and scales with which surge and sway are felt at the
-/// right time, with the right sign and, as the second aim, as large as can be. The error of a
+/// right time and with the right sign. The second aim is their size. The error of a
 /// recording is half of 1 - shape + 2 inverted, a quarter of 1 - size, and a quarter of the sensed
 /// error. 0 is perfect; a platform at rest scores 1. No safety unit and no actuator limit may be
 /// active at any time. Shake, jolt and peak of the felt force may not exceed --comfort.
 ///
 /// The sensed error is the vestibular model's response to felt minus desired. It is the RMS over
 /// time in perception thresholds, added in quadrature over specific force and angular velocity
-/// along x, y, z, divided by the same quantity of the desired motion.
+/// along x, y, z. It is divided by the same quantity of the desired motion.
 ///
 /// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the given
 /// parameters. Ctrl-C ends it and keeps the best result so far, a second Ctrl-C does so at once.

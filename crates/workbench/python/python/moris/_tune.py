@@ -26,8 +26,8 @@ class Tuned:
     parameters: dict of all parameters. changed: those that the search has changed.
     summary: the whole result as Markdown. verdict: its first sentence. is_worse: True where the tuned parameters are worse
         on a recording by more than 5 %, or in the mean over those that they were not tuned on.
-    errors: for each recording a dict with `before`, `tuned` and `unseen`: the error of its shape, size and sensed motion, 0
-        perfect and 1 a platform at rest; None where there is none. interrupted: True if the search was ended early.
+    errors: for each recording a dict with `before`, `tuned` and `unseen`: the objective, 0 perfect and 1 a platform at
+        rest; None where there is none. interrupted: True if the search was ended early.
     strategies: with strategy="all" the Tuned of each strategy by name, with this one as the best; otherwise empty.
     """
 
