@@ -34,8 +34,7 @@ fn main() {
 }
 
 fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
-    let page = html(report).map_err(std::io::Error::other)?;
-    std::fs::write(directory.join(format!("{name}.html")), page)?;
+    std::fs::write(directory.join(format!("{name}.html")), html(report))?;
     let runs: Vec<_> = report
         .runs
         .iter()

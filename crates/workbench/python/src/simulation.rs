@@ -238,11 +238,10 @@ impl PySimulation {
     }
 
     /// The report's page, with other simulations of the same recording for comparison.
-    fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> PyResult<String> {
+    fn html(&self, others: Vec<PyRef<PySimulation>>) -> String {
         let outcomes: Vec<Outcome> =
             std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
         page::html(&self.recording, &outcomes, None)
-            .map_err(|reason| error::recording(py, format!("the report does not fit together: {reason}")))
     }
 }
 

@@ -3,7 +3,7 @@
 pub mod simulator;
 pub mod vehicle;
 
-use moris_pages::report::{Chart, Line, Report, ReportError, Run, Simulator, Thinning, felt_chart};
+use moris_pages::report::{Chart, Line, Report, Run, Simulator, Thinning, felt_chart};
 use moris_simulation::{Finding, Weight};
 
 use self::vehicle::vehicle;
@@ -23,19 +23,16 @@ const LEAST_SIMULATED: usize = 1_000;
 /// The page of a recording with one or several sets of parameters, with as many
 /// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
 /// follow.
-///
-/// # Errors
-/// The report does not fit together.
-pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>) -> Result<String, ReportError> {
+pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>) -> String {
     let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
         let report = report(recording, outcomes, most / outcomes.len());
-        let page = moris_pages::report::html(&report)?;
+        let page = moris_pages::report::html(&report);
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
             let is_foreign = outcomes[0].simulation.foreign.is_some();
             let simulator = simulator::of(recording, &outcomes[0], command).filter(|_| !is_foreign);
-            let Some(simulator) = simulator else { return Ok(page) };
+            let Some(simulator) = simulator else { return page };
             return with_simulation(report, simulator, page);
         }
         let fitting = 0.95 * most as f64 * LARGEST as f64 / page.len() as f64;
@@ -44,7 +41,7 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>
 }
 
 /// The page with as much of the recording's inputs as fit into it; `page` is it without simulation.
-fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> Result<String, ReportError> {
+fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> String {
     let inputs = simulator.inputs.clone();
     let mut page_of = |samples: usize| {
         let inputs = inputs.iter().map(|series| series[..samples].to_vec()).collect();
@@ -52,18 +49,18 @@ fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> Re
         moris_pages::report::html(&report)
     };
     let mut samples = simulator.samples;
-    let mut with_inputs = page_of(samples)?;
-    let empty = if with_inputs.len() > LARGEST_WITH_SIMULATION { page_of(0)?.len() } else { 0 };
+    let mut with_inputs = page_of(samples);
+    let empty = if with_inputs.len() > LARGEST_WITH_SIMULATION { page_of(0).len() } else { 0 };
     while with_inputs.len() > LARGEST_WITH_SIMULATION {
         let room = LARGEST_WITH_SIMULATION.saturating_sub(empty);
         let fitting = 0.97 * samples as f64 * room as f64 / (with_inputs.len() - empty) as f64;
         samples = fitting as usize;
         if samples < LEAST_SIMULATED {
-            return Ok(page);
+            return page;
         }
-        with_inputs = page_of(samples)?;
+        with_inputs = page_of(samples);
     }
-    Ok(with_inputs)
+    with_inputs
 }
 
 /// The report of a recording with one or several sets of parameters, of which the first is shown

@@ -414,7 +414,7 @@ pub fn write_page(
     command: Option<String>,
 ) -> Result<PathBuf> {
     let file = directory.join(format!("{name}.html"));
-    let html = page::html(recording, outcomes, command).context("the report does not fit together")?;
-    fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
+    fs::write(&file, page::html(recording, outcomes, command))
+        .with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

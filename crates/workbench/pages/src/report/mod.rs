@@ -7,7 +7,6 @@
 //! other file. It contains its data, and the scripts and styles of
 //! `crates/workbench/pages/page/report/`.
 
-mod check;
 mod data;
 mod encode;
 mod events;
@@ -24,7 +23,6 @@ pub mod shared {
     pub use crate::report::page::{COMPILED, Head, assembled};
 }
 
-pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, LimitHistory, Line, Measure, Report, Rig, Run, Vehicle};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
