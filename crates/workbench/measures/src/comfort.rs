@@ -6,6 +6,8 @@
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
+use crate::zero_phase::zero_phase;
+
 /// Frequency above which a felt force is shaking \[Hz\].
 pub const SHAKE_FREQUENCY: f64 = 8.0;
 /// Time over which shaking is averaged \[s\].
@@ -190,27 +192,10 @@ fn sliding_rms(signal: &[f64], window: usize) -> Vec<f64> {
     (0..signal.len()).map(rms).collect()
 }
 
-/// Samples by which a signal is extended at each end before it is filtered, as SciPy's
-/// `sosfiltfilt` does for two sections.
-const EXTENSION: usize = 15;
-
 /// The signal above [`SHAKE_FREQUENCY`], without a shift in time: a Butterworth high-pass of fourth
 /// order, forward and backward. None where the sampling is too coarse or the signal too short.
 fn above_shake_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
-    let ratio = SHAKE_FREQUENCY * step;
-    if ratio >= 0.5 || signal.len() <= EXTENSION {
-        return None;
-    }
-    // Extended by its reflection in its ends, so that value and slope are continuous.
-    let last = signal.len() - 1;
-    let before = (1..=EXTENSION).rev().map(|k| 2.0 * signal[0] - signal[k]);
-    let after = (1..=EXTENSION).map(|k| 2.0 * signal[last] - signal[last - k]);
-    let mut extended: Vec<f64> = before.chain(signal.iter().copied()).chain(after).collect();
-    for _ in 0..2 {
-        high_pass(&mut extended, (PI * ratio).tan());
-        extended.reverse();
-    }
-    Some(extended[EXTENSION..=EXTENSION + last].to_vec())
+    zero_phase(signal, SHAKE_FREQUENCY, step, 2, high_pass)
 }
 
 /// Butterworth high-pass of fourth order by the bilinear transform, with `k` the tangent of half

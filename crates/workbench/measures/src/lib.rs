@@ -35,6 +35,7 @@ pub mod shape;
 pub mod sickness;
 pub mod statistics;
 pub mod vestibular;
+mod zero_phase;
 
 pub use listing::{Better, Row, all_rows, bound_rows};
 pub use measures::{Axes, Measures, References, Rider};

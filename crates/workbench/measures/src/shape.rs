@@ -5,11 +5,12 @@
 //! exceeds [`LEAST_DESIRED`].
 
 use std::array::from_fn;
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use crate::cues::FORCE_THRESHOLDS;
 use crate::run::axis;
 use crate::statistics::correlation;
+use crate::zero_phase::zero_phase;
 
 /// Frequency below which a force is a cue of the vehicle's manoeuvre \[Hz\].
 pub const CUE_FREQUENCY: f64 = 2.0;
@@ -120,27 +121,10 @@ fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
-/// Samples by which a signal is extended at each end before it is filtered, as SciPy's
-/// `sosfiltfilt` does for one section.
-const EXTENSION: usize = 9;
-
 /// The signal below [`CUE_FREQUENCY`], without a shift in time. None where the sampling is too
 /// coarse or the signal too short.
 pub fn below_cue_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
-    let ratio = CUE_FREQUENCY * step;
-    if ratio >= 0.5 || signal.len() <= EXTENSION {
-        return None;
-    }
-    // Extended by its reflection in its ends, so that value and slope are continuous.
-    let last = signal.len() - 1;
-    let before = (1..=EXTENSION).rev().map(|k| 2.0 * signal[0] - signal[k]);
-    let after = (1..=EXTENSION).map(|k| 2.0 * signal[last] - signal[last - k]);
-    let mut extended: Vec<f64> = before.chain(signal.iter().copied()).chain(after).collect();
-    for _ in 0..2 {
-        low_pass(&mut extended, (PI * ratio).tan());
-        extended.reverse();
-    }
-    Some(extended[EXTENSION..=EXTENSION + last].to_vec())
+    zero_phase(signal, CUE_FREQUENCY, step, 1, low_pass)
 }
 
 /// Butterworth low-pass of second order by the bilinear transform, with `k` the tangent of half the
