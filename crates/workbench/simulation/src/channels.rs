@@ -4,8 +4,9 @@ use moris_measures::comfort::Comfort;
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 use moris_measures::shape::AxisShape;
-use moris_simulation::Evaluated;
 use moris_washout::platform::reach::Axis;
+
+use crate::Evaluated;
 
 /// A channel's figures, in m/s2 or rad/s.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,13 +2,16 @@
 
 use moris_measures::Measures;
 use moris_measures::comfort::{Comfort, Excess};
-use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 use moris_measures::shape::AxisShape;
 use moris_washout::Output;
+use moris_washout::interface::TiltParameters;
+use moris_washout::platform::reach::Axis;
 
+use crate::channels::{ChannelFigures, channels};
+use crate::frequency_response::channel::name;
 use crate::spans::Spans;
-use crate::{Evaluated, Simulation};
+use crate::{Evaluated, Simulation, capitalised};
 use crate::{Finding, Limits, TiltLimit, Weight};
 
 /// Least RMS of the desired motion that counts as desired, of forces \[m/s2\]
@@ -46,7 +49,6 @@ const GIVEN_UP: &str =
     "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
 
 const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
-const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 
 impl Evaluated<'_> {
     /// The findings, the most important first: fit, comfort, shape, channels worse than at rest,
@@ -65,7 +67,7 @@ impl Evaluated<'_> {
         }
         let (worse, others): (Vec<Finding>, Vec<Finding>) = channels(self)
             .iter()
-            .filter_map(JudgedChannel::finding)
+            .filter_map(|channel| channel.finding(&self.simulation.parameters.tilt))
             .partition(|finding| finding.weight == Weight::Warning);
         findings.extend(worse);
         findings.extend(tilt(self));
@@ -86,7 +88,7 @@ impl Evaluated<'_> {
         let worse: Vec<String> = channels
             .iter()
             .filter(|channel| channel.is_worse_than_rest())
-            .map(|channel| channel.name.to_lowercase())
+            .map(|channel| name(channel.axis).to_owned())
             .collect();
         let is_judged = self.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_legs);
         let fit = if !is_judged {
@@ -161,7 +163,7 @@ pub(crate) fn fits_freely(measures: &Measures) -> bool {
 
 /// True if no channel is worse than on a platform at rest.
 pub fn is_better_than_rest(outcome: &Evaluated) -> bool {
-    !channels(outcome).iter().any(JudgedChannel::is_worse_than_rest)
+    !channels(outcome).iter().any(ChannelFigures::is_worse_than_rest)
 }
 
 /// Active limits with total duration and first time; none without any.
@@ -274,82 +276,33 @@ fn tilt(outcome: &Evaluated) -> Option<Finding> {
     Some(finding(Weight::Note, text))
 }
 
-/// A channel of the felt motion on which something is desired or felt.
-struct JudgedChannel {
-    name: &'static str,
-    unit: &'static str,
-    /// Units in one SI unit.
-    factor: f64,
-    fidelity: Fidelity,
-    cues: Cues,
-    /// RMS of the desired motion: the error of a platform at rest.
-    desired: f64,
-    /// Least RMS that is worth a sentence.
-    least: f64,
-    /// Least error that a controller could reach, and the limits that it was computed with.
-    bound: Option<(f64, String)>,
-}
-
-/// The channels of a simulation: surge, sway, heave, and the rates of roll, pitch and yaw.
-fn channels(outcome: &Evaluated) -> Vec<JudgedChannel> {
-    let measures = outcome.measures;
-    let force = |axis: usize| {
-        Some(JudgedChannel {
-            name: AXES[axis],
-            unit: "m/s²",
-            factor: 1.0,
-            fidelity: measures.force[axis]?,
-            cues: measures.force_cues[axis],
-            desired: outcome.desired_rms(axis),
-            least: LEAST[0],
-            bound: outcome.bounds[axis].map(|bound| (bound, bound_limits(outcome, axis))),
-        })
-    };
-    let rate = |axis: usize| {
-        Some(JudgedChannel {
-            name: RATES[axis],
-            unit: "°/s",
-            factor: 1f64.to_degrees(),
-            fidelity: measures.rate[axis]?,
-            cues: measures.rate_cues[axis],
-            desired: outcome.desired_rate_rms(axis),
-            least: LEAST[1],
-            bound: None,
-        })
-    };
-    let has_rate = outcome.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_rate);
-    let rates = (0..3).filter(|_| has_rate).filter_map(rate);
-    (0..3).filter_map(force).chain(rates).collect()
-}
-
 /// The limits that the bound of an axis was computed with.
-fn bound_limits(outcome: &Evaluated, axis: usize) -> String {
-    if axis == 2 {
+fn bound_limits(tilt: &TiltParameters, axis: Axis) -> String {
+    if axis == Axis::Heave {
         return "within these limits of travel, speed and acceleration".to_owned();
     }
-    let tilt = &outcome.simulation.parameters.tilt;
     let degrees = |angle: f64| (10.0 * angle.to_degrees()).round() / 10.0;
     format!("within these limits of tilt ({}°, {} °/s) and travel", degrees(tilt.angle_limit), degrees(tilt.rate_limit))
 }
 
-impl JudgedChannel {
+impl ChannelFigures {
     /// True if a platform at rest would be better: its error would be smaller or, where hardly any
     /// motion is desired, motion is sensed that should not be.
     fn is_worse_than_rest(&self) -> bool {
         if self.is_desired() {
-            self.fidelity.rms_error > AT_REST * self.desired
+            self.felt.rms_error > AT_REST * self.at_rest
         } else {
             self.cues.false_cues >= FALSE_CUES
         }
     }
 
     fn is_desired(&self) -> bool {
-        self.desired >= self.least
+        self.at_rest >= LEAST[usize::from(self.axis.is_rotation())]
     }
 
     /// A channel on which something is desired, felt, or falsely cued.
-    fn finding(&self) -> Option<Finding> {
-        let Fidelity { rms_error, correlation, .. } = self.fidelity;
+    fn finding(&self, tilt: &TiltParameters) -> Option<Finding> {
+        let Fidelity { rms_error, correlation, .. } = self.felt;
         let false_cues = self.cues.false_cues;
         let is_desired = self.is_desired();
         if !is_desired && !self.is_worse_than_rest() {
@@ -364,18 +317,18 @@ impl JudgedChannel {
                     "is felt though hardly any is desired"
                 },
             )
-        } else if rms_error <= FAITHFUL * self.desired {
+        } else if rms_error <= FAITHFUL * self.at_rest {
             (Weight::Good, "is reproduced well")
         } else {
             (Weight::Note, "is reproduced in part")
         };
         let correlation = correlation.filter(|_| is_desired);
         let correlation = correlation.map_or_else(String::new, |correlation| format!("correlation {correlation:.2}, "));
-        let value = |value: f64| format!("{:.2} {}", self.factor * value, self.unit);
+        let value = |value: f64| format!("{:.2} {}", self.in_unit(value), self.unit());
         let of_desired = if is_desired {
-            format!("{:.0} % of what is desired", 100.0 * rms_error / self.desired)
+            format!("{:.0} % of what is desired", 100.0 * rms_error / self.at_rest)
         } else {
-            format!("where {} is desired", value(self.desired))
+            format!("where {} is desired", value(self.at_rest))
         };
         let (false_weight, falsely) = match false_cues {
             FALSE_CUES.. => {
@@ -385,15 +338,16 @@ impl JudgedChannel {
             _ => (weight, String::new()),
         };
         let weight = if weight == Weight::Warning { weight } else { false_weight };
-        let name = self.name;
+        let name = capitalised(name(self.axis));
         let text =
             format!("{name} {verdict}: {correlation}an RMS error of {}, {of_desired}.{falsely}", value(rms_error));
-        Some(finding(weight, text + &self.bound_sentence()))
+        Some(finding(weight, text + &self.bound_sentence(tilt)))
     }
 
-    fn bound_sentence(&self) -> String {
-        self.bound.as_ref().map_or_else(String::new, |(least, limits)| {
-            if *least < FAITHFUL * self.fidelity.rms_error {
+    fn bound_sentence(&self, tilt: &TiltParameters) -> String {
+        self.bound.map_or_else(String::new, |least| {
+            let limits = bound_limits(tilt, self.axis);
+            if least < FAITHFUL * self.felt.rms_error {
                 format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² {limits}.")
             } else {
                 format!(" No controller could get below {least:.2} m/s² {limits}.")
@@ -404,22 +358,25 @@ impl JudgedChannel {
 
 #[cfg(test)]
 mod tests {
+    use moris_interface::Group as _;
+    use moris_measures::cues::Cues;
+
     use super::*;
 
     /// The finding on a roll rate of this RMS [°/s], error [°/s] and fraction of false cues.
     fn finding_on(desired: f64, error: f64, false_cues: f64) -> Option<(Weight, String)> {
         let fidelity = Fidelity { rms_error: error.to_radians(), peak_error: 0.1, correlation: Some(0.5), delay: None };
-        let channel = JudgedChannel {
-            name: RATES[0],
-            unit: "°/s",
-            factor: 1f64.to_degrees(),
-            fidelity,
-            cues: Cues { false_cues, ..Cues::default() },
-            desired: desired.to_radians(),
-            least: LEAST[1],
+        let channel = ChannelFigures {
+            axis: Axis::Roll,
+            at_rest: desired.to_radians(),
             bound: None,
+            felt: fidelity,
+            sensed: None,
+            comfort: None,
+            shape: None,
+            cues: Cues { false_cues, ..Cues::default() },
         };
-        let found = channel.finding();
+        let found = channel.finding(&TiltParameters::START);
         assert!(!channel.is_worse_than_rest() || found.as_ref().is_some_and(|one| one.weight == Weight::Warning));
         found.map(|Finding { weight, text }| (weight, text))
     }

@@ -9,6 +9,7 @@
 //! - [`advice`] is what another scale would give.
 //! - [`fit`](mod@fit) finds the largest scale with the right sign and proportion.
 //! - [`foreign`] makes the same of the motion that another washout computed.
+//! - [`channels`] are the figures of each channel.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
 //! - [`Evaluated`] has the measures and the sentences about them.
@@ -17,6 +18,7 @@
 
 pub mod advice;
 pub mod capabilities;
+pub mod channels;
 pub mod clearance;
 pub mod drives;
 mod evaluated;

@@ -3,7 +3,6 @@
 //! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] checks the targets,
 //! and [`table`] prints the table.
 
-pub mod channel;
 pub mod table;
 pub mod targets;
 
@@ -15,6 +14,7 @@ use anyhow::{Context, Result};
 use moris_laps::Laps;
 use moris_measures::Measures;
 use moris_setup::Setup;
+use moris_simulation::channels::{ChannelFigures, channels};
 use moris_simulation::preview::{Previewer, parse_seconds};
 use rayon::prelude::*;
 
@@ -24,7 +24,6 @@ use crate::recording::{ConventionOptions, FADE_IN, Recording, files_in};
 use crate::setup_options::SetupOptions;
 use crate::simulate::{Outcome, bounds};
 use crate::status::WORSE;
-use channel::{ChannelFigures, channels};
 use host::{Host, Inputs};
 pub use moris_analysis::host;
 use targets::Targets;

@@ -3,11 +3,11 @@
 use moris_measures::comfort::{Comfort, Excess};
 use moris_setup::Setup;
 use moris_simulation::capitalised;
+use moris_simulation::channels::ChannelFigures;
 use moris_simulation::frequency_response::channel::name;
 use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
-use super::channel::ChannelFigures;
 use super::host::{Host, Inputs};
 use super::targets::{geometric_mean, wrong_cues};
 use crate::text_table::{Column, TextTable, or_undefined};

@@ -1,11 +1,11 @@
 //! Figures that a set of parameters is to reach, and those that it misses.
 
 use moris_simulation::capitalised;
+use moris_simulation::channels::ChannelFigures;
 use moris_simulation::frequency_response::channel::name;
 use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
-use super::channel::ChannelFigures;
 
 /// A force on which less than this is desired does not count; an error below it
 /// counts as this \[m/s2\].

@@ -2,8 +2,9 @@
 
 use moris_measures::comfort::{Comfort, Excess};
 
+use moris_simulation::channels::{ChannelFigures, channels};
+
 use super::Outcome;
-use crate::measure::channel::{ChannelFigures, channels};
 use crate::recording::Recording;
 use crate::text_table::{Column, TextTable, or_undefined};
 
