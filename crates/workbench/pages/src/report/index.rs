@@ -1,6 +1,7 @@
 //! A page that lists the pages of several recordings.
 
 use crate::report::page::{Head, escaped};
+use crate::report::tables::{cells_html, heads_html};
 
 /// A recording in the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -19,15 +20,10 @@ pub struct IndexRow {
 
 /// The page as HTML: a heading, a sentence, and a table of the rows in their order.
 pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]) -> String {
-    let header_cells: String =
-        heads.iter().map(|head| format!("<th class=\"number\" scope=\"col\">{}</th>", escaped(head))).collect();
+    let header_cells = heads_html(heads);
     let mut body = String::new();
     for row in rows {
-        let cells = row.cells.iter().zip(heads);
-        let cell = |(cell, head): (&String, &&str)| {
-            format!("<td class=\"number\" data-head=\"{}\">{}</td>", escaped(head), escaped(cell))
-        };
-        let cells: String = cells.map(cell).collect();
+        let cells = cells_html(&row.cells, heads);
         let name = escaped(&row.name);
         let name = row.file.as_ref().map_or(name.clone(), |file| format!("<a href=\"{}\">{name}</a>", encoded(file)));
         let (class, mark) = if row.is_good { ("good", "\u{2713}") } else { ("warning", "!") };

@@ -27,14 +27,9 @@ pub fn tables_html(title: &str, subtitle: &str, tables: &[PageTable]) -> String 
 }
 
 fn table_html(table: &PageTable) -> String {
-    let heads: String =
-        table.heads.iter().map(|head| format!("<th class=\"number\" scope=\"col\">{}</th>", escaped(head))).collect();
-    let cell = |(cell, head): (&String, &String)| {
-        format!("<td class=\"number\" data-head=\"{}\">{}</td>", escaped(head), escaped(cell))
-    };
+    let heads = heads_html(&table.heads);
     let row = |(name, cells): &(String, Vec<String>)| {
-        let cells: String = cells.iter().zip(&table.heads).map(cell).collect();
-        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escaped(name))
+        format!("<tr><th scope=\"row\">{}</th>{}</tr>\n", escaped(name), cells_html(cells, &table.heads))
     };
     let rows: String = table.rows.iter().map(row).collect();
     format!(
@@ -42,6 +37,20 @@ fn table_html(table: &PageTable) -> String {
         escaped(&table.title),
         escaped(&table.text)
     )
+}
+
+/// The heads of a table's figures.
+pub(super) fn heads_html(heads: &[impl AsRef<str>]) -> String {
+    let head = |head: &_| format!("<th class=\"number\" scope=\"col\">{}</th>", escaped(AsRef::as_ref(head)));
+    heads.iter().map(head).collect()
+}
+
+/// The figures of a row, each below its head.
+pub(super) fn cells_html(cells: &[String], heads: &[impl AsRef<str>]) -> String {
+    let cell = |(cell, head): (&String, &_)| {
+        format!("<td class=\"number\" data-head=\"{}\">{}</td>", escaped(AsRef::as_ref(head)), escaped(cell))
+    };
+    cells.iter().zip(heads).map(cell).collect()
 }
 
 #[cfg(test)]
