@@ -1,5 +1,7 @@
 //! The measures as a list for people.
 
+use serde::Serialize;
+
 use crate::comfort::Comfort;
 use crate::cues::Cues;
 use crate::effort::Effort;
@@ -9,7 +11,8 @@ use crate::run::{LimitFlags, Platform, Run};
 use crate::shape::{AxisShape, Shape};
 
 /// The better of two values of a measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Better {
     /// The smaller value.
     Less,
@@ -20,9 +23,10 @@ pub enum Better {
 }
 
 /// One measure, with its value, unit, definition and source.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Subject: `specific force x`, `sensed angular velocity y`, `platform`, ...
+    #[serde(rename = "group")]
     pub subject: String,
     /// Measure: `RMS error`, `false cues`, ...
     pub name: &'static str,

@@ -7,9 +7,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_pages::report::{Better, Chart, Cues, LimitHistory, Line, Measure, Report, Run, Vehicle, html};
-use moris_simulation::{Finding, Weight, tilt_limits};
-use moris_washout::{Input, Parameters, Washout, presets};
+use moris_measures::{Better, Row};
+use moris_pages::report::{Chart, LimitHistory, Line, Report, Run, Thinning, Vehicle, html, run};
+use moris_simulation::{Evaluated, Finding, Manoeuvre, Replay, Simulation, Weight};
+use moris_washout::{Input, Parameters, presets};
 use serde_json::json;
 
 const GRAVITY: f64 = 9.80665;
@@ -62,20 +63,20 @@ fn two_runs() -> Report {
         title: "Out of town and a brusque stop".into(),
         subtitle: "A computed ride of 60 s on the default rig, with the shipped parameters and two others".into(),
         findings: vec![finding(Weight::Note, "The ride is computed.")],
-        provenance: vec![("ride".into(), "computed".into()), ("step".into(), "0.001 s, every tenth shown".into())],
+        provenance: vec![("ride".into(), "computed".into()), ("step".into(), "0.01 s".into())],
         rig: (&shipped).into(),
         runs: vec![
             Run {
                 findings: vec![finding(Weight::Good, "No leg comes to the end of its stroke.")],
-                ..simulated("default", &shipped, 60.0, 10)
+                ..simulated("default", &shipped, 60.0, 0.01)
             },
             Run {
                 findings: vec![finding(Weight::Note, "The brusque stop is felt for four seconds less.")],
-                ..simulated("soft", &soft, 60.0, 10)
+                ..simulated("soft", &soft, 60.0, 0.01)
             },
             Run {
                 findings: vec![finding(Weight::Warning, "The safety units hold the platform back.")],
-                ..simulated("small-motions", &small_motions, 60.0, 10)
+                ..simulated("small-motions", &small_motions, 60.0, 0.01)
             },
         ],
         selected: 0,
@@ -88,14 +89,14 @@ fn finding(weight: Weight, text: &str) -> Finding {
 }
 
 fn hostile() -> Report {
-    let mut run = simulated(HOSTILE, &Parameters::default(), 5.0, 10);
-    run.measures.push(Measure {
-        group: HOSTILE.into(),
-        name: HOSTILE.into(),
+    let mut run = simulated(HOSTILE, &Parameters::default(), 5.0, 0.01);
+    run.measures.push(Row {
+        subject: HOSTILE.into(),
+        name: HOSTILE,
         value: Some(1.0),
-        unit: HOSTILE.into(),
-        definition: HOSTILE.into(),
-        source: HOSTILE.into(),
+        unit: HOSTILE,
+        definition: HOSTILE,
+        source: HOSTILE,
         better: Better::Neither,
     });
     run.charts.push(Chart {
@@ -124,7 +125,7 @@ fn long() -> Report {
     Report {
         title: "Two minutes at 1 kHz".into(),
         rig: (&parameters).into(),
-        runs: vec![simulated("default", &parameters, 120.0, 1)],
+        runs: vec![simulated("default", &parameters, 120.0, 0.001)],
         ..Report::default()
     }
 }
@@ -152,80 +153,14 @@ fn input(t: f64) -> Input {
     input
 }
 
-/// The recording, stepped at 1 kHz. One of `every` steps is kept.
-fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -> Run {
-    const STEP: f64 = 0.001;
-    let mut washout = Washout::new(parameters).expect("the shipped parameters are good");
-    let mut run = Run { name: name.into(), limits: parameters.into(), ..Run::default() };
-    let mut limited = [false; 4];
-    let steps = (duration / STEP).round() as usize;
-    for k in 0..=steps {
-        let time = k as f64 * STEP;
-        if k > 0 {
-            washout.step_between(&input(time - STEP), &input(time), STEP);
-            let output = washout.output();
-            limited[0] |= output.tilt_limited;
-            limited[1] |= output.soft_limited;
-            limited[2] |= output.safety_active;
-            limited[3] |= output.actuator_limited;
-        }
-        if k % every == 0 {
-            keep(&mut run, time, &input(time), &washout, std::mem::take(&mut limited));
-        }
-    }
-    let [roll, pitch] = &run.tilt;
-    let [roll_rate, pitch_rate] = &run.tilt_rate;
-    let by = tilt_limits(&run.times, &run.limited.tilt, [roll, pitch], [roll_rate, pitch_rate], &run.limits);
-    run.limited.tilt = (0..run.times.len()).map(|k| by.iter().flatten().any(|flags| flags[k])).collect();
-    run.limited.tilt_by = by;
-    run.measures = measures(&run);
+/// The ride with these parameters, in this step \[s\], with a few rows for the table.
+fn simulated(name: &str, parameters: &Parameters, duration: f64, step: f64) -> Run {
+    let manoeuvre = Manoeuvre::sampled(step, duration, input);
+    let simulation = Simulation::of(&Replay::new(&manoeuvre), parameters, || ()).expect("the parameters are good");
+    let measures = moris_simulation::measures(&simulation).expect("a ride has more than one sample");
+    let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds: [None; 3], advice: None };
+    let samples = simulation.inputs.len();
+    let mut run = Run { verdict: Finding::default(), ..run(&evaluated, name, &Thinning::new(samples, samples)) };
+    run.measures.retain(|row| row.subject.starts_with("Specific force") && row.name.ends_with("error"));
     run
-}
-
-fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bool; 4]) {
-    let output = washout.output();
-    run.times.push(time);
-    let turn = [output.orientation.roll, output.orientation.pitch, output.orientation.yaw];
-    for (axis, angle) in turn.into_iter().enumerate() {
-        run.desired.specific_force[axis].push(input.specific_force[axis]);
-        run.desired.angular_velocity[axis].push(input.angular_velocity[axis]);
-        run.felt.specific_force[axis].push(output.felt_specific_force[axis]);
-        run.felt.angular_velocity[axis].push(output.felt_angular_velocity[axis]);
-        run.position[axis].push(output.position[axis]);
-        run.orientation[axis].push(angle);
-    }
-    for (leg, length) in run.legs.iter_mut().zip(output.length) {
-        leg.push(length);
-    }
-    run.tilt[0].push(output.tilt_roll);
-    run.tilt[1].push(output.tilt_pitch);
-    run.tilt_rate[0].push(output.tilt_roll_rate);
-    run.tilt_rate[1].push(output.tilt_pitch_rate);
-    run.lean.push(input.lean);
-    let LimitHistory { tilt, soft, safety, actuator, .. } = &mut run.limited;
-    for (flags, flag) in [tilt, soft, safety, actuator].into_iter().zip(limited) {
-        flags.push(flag);
-    }
-}
-
-/// A few rows for the table.
-fn measures(run: &Run) -> Vec<Measure> {
-    let Cues { specific_force: desired, .. } = &run.desired;
-    let axes = ["Surge", "Sway", "Heave"].into_iter().enumerate();
-    let errors = axes.flat_map(|(i, axis)| {
-        let error: Vec<f64> = desired[i].iter().zip(&run.felt.specific_force[i]).map(|(d, f)| f - d).collect();
-        let rms = (error.iter().map(|e| e * e).sum::<f64>() / error.len() as f64).sqrt();
-        let peak = error.iter().fold(0.0, |peak, e| f64::max(peak, e.abs()));
-        [("RMS error", rms, "root of the mean of (felt − desired)²"), ("peak error", peak, "largest |felt − desired|")]
-            .map(|(name, value, definition)| Measure {
-                group: axis.into(),
-                name: name.into(),
-                value: Some(value),
-                unit: "m/s²".into(),
-                better: Better::Less,
-                definition: definition.into(),
-                source: "Barbagli et al., section 5".into(),
-            })
-    });
-    errors.collect()
 }

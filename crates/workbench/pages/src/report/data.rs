@@ -3,6 +3,7 @@
 //! All quantities are in SI units and in the frames of the washout: x forward, y left, z up;
 //! positive pitch is nose down. Every series of a [`Run`] has one value for each of its times.
 
+use moris_measures::Row;
 use moris_simulation::{Finding, Limits, TiltFlags};
 use moris_washout::Parameters;
 use serde::Serialize;
@@ -110,7 +111,7 @@ pub struct Run {
     pub limits: Limits,
     /// The table's rows for this run. Rows of several runs with the same group and name
     /// are shown side by side.
-    pub measures: Vec<Measure>,
+    pub measures: Vec<Row>,
     /// Further charts, below the others; a chart of the same title in another run joins it.
     pub charts: Vec<Chart>,
 }
@@ -144,36 +145,6 @@ pub struct LimitHistory {
     /// True while the actuator guard limits a leg.
     #[serde(serialize_with = "flags")]
     pub actuator: Vec<bool>,
-}
-
-/// One row of the table of measures.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Measure {
-    /// The heading above the row: `Surge`, `Sensed roll rate`, `Legs`.
-    pub group: String,
-    pub name: String,
-    /// Shown with three significant digits, down to a millionth; none, and one that is not finite,
-    /// as a dash.
-    pub value: Option<f64>,
-    /// As printed, for instance `m/s²`; empty for pure numbers.
-    pub unit: String,
-    /// Which of two values is the better.
-    pub better: Better,
-    /// Definition, as a sentence or a formula.
-    pub definition: String,
-    /// Where the definition comes from.
-    pub source: String,
-}
-
-/// Which of two values of a measure is the better.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Better {
-    Less,
-    More,
-    /// Neither value is better in itself.
-    #[default]
-    Neither,
 }
 
 /// A further chart over time.

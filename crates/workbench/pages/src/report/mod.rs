@@ -23,7 +23,7 @@ pub mod shared {
     pub use crate::report::page::{COMPILED, Head, assembled};
 }
 
-pub use data::{Better, Chart, Cues, LimitHistory, Line, Measure, Report, Rig, Run, Vehicle};
+pub use data::{Chart, Cues, LimitHistory, Line, Report, Rig, Run, Vehicle};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::{escaped, html};

@@ -2,11 +2,11 @@
 
 use std::array;
 
-use moris_measures::{Better, Row};
+use moris_measures::Row;
 use moris_simulation::{Evaluated, Simulation, capitalised};
 use moris_washout::Output;
 
-use super::data::{Chart, Cues, LimitHistory, Line, Measure, Run};
+use super::data::{Chart, Cues, LimitHistory, Line, Run};
 use super::thinning::Thinning;
 
 /// The run of a report, without further charts and without advice: the page simulates other
@@ -46,7 +46,7 @@ pub fn run(evaluated: &Evaluated, name: &str, thinning: &Thinning) -> Run {
             actuator: thinning.any(|k| outputs[k].actuator_limited),
         },
         limits: parameters.into(),
-        measures: evaluated.rows().into_iter().map(measure).collect(),
+        measures: evaluated.rows().into_iter().map(|row| Row { subject: capitalised(&row.subject), ..row }).collect(),
         charts: Vec::new(),
     }
 }
@@ -62,21 +62,5 @@ pub fn felt_chart(simulation: &Simulation, axis: usize, thinning: &Thinning) -> 
             values: thinning.extremes(|k| simulation.felt_without_gravity(k)[axis]),
         }],
         limits: Vec::new(),
-    }
-}
-
-fn measure(row: Row) -> Measure {
-    Measure {
-        group: capitalised(&row.subject),
-        name: row.name.to_owned(),
-        value: row.value,
-        unit: row.unit.to_owned(),
-        better: match row.better {
-            Better::Less => super::data::Better::Less,
-            Better::More => super::data::Better::More,
-            Better::Neither => super::data::Better::Neither,
-        },
-        definition: row.definition.to_owned(),
-        source: row.source.to_owned(),
     }
 }
