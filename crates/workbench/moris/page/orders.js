@@ -63,8 +63,7 @@ class Sliders {
   }
 
   change(slot, value) {
-    const { name } = this.data.parameters[slot];
-    const values = name === "strategy" ? withStrategy(this.data, this.values, value) : this.values.with(slot, value);
+    const values = this.values.with(slot, value);
     values.forEach((one, at) => { if (one !== this.values[at]) this.waiting[this.data.parameters[at].name] = one; });
     this.controls.get(slot).show(value);
     this.flush();

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use moris_pages::ride::page::{MODULE, Page, html};
 
 use crate::setup_options::SetupOptions;
-use crate::simulate::simulator::{parameters, sets};
+use crate::simulate::simulator::parameters;
 
 /// Write a page in which you ride the motorcycle, with the platform beside it
 ///
@@ -41,7 +41,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         module: MODULE.to_vec(),
         rig: (&setup.parameters).into(),
         parameters: parameters(&setup.parameters, &setup.rig_alone),
-        sets: sets(),
         half_width: moris_pages::ride::HALF_WIDTH,
     });
     let file = &options.output;

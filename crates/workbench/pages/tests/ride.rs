@@ -211,7 +211,6 @@ fn the_page_holds_all_that_it_needs() {
         module: vec![0; 100],
         rig: (&Parameters::default()).into(),
         parameters: Vec::new(),
-        sets: Vec::new(),
         half_width: HALF_WIDTH,
     });
     for outside in ["http:", "https:", "src=", "@import", "url(", "import ", "fetch(", "{{", "<b>"] {

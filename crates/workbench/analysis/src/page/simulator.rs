@@ -2,7 +2,6 @@
 
 use moris_interface::{Group as _, Kind, Row, slots_of};
 use moris_pages::report::{MODULE, Parameter, ParameterKind, Simulator};
-use moris_setup::SETS;
 use moris_washout::Parameters;
 use moris_washout::interface::{Rig, StrategyKind};
 
@@ -31,7 +30,6 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
         inputs: (0..slots).map(|slot| samples.iter().map(|sample| sample[slot]).collect()).collect(),
         bounds: outcome.evaluated().bounds,
         parameters: parameters(&outcome.simulation.parameters, &recording.parameters(&outcome.setup.rig_alone)),
-        sets: sets(),
         heading: format!(
             "Chosen in the report of {name} on {}, from {}",
             outcome.setup.rig_name, outcome.setup.parameters_name
@@ -41,17 +39,6 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
         rig_name: outcome.setup.rig_name.clone(),
         actuator_diameter: outcome.setup.actuator_diameter,
     })
-}
-
-/// The sets that strategies have, by the strategies' names.
-pub fn sets() -> Vec<(String, Vec<(String, f64)>)> {
-    let own = |strategy: &&StrategyKind| **strategy != StrategyKind::Classical;
-    let set = |strategy: &StrategyKind| {
-        let (name, values) = SETS.iter().find(|(name, _)| *name == strategy.name())?;
-        let values = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        Some(((*name).to_owned(), values))
-    };
-    StrategyKind::ALL.iter().filter(own).filter_map(set).collect()
 }
 
 /// The parameters for a page, slot by slot: with their start values, and those of the rig

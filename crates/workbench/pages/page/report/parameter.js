@@ -16,18 +16,6 @@ function withDegrees({ unit, text }, value) {
   return rest === undefined ? unit : `${unit} = ${inWords(rounded(value * DEGREES))}\u00b0${rest.replace("2", "\u00b2")}`;
 }
 
-/** The values with a strategy and the set of its name below the parameters that are given, as the command's --strategy. */
-function withStrategy({ parameters, sets }, values, value) {
-  const strategy = parameters.findIndex(({ name }) => name === "strategy");
-  const setOf = (item) => new Map((sets.find(([name]) => name === parameters[strategy].items[item - 1]) || [null, []])[1]);
-  const [before, after] = [setOf(values[strategy]), setOf(value)];
-  return parameters.map(({ name, base }, slot) => {
-    if (slot === strategy) return value;
-    if (!(before.has(name) || after.has(name))) return values[slot];
-    return values[slot] === (before.get(name) ?? base) ? after.get(name) ?? base : values[slot];
-  });
-}
-
 class ParameterControl {
   /** `changed(value)` is called while a control moves, `done()` when it is let go. */
   constructor(parameter, value, changed, done) {

@@ -191,12 +191,8 @@ class Tuning {
 
   /** A value while its control moves. */
   move(slot, value) {
-    if (this.parameters[slot].name === "strategy") {
-      this.values = withStrategy(this.simulator.data, this.values, value);
-    } else {
-      this.values[slot] = value;
-      this.controls.get(slot).show(value);
-    }
+    this.values[slot] = value;
+    this.controls.get(slot).show(value);
     this.simulate();
   }
 

@@ -33,7 +33,7 @@ class Panel {
   }
 
   change(slot, value, retune) {
-    const values = this.data.parameters[slot].name === "strategy" ? withStrategy(this.data, this.values, value) : this.values.with(slot, value);
+    const values = this.values.with(slot, value);
     const reason = retune(values);
     this.message.textContent = reason && `Cannot be used: ${reason}`;
     if (!reason) this.values = values;

@@ -24,8 +24,6 @@ pub struct Simulator {
     pub bounds: [Option<f64>; 3],
     /// Slot by slot of the washout's parameters.
     pub parameters: Vec<Parameter>,
-    /// Names and values of the set that each strategy has, by the strategy's name.
-    pub sets: Vec<(String, Vec<(String, f64)>)>,
     /// Heading of a saved parameter file, without the marks of a comment.
     pub heading: String,
     /// The command that simulates with the saved file, and the file's name at its end.

@@ -38,8 +38,6 @@ pub struct Page {
     pub rig: Rig,
     /// Slot by slot of the washout's parameters.
     pub parameters: Vec<Parameter>,
-    /// Names and values of the set that each strategy has, by the strategy's name.
-    pub sets: Vec<(String, Vec<(String, f64)>)>,
     /// Half the width of the road \[m\].
     pub half_width: f64,
 }

@@ -21,7 +21,7 @@ use crate::live::Shared;
 use crate::live::controls::Handling;
 use crate::live::telemetry::Input;
 use crate::live::watch::{Part, watch};
-use crate::simulate::simulator::{parameters, sets};
+use crate::simulate::simulator::parameters;
 
 const TEMPLATE: &str = include_str!("../../../page/live.html");
 const STYLE: &str = include_str!("../../../page/live.css");
@@ -45,7 +45,6 @@ const LOOK: Duration = Duration::from_millis(20);
 pub struct Start {
     rig: Rig,
     parameters: Vec<Parameter>,
-    sets: Vec<(String, Vec<(String, f64)>)>,
     subtitle: String,
     handling: Option<Handling>,
     vehicle: Vehicle,
@@ -60,7 +59,6 @@ impl Start {
         Start {
             rig: (&setup.parameters).into(),
             parameters: parameters(&setup.parameters, &setup.rig_alone),
-            sets: sets(),
             subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
             handling: input.handling(),
             vehicle: input.shape(&setup.parameters_name),
