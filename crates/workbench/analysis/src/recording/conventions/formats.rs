@@ -2,7 +2,16 @@
 
 use super::{ConventionOptions, Quantity, choices};
 
-choices! {
+/// An enumeration of formats, and their files by the same words.
+macro_rules! formats {
+    ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
+        choices! { $(#[$attribute])* $name { $( $(#[doc = $text])+ $word $item, )+ } }
+
+        const FILES: &[&str] = &[$( include_str!(concat!("../../../formats/", $word, ".toml")), )+];
+    };
+}
+
+formats! {
     /// A logger or simulator whose files are read without further options.
     Format {
         /// phyphox, a directory of CSV files
@@ -37,21 +46,7 @@ choices! {
 impl Format {
     /// The format's conventions as a file of conventions, with the source of its names in comments.
     pub fn file(self) -> &'static str {
-        match self {
-            Format::Phyphox => include_str!("../../../formats/phyphox.toml"),
-            Format::SensorLogger => include_str!("../../../formats/sensor-logger.toml"),
-            Format::SensorLoggerIos => include_str!("../../../formats/sensor-logger-ios.toml"),
-            Format::SensorLog => include_str!("../../../formats/sensorlog.toml"),
-            Format::AndroSensor => include_str!("../../../formats/androsensor.toml"),
-            Format::RaceChrono => include_str!("../../../formats/racechrono.toml"),
-            Format::Aim => include_str!("../../../formats/aim.toml"),
-            Format::Motec => include_str!("../../../formats/motec.toml"),
-            Format::Vbox => include_str!("../../../formats/vbox.toml"),
-            Format::IRacing => include_str!("../../../formats/iracing.toml"),
-            Format::CarSim => include_str!("../../../formats/carsim.toml"),
-            Format::CarMaker => include_str!("../../../formats/carmaker.toml"),
-            Format::Px4 => include_str!("../../../formats/px4.toml"),
-        }
+        FILES[self as usize]
     }
 
     /// Name of the logger.

@@ -5,40 +5,10 @@ use crate::recording::message::{given, quoted};
 /// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
 const LARGEST: f64 = 1e30;
 
-/// Words for a value that is missing, in lower case.
-const MISSING: [&str; 31] = [
-    "",
-    "na",
-    "n/a",
-    "n.a.",
-    "#n/a",
-    "#na",
-    "<na>",
-    "nan",
-    "-nan",
-    "+nan",
-    "nan(ind)",
-    "-nan(ind)",
-    "1.#ind",
-    "-1.#ind",
-    "1.#qnan",
-    "-1.#qnan",
-    "1.#nan",
-    "nat",
-    "null",
-    "(null)",
-    "<null>",
-    "#null!",
-    "\\n",
-    "none",
-    "nil",
-    "missing",
-    "invalid",
-    "unavailable",
-    "#value!",
-    "#div/0!",
-    "#num!",
-];
+/// Words for a value that is missing, in lower case; an empty field is missing, too.
+const MISSING: &str = "na n/a n.a. #n/a #na <na> nan -nan +nan nan(ind) -nan(ind) 1.#ind -1.#ind 1.#qnan -1.#qnan \
+    1.#nan nat null (null) <null> #null! \\n none nil missing invalid unavailable #value! \
+    #div/0! #num!";
 
 /// Parses numbers that all have the same decimal mark, and the same sign between thousands.
 #[derive(Default)]
@@ -154,7 +124,8 @@ fn remedy() -> String {
 pub fn is_empty(field: Option<&str>) -> bool {
     field.is_none_or(|field| {
         let field = field.trim();
-        MISSING.iter().any(|word| field.eq_ignore_ascii_case(word)) || field.chars().all(|c| "-–—?*.".contains(c))
+        MISSING.split_whitespace().any(|word| field.eq_ignore_ascii_case(word))
+            || field.chars().all(|c| "-–—?*.".contains(c))
     })
 }
 
