@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use moris_analysis::recording::Recording;
-use moris_analysis::recording::felt::{FeltTable, Part};
+use moris_analysis::recording::felt::{FORCE, FeltTable, LEGS, Names, POSE, RATE};
 use moris_simulation::foreign::ForeignMotion;
 use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
@@ -11,64 +11,46 @@ use pyo3::types::PyList;
 
 use crate::arrays::{numbers, values, wrong_shape};
 use crate::error;
+use crate::setup::Given;
 
 /// The motion of `felt_force`, `felt_rate`, `pose` and `legs`, and sentences about interpolations.
 ///
 /// # Errors
 /// `RecordingError`: a part has another shape than the recording needs, or no such columns.
-pub fn motion(
-    py: Python,
-    parts: &[Option<Bound<PyAny>>; 4],
-    recording: &Recording,
-) -> PyResult<(ForeignMotion, Vec<String>)> {
-    let [force, rate, pose, legs] = parts;
+pub fn motion(parts: &[Option<Bound<PyAny>>; 4], recording: &Recording) -> PyResult<(ForeignMotion, Vec<String>)> {
+    let [force, rate, pose, legs] = parts.each_ref().map(Option::as_ref);
     let mut notes = Vec::new();
-    let mut of_table = |part: Part, given: &Bound<PyAny>| -> PyResult<Option<ForeignMotion>> {
-        let refused = |reason: String| error::recording(py, reason);
-        let table = if given.hasattr("__fspath__")? {
-            let file: PathBuf = given.extract()?;
-            FeltTable::read(&file).map_err(|reason| refused(reason.to_string()))?
-        } else if is_table(given)? {
-            let columns: Vec<(String, Bound<PyAny>)> = given.extract()?;
-            let column =
-                |(title, array): (String, Bound<PyAny>)| Ok((title.clone(), values(&array, &title, None, None)?));
-            let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
-            FeltTable::of_columns("", &columns).map_err(|reason| refused(reason.to_string()))?
-        } else {
-            return Ok(None);
-        };
-        let prefix = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
-        let (motion, of_part) = table.part(part, recording).map_err(|reason| refused(format!("{prefix}{reason}")))?;
-        notes.extend(of_part);
-        Ok(Some(motion))
+    let motion = ForeignMotion {
+        force: part(force, &FORCE, recording, &mut notes)?,
+        rate: part(rate, &RATE, recording, &mut notes)?,
+        pose: part(pose, &POSE, recording, &mut notes)?,
+        legs: part(legs, &LEGS, recording, &mut notes)?,
     };
-    let samples = recording.inputs().len();
-    let mut motion = ForeignMotion::default();
-    if let Some(given) = force {
-        motion.force = match of_table(Part::Force, given)? {
-            Some(part) => part.force,
-            None => Some(rows(given, "felt_force", samples)?),
-        };
-    }
-    if let Some(given) = rate {
-        motion.rate = match of_table(Part::Rate, given)? {
-            Some(part) => part.rate,
-            None => Some(rows(given, "felt_rate", samples)?),
-        };
-    }
-    if let Some(given) = pose {
-        motion.pose = match of_table(Part::Pose, given)? {
-            Some(part) => part.pose,
-            None => Some(rows(given, "pose", samples)?),
-        };
-    }
-    if let Some(given) = legs {
-        motion.legs = match of_table(Part::Legs, given)? {
-            Some(part) => part.legs,
-            None => Some(rows(given, "legs", samples)?),
-        };
-    }
     Ok((motion, notes))
+}
+
+/// One quantity of the motion: from a file, a table of columns, or an array with a row a sample.
+fn part<const N: usize>(
+    given: Given,
+    names: &Names<N>,
+    recording: &Recording,
+    notes: &mut Vec<String>,
+) -> PyResult<Option<Vec<[f64; N]>>> {
+    let Some(given) = given else { return Ok(None) };
+    let refused = |reason: String| error::recording(given.py(), reason);
+    let table = if given.hasattr("__fspath__")? {
+        let file: PathBuf = given.extract()?;
+        FeltTable::read(&file).map_err(|reason| refused(reason.to_string()))?
+    } else if is_table(given)? {
+        let columns: Vec<(String, Bound<PyAny>)> = given.extract()?;
+        let column = |(title, array): (String, Bound<PyAny>)| Ok((title.clone(), values(&array, &title, None, None)?));
+        let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
+        FeltTable::of_columns("", &columns).map_err(|reason| refused(reason.to_string()))?
+    } else {
+        return rows(given, names.argument, recording.inputs().len()).map(Some);
+    };
+    let prefix = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
+    table.part(names, recording, notes).map(Some).map_err(|reason| refused(format!("{prefix}{reason}")))
 }
 
 /// True for a list of pairs of name and array.

@@ -94,8 +94,7 @@ impl PySimulation {
         });
         let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
         if bound {
-            outcome.bounds =
-                py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
+            outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
         Ok(PySimulation { recording, outcome, judged: None })
     }
@@ -120,13 +119,12 @@ impl PySimulation {
             Some([file, map]) => py
                 .detach(|| WashoutFmu::with_map(&file, &map)?.motion(&recording))
                 .map_err(|reason| error::recording(py, format!("{}: {reason:#}", file.display())))?,
-            None => judged::motion(py, &parts, &recording)?,
+            None => judged::motion(&parts, &recording)?,
         };
         let outcome = py.detach(|| Outcome::foreign(&recording, &setup, name, &motion, notes.clone()));
         let mut outcome = outcome.map_err(|reason| error::recording(py, reason.to_string()))?;
         if bound {
-            outcome.bounds =
-                py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
+            outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
         Ok(PySimulation { recording, outcome, judged: Some((motion, notes)) })
     }
@@ -231,8 +229,7 @@ impl PySimulation {
         };
         let mut outcome = outcome.map_err(|_| refused())?;
         if has_bounds {
-            outcome.bounds =
-                py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
+            outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
         Ok(PySimulation { recording: Arc::clone(&recording.inner), outcome, judged })
     }
@@ -292,6 +289,10 @@ fn check_learning(setup: &Setup, recording: &Recording, preview: f64, learn: boo
     }
 }
 
+fn bounds_of(py: Python, simulation: &Simulation) -> PyResult<Axes<Option<AxisBound>>> {
+    py.detach(|| bounds::bounds(simulation)).map_err(|reason| error::bound(py, &reason))
+}
+
 fn measure(row: Row) -> Measure {
     (row.subject, row.name, row.value, row.unit, row.definition, row.source)
 }
@@ -312,8 +313,7 @@ pub fn bound<'py>(
     let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
     let recording = &recording.inner;
     let simulation = Simulation::without_outputs(&recording.manoeuvre, &recording.parameters(&parameters));
-    let bounds: Axes<Option<AxisBound>> =
-        py.detach(|| bounds::bounds(&simulation)).map_err(|reason| error::bound(py, &reason))?;
+    let bounds = bounds_of(py, &simulation)?;
     let times = simulation.times();
     let of = |bound: &Option<AxisBound>| {
         let AxisBound { bound: best, .. } = bound.as_ref()?;

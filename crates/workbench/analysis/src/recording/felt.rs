@@ -13,11 +13,16 @@ use super::message::RecordingError;
 use super::read::{Sheet, source};
 
 /// Names of the columns of a quantity, each as this project's outputs have it, then shorter.
-struct Names<const N: usize> {
-    argument: &'static str,
+pub struct Names<const N: usize> {
+    /// The argument that gives the quantity.
+    pub argument: &'static str,
     sets: &'static [[&'static str; N]],
     dimensions: [Kind; N],
+    of: fn(&FeltTable) -> &Series<N>,
 }
+
+/// A row for each sample; none if the table has no such columns.
+type Series<const N: usize> = Option<Vec<[f64; N]>>;
 
 /// Dimension of a column.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +51,8 @@ impl Kind {
     }
 }
 
-const FORCE: Names<3> = Names {
+/// Felt specific force.
+pub const FORCE: Names<3> = Names {
     argument: "felt_force",
     sets: &[
         ["rider.specificForce.x", "rider.specificForce.y", "rider.specificForce.z"],
@@ -54,13 +60,17 @@ const FORCE: Names<3> = Names {
         ["fx", "fy", "fz"],
     ],
     dimensions: [Kind::Of(Dimension::Force); 3],
+    of: |table| &table.force,
 };
-const RATE: Names<3> = Names {
+/// Felt angular velocity.
+pub const RATE: Names<3> = Names {
     argument: "felt_rate",
     sets: &[["rider.angularVelocity.x", "rider.angularVelocity.y", "rider.angularVelocity.z"], ["wx", "wy", "wz"]],
     dimensions: [Kind::Of(Dimension::Rate); 3],
+    of: |table| &table.rate,
 };
-const POSE: Names<6> = Names {
+/// Poses of the platform.
+pub const POSE: Names<6> = Names {
     argument: "pose",
     sets: &[
         [
@@ -81,8 +91,10 @@ const POSE: Names<6> = Names {
         Kind::Of(Dimension::Angle),
         Kind::Of(Dimension::Angle),
     ],
+    of: |table| &table.pose,
 };
-const LEGS: Names<6> = Names {
+/// Lengths of the actuators.
+pub const LEGS: Names<6> = Names {
     argument: "legs",
     sets: &[
         [
@@ -96,23 +108,11 @@ const LEGS: Names<6> = Names {
         ["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"],
     ],
     dimensions: [Kind::Length; 6],
+    of: |table| &table.legs,
 };
 
 /// Spellings of units of length, and their factors to SI.
 const LENGTHS: [(&str, f64); 4] = [("m", 1.0), ("dm", 0.1), ("cm", 0.01), ("mm", 1e-3)];
-
-/// A part of a motion, by the argument that gives it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// `felt_force`
-    Force,
-    /// `felt_rate`
-    Rate,
-    /// `pose`
-    Pose,
-    /// `legs`
-    Legs,
-}
 
 /// The columns of such a table, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -122,13 +122,13 @@ pub struct FeltTable {
     /// Times \[s\]; none if the table has no times.
     pub time: Option<Vec<f64>>,
     /// Felt specific force.
-    pub force: Option<Vec<[f64; 3]>>,
+    pub force: Series<3>,
     /// Felt angular velocity.
-    pub rate: Option<Vec<[f64; 3]>>,
+    pub rate: Series<3>,
     /// Position, then roll, pitch, yaw.
-    pub pose: Option<Vec<[f64; 6]>>,
+    pub pose: Series<6>,
     /// Lengths of the actuators.
-    pub legs: Option<Vec<[f64; 6]>>,
+    pub legs: Series<6>,
     /// Titles of all columns.
     pub titles: Vec<String>,
 }
@@ -214,40 +214,25 @@ impl FeltTable {
         }
         let mut notes = Vec::new();
         let motion = ForeignMotion {
-            force: self.placed(FORCE.argument, &self.force, recording, &mut notes)?,
-            rate: self.placed(RATE.argument, &self.rate, recording, &mut notes)?,
-            pose: self.placed(POSE.argument, &self.pose, recording, &mut notes)?,
-            legs: self.placed(LEGS.argument, &self.legs, recording, &mut notes)?,
+            force: self.placed(&FORCE, recording, &mut notes)?,
+            rate: self.placed(&RATE, recording, &mut notes)?,
+            pose: self.placed(&POSE, recording, &mut notes)?,
+            legs: self.placed(&LEGS, recording, &mut notes)?,
         };
         Ok((motion, notes))
     }
 
-    /// One part of the motion alone, and sentences about interpolations.
+    /// One quantity of the motion alone; adds sentences about interpolations to `notes`.
     ///
     /// # Errors
     /// The table has no such columns, or as [`FeltTable::motion`].
-    pub fn part(&self, part: Part, recording: &Recording) -> Result<(ForeignMotion, Vec<String>), String> {
-        let mut notes = Vec::new();
-        let none = ForeignMotion::default();
-        let motion = match part {
-            Part::Force => {
-                let force = self.placed(FORCE.argument, &self.force, recording, &mut notes)?;
-                ForeignMotion { force: Some(force.ok_or_else(|| self.without(&FORCE))?), ..none }
-            }
-            Part::Rate => {
-                let rate = self.placed(RATE.argument, &self.rate, recording, &mut notes)?;
-                ForeignMotion { rate: Some(rate.ok_or_else(|| self.without(&RATE))?), ..none }
-            }
-            Part::Pose => {
-                let pose = self.placed(POSE.argument, &self.pose, recording, &mut notes)?;
-                ForeignMotion { pose: Some(pose.ok_or_else(|| self.without(&POSE))?), ..none }
-            }
-            Part::Legs => {
-                let legs = self.placed(LEGS.argument, &self.legs, recording, &mut notes)?;
-                ForeignMotion { legs: Some(legs.ok_or_else(|| self.without(&LEGS))?), ..none }
-            }
-        };
-        Ok((motion, notes))
+    pub fn part<const N: usize>(
+        &self,
+        names: &Names<N>,
+        recording: &Recording,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<[f64; N]>, String> {
+        self.placed(names, recording, notes)?.ok_or_else(|| self.without(names))
     }
 
     fn without<const N: usize>(&self, names: &Names<N>) -> String {
@@ -257,14 +242,14 @@ impl FeltTable {
 
     fn placed<const N: usize>(
         &self,
-        argument: &'static str,
-        series: &Option<Vec<[f64; N]>>,
+        names: &Names<N>,
         recording: &Recording,
         notes: &mut Vec<String>,
-    ) -> Result<Option<Vec<[f64; N]>>, String> {
+    ) -> Result<Series<N>, String> {
+        let series = (names.of)(self);
         let (Some(series), Some(time)) = (series, &self.time) else { return Ok(series.clone()) };
         let samples = recording.inputs().len();
-        let placed = on_samples(argument, time, series, recording.start, recording.step(), samples);
+        let placed = on_samples(names.argument, time, series, recording.start, recording.step(), samples);
         let (series, note) = placed.map_err(|reason| reason.to_string())?;
         notes.extend(note);
         Ok(Some(series))
