@@ -2,12 +2,14 @@
 
 import csv
 import os
+import re
 import subprocess
 from pathlib import Path
 
 from conftest import ROOT
 
-FMU = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu")) / "MorisWashout.fmu"
+FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
+FMU = FMUS / "MorisWashout.fmu"
 MAP = ROOT / "examples" / "washout-map.toml"
 MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]
 
@@ -56,3 +58,40 @@ def test_the_command_compares_an_fmu_and_says_what_is_wrong(tmp_path):
     assert done.returncode == 1 and "no.fmu" in done.stderr
     done = moris(*simulate, FMU)
     assert done.returncode == 2 and "--map" in done.stderr
+
+
+def with_elements(text):
+    """The map with the elements of array variables: `x` of three is `[1]`."""
+    for places in ("xyz", ("roll", "pitch", "yaw")):
+        for number, place in enumerate(places, 1):
+            text = re.sub(rf'((?:specificForce|angularVelocity|position|orientation))\.{place}"', rf'\1[{number}]"', text)
+    return text
+
+
+def test_an_fmu_of_fmi_3_is_stepped_with_scalars_and_with_arrays(tmp_path):
+    subprocess.run(["python3", ROOT / "examples" / "recording.py", tmp_path / "ride.csv"], check=True)
+    own = written(tmp_path / "map.toml", "strategy = 1")
+    # It takes no slopes: each input is held over a step.
+    own.write_text("step = 0.001\n" + own.read_text())
+    arrays = tmp_path / "arrays.toml"
+    arrays.write_text(with_elements(own.read_text()))
+    assert arrays.read_text().count("[3]") == 5
+    simulate = ["simulate", tmp_path / "ride.csv", "--no-bound", "--strategy", "classical", "--report", tmp_path, "--washout"]
+    for name, file in (("MorisWashout.fmi3", own), ("MorisWashout.fmi3.arrays", arrays)):
+        done = moris(*simulate, FMUS / f"{name}.fmu", "--map", file)
+        assert done.returncode == 0, done.stderr
+    ours, scalars, vectors = (
+        rows(tmp_path / f"ride.{name}outputs.csv") for name in ("", "MorisWashout.fmi3.", "MorisWashout.fmi3.arrays.")
+    )
+    assert scalars == vectors
+    poses = [name for name in ours[0] if name.startswith(("platform.position", "platform.orientation"))]
+    apart = max(abs(float(a[name]) - float(b[name])) for a, b in zip(ours, scalars) for name in poses)
+    moved = max(abs(float(a[name]) - float(ours[0][name])) for a in ours for name in poses)
+    assert len(ours) == len(scalars) and moved > 0.05 and apart < 0.02 * moved, (apart, moved)
+
+    done = moris(*simulate, FMUS / "MorisWashout.fmi3.arrays.fmu", "--map", own)
+    assert done.returncode == 1 and "vehicle.specificForce" in done.stderr
+    whole = written(tmp_path / "whole.toml")
+    whole.write_text(whole.read_text().replace('"vehicle.specificForce.x"', '"vehicle.specificForce"'))
+    done = moris(*simulate, FMUS / "MorisWashout.fmi3.arrays.fmu", "--map", whole)
+    assert done.returncode == 1 and '"vehicle.specificForce[1]"' in done.stderr, done.stderr

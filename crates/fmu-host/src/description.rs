@@ -46,8 +46,25 @@ pub struct Declaration {
     pub unit: Option<String>,
     /// The element that declares it, such as Real or Float64.
     pub element: String,
+    /// Sizes of an array of FMI 3.0; of a size that a parameter sets, none. Empty for a single
+    /// number.
+    pub dimensions: Vec<Option<usize>>,
+}
+
+impl Declaration {
     /// True for an array of FMI 3.0.
-    pub is_array: bool,
+    pub fn is_array(&self) -> bool {
+        !self.dimensions.is_empty()
+    }
+}
+
+/// An element of an array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Element {
+    /// Its place in the array, row by row.
+    pub index: usize,
+    /// Length of the array.
+    pub length: usize,
 }
 
 /// The parts of modelDescription.xml that a host needs.
@@ -63,7 +80,30 @@ pub(crate) struct Description {
     pub declarations: HashMap<String, Declaration>,
 }
 
+/// Elements of an array that a host gets and sets.
+const LONGEST: usize = 4096;
+
 impl Description {
+    /// A variable by name. `name[2]` and `name[2,3]` are elements of an array
+    /// `name`, counted from 1.
+    pub fn find(&self, name: &str) -> Option<(Variable, &Declaration, Option<Element>)> {
+        let named = |name: &str| self.variables.get(name).copied().zip(self.declarations.get(name));
+        if let Some((variable, declaration)) = named(name) {
+            return Some((variable, declaration, None));
+        }
+        let (array, places) = name.strip_suffix(']')?.rsplit_once('[')?;
+        let (variable, declaration) = named(array)?;
+        let sizes: Vec<usize> = declaration.dimensions.iter().copied().collect::<Option<_>>()?;
+        let places: Vec<usize> = places.split(',').map(|place| place.trim().parse().ok()).collect::<Option<_>>()?;
+        let is_inside = places.iter().zip(&sizes).all(|(place, size)| (1..=*size).contains(place));
+        let length = sizes.iter().try_fold(1, |length: usize, size| length.checked_mul(*size))?;
+        if places.len() != sizes.len() || !is_inside || length > LONGEST {
+            return None;
+        }
+        let index = places.iter().zip(&sizes).fold(0, |index, (place, size)| index * size + place - 1);
+        Some((variable, declaration, Some(Element { index, length })))
+    }
+
     /// Reads the file's contents.
     pub fn parse(xml: &str) -> Result<Self, HostError> {
         let mut description = Description::default();
@@ -101,7 +141,9 @@ impl Description {
                 }
                 b"Dimension" if description.is_fmi3 => {
                     let declaration = last.as_ref().and_then(|name| description.declarations.get_mut(name));
-                    declaration.into_iter().for_each(|declaration: &mut Declaration| declaration.is_array = true);
+                    if let Some(declaration) = declaration {
+                        declaration.dimensions.push(optional(&element, "start")?.and_then(|size| size.parse().ok()));
+                    }
                 }
                 name if description.is_fmi3 => {
                     let Some(kind) = kind3(name) else { continue };
@@ -111,7 +153,7 @@ impl Description {
                         causality: causality(&element)?,
                         unit: unit(&element, &units)?,
                         element: element_name,
-                        is_array: false,
+                        dimensions: Vec::new(),
                     };
                     description.variables.insert(name.clone(), variable);
                     description.declarations.insert(name.clone(), declaration);
@@ -126,7 +168,7 @@ impl Description {
                         continue;
                     };
                     let unit = unit(&element, &units)?;
-                    let declaration = Declaration { causality, unit, element: text(name), is_array: false };
+                    let declaration = Declaration { causality, unit, element: text(name), dimensions: Vec::new() };
                     description.declarations.insert(variable.clone(), declaration);
                     description.variables.insert(variable, Variable { value_reference, kind });
                 }
@@ -255,9 +297,47 @@ mod tests {
               </ModelVariables>
             </fmiModelDescription>"#;
         let declarations = Description::parse(xml).unwrap().declarations;
-        assert_eq!((declarations["x"].unit.as_deref(), declarations["x"].is_array), (Some("mm"), false));
-        assert!(declarations["legs"].is_array && declarations["legs"].element == "Float32");
+        assert_eq!((declarations["x"].unit.as_deref(), declarations["x"].is_array()), (Some("mm"), false));
+        assert!(declarations["legs"].is_array() && declarations["legs"].element == "Float32");
         assert_eq!(declarations["mode"].causality, Causality::Parameter);
+    }
+
+    #[test]
+    fn elements_of_arrays_are_found_by_their_places() {
+        let xml = r#"<fmiModelDescription fmiVersion="3.0" instantiationToken="1">
+              <CoSimulation modelIdentifier="A"/>
+              <ModelVariables>
+                <Float64 name="legs" valueReference="2"><Dimension start="6"/></Float64>
+                <Float64 name="base" valueReference="3"><Dimension start="6"/><Dimension start="3"/></Float64>
+                <Float64 name="long" valueReference="4"><Dimension start="100000000000"/><Dimension start="3"/></Float64>
+                <Float64 name="open" valueReference="5"><Dimension valueReference="9"/></Float64>
+                <Float64 name="alone[1]" valueReference="6"/>
+              </ModelVariables>
+            </fmiModelDescription>"#;
+        let description = Description::parse(xml).unwrap();
+        let found = |name: &str| {
+            let (variable, _, element) = description.find(name)?;
+            Some((variable.value_reference, element.map(|element| (element.index, element.length))))
+        };
+        assert_eq!(found("legs[1]"), Some((2, Some((0, 6)))));
+        assert_eq!(found("legs[6]"), Some((2, Some((5, 6)))));
+        assert_eq!(found("base[2,3]"), Some((3, Some((5, 18)))));
+        assert_eq!(found("base[6, 1]"), Some((3, Some((15, 18)))));
+        assert_eq!((found("alone[1]"), found("legs")), (Some((6, None)), Some((2, None))));
+        for none in [
+            "legs[0]",
+            "legs[7]",
+            "legs[1,1]",
+            "base[4]",
+            "base[7,1]",
+            "long[1,1]",
+            "open[1]",
+            "legs[",
+            "legs[]",
+            "[1]",
+        ] {
+            assert_eq!(found(none), None, "{none}");
+        }
     }
 
     #[test]

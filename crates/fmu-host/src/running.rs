@@ -6,7 +6,7 @@ use std::ptr::null;
 
 use tempfile::TempDir;
 
-use crate::description::{Causality, Declaration, Description};
+use crate::description::{Causality, Declaration, Description, Element};
 use crate::messages::{self, Messages, log3};
 use crate::{Fmu, HostError, Instance, Status, Variable, VariableKind, archive, fmi3};
 
@@ -63,7 +63,8 @@ impl Running {
     /// # Errors
     /// The FMU rejects the slope, or there is no such variable.
     pub fn set_slope(&mut self, name: &str, slope: f64) -> Result<(), HostError> {
-        let variable = self.variable(name).filter(|variable| variable.kind == VariableKind::Real);
+        let variable = self.number(name).map(|(variable, ..)| variable);
+        let variable = variable.filter(|variable| variable.kind == VariableKind::Real);
         let (Running::Fmi2(running), Some(variable)) = (self, variable) else {
             return Err(HostError::NoSuchVariable(name.into()));
         };
@@ -87,10 +88,15 @@ impl Running {
         matches!(self, Running::Fmi2(running) if running.description.interpolates_inputs)
     }
 
-    /// The declaration of a variable that can be got or set as a number.
+    /// The declaration of a variable that can be got or set as a number, or of the array with this
+    /// element.
     pub fn declaration(&self, name: &str) -> Option<&Declaration> {
-        self.variable(name)?;
-        self.description().declarations.get(name)
+        self.number(name).map(|(_, declaration, _)| declaration)
+    }
+
+    /// True if the name is that of a whole array, which is no number.
+    pub fn is_array(&self, name: &str) -> bool {
+        self.number(name).is_some_and(|(_, declaration, element)| declaration.is_array() && element.is_none())
     }
 
     /// Names of the variables of this role, sorted.
@@ -102,8 +108,8 @@ impl Running {
         names
     }
 
-    fn variable(&self, name: &str) -> Option<Variable> {
-        self.description().variables.get(name).copied().filter(|variable| variable.kind != VariableKind::String)
+    fn number(&self, name: &str) -> Option<(Variable, &Declaration, Option<Element>)> {
+        self.description().find(name).filter(|(variable, ..)| variable.kind != VariableKind::String)
     }
 
     fn description(&self) -> &Description {
@@ -216,58 +222,67 @@ impl Running3 {
         }
     }
 
-    /// Value reference, kind, and the type's name.
-    fn find(&self, name: &str) -> Result<([u32; 1], VariableKind, &str), HostError> {
-        match (self.description.variables.get(name), self.description.declarations.get(name)) {
-            (Some(variable), Some(declaration)) if variable.kind != VariableKind::String && !declaration.is_array => {
-                Ok(([variable.value_reference], variable.kind, &declaration.element))
+    /// Value reference, kind, the type's name, and the element of an array.
+    fn find(&self, name: &str) -> Result<([u32; 1], VariableKind, &str, Element), HostError> {
+        match self.description.find(name) {
+            Some((variable, declaration, element))
+                if variable.kind != VariableKind::String && (element.is_some() || !declaration.is_array()) =>
+            {
+                let element = element.unwrap_or(Element { index: 0, length: 1 });
+                Ok(([variable.value_reference], variable.kind, &declaration.element, element))
             }
             _ => Err(HostError::NoSuchVariable(name.into())),
         }
     }
 
+    /// Sets a variable. Of an array the other elements stay as they are.
     fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
-        let (reference, kind, element) = self.find(name)?;
+        let (reference, kind, element, Element { index, length }) = self.find(name)?;
         let (instance, api, reference) = (self.instance, self.library.api(), reference.as_ptr());
+        let rounded = if kind == VariableKind::Real { value } else { value.round() };
+        macro_rules! set {
+            ($get:ident $set:ident $type:ty, $value:expr) => {{
+                let mut values = vec![<$type>::default(); length];
+                let got = if length > 1 { (api.$get)(instance, reference, 1, values.as_mut_ptr(), length) } else { 0 };
+                values[index] = $value;
+                let set = (api.$set)(instance, reference, 1, values.as_ptr(), length);
+                (got, set)
+            }};
+        }
         macro_rules! setters {
             ($($element:literal $get:ident $set:ident $type:ty;)+) => {
                 match element {
-                    $( $element => {
-                        let rounded = if kind == VariableKind::Real { value } else { value.round() } as $type;
-                        (api.$set)(instance, reference, 1, &raw const rounded, 1)
-                    } )+
-                    "Boolean" => (api.set_boolean)(instance, reference, 1, &u8::from(value != 0.0), 1),
-                    _ => (api.set_float64)(instance, reference, 1, &raw const value, 1),
+                    $( $element => set!($get $set $type, rounded as $type), )+
+                    "Boolean" => set!(get_boolean set_boolean u8, u8::from(value != 0.0)),
+                    _ => set!(get_float64 set_float64 f64, value),
                 }
             };
         }
-        // SAFETY: the FMU's instance, and one value for one reference.
-        let status = unsafe { numbers!(setters) };
-        self.expect_ok("fmi3Set", status)
+        // SAFETY: the FMU's instance, and as many values as the one reference has.
+        let (got, set) = unsafe { numbers!(setters) };
+        self.expect_ok("fmi3Get", got)?;
+        self.expect_ok("fmi3Set", set)
     }
 
     fn get(&mut self, name: &str) -> Result<f64, HostError> {
-        let (reference, _, element) = self.find(name)?;
+        let (reference, _, element, Element { index, length }) = self.find(name)?;
         let (instance, api, reference) = (self.instance, self.library.api(), reference.as_ptr());
+        macro_rules! get {
+            ($get:ident $type:ty) => {{
+                let mut values = vec![<$type>::default(); length];
+                ((api.$get)(instance, reference, 1, values.as_mut_ptr(), length), values[index] as f64)
+            }};
+        }
         macro_rules! getters {
             ($($element:literal $get:ident $set:ident $type:ty;)+) => {
                 match element {
-                    $( $element => {
-                        let mut value = <$type>::default();
-                        ((api.$get)(instance, reference, 1, &raw mut value, 1), value as f64)
-                    } )+
-                    "Boolean" => {
-                        let mut value = 0;
-                        ((api.get_boolean)(instance, reference, 1, &raw mut value, 1), f64::from(value))
-                    }
-                    _ => {
-                        let mut value = 0.0;
-                        ((api.get_float64)(instance, reference, 1, &raw mut value, 1), value)
-                    }
+                    $( $element => get!($get $type), )+
+                    "Boolean" => get!(get_boolean u8),
+                    _ => get!(get_float64 f64),
                 }
             };
         }
-        // SAFETY: the FMU's instance, and one value for one reference.
+        // SAFETY: the FMU's instance, and places for as many values as the one reference has.
         let (status, value) = unsafe { numbers!(getters) };
         self.expect_ok("fmi3Get", status)?;
         Ok(value)

@@ -177,7 +177,7 @@ fn unit(running: &Running, place: &Place, kind: Kind, causality: Causality) -> R
     let Some(declaration) = running.declaration(name) else {
         bail!("the FMU has no variable {name} that is a number; {}", listed(running, causality));
     };
-    ensure!(!declaration.is_array, "{name} is an array; the map needs variables of one number");
+    ensure!(!running.is_array(name), "{name} is an array; the map needs its elements, such as \"{name}[1]\"");
     let declared = declaration.unit.as_deref().filter(|unit| *unit != "1");
     let of_fmu = declared.map(|unit| (unit, kind.factor(unit)));
     let of_map = match &place.unit {
