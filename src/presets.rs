@@ -1,4 +1,4 @@
-//! Parameter sets shipped beside the default, as names and values of the interface's variables.
+//! Parameter sets shipped beside the default: files of `presets/`, in the format that users write.
 //!
 //! ```
 //! use moris_washout::presets::{self, CLASSICAL};
@@ -10,9 +10,9 @@
 //! # Ok::<(), moris_washout::ParameterError>(())
 //! ```
 
-use moris_interface::{Causality, Model, SlotModel};
+use moris_interface::{Causality, Kind, Model, SlotModel};
 
-use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, StrategyKind, TiltTracking};
+use crate::interface::Parameters;
 use crate::washout::Washout;
 
 /// The set of the paper's runs.
@@ -25,7 +25,7 @@ use crate::washout::Washout;
 ///
 /// It is made for smooth rides. Where rates vibrate, the platform turns with them and
 /// shakes the rider's head.
-pub const PAPER: &[(&str, f64)] = &joined::<{ OF_THE_PAPER.len() + QUICK_TILT.len() }>(OF_THE_PAPER, QUICK_TILT);
+pub const PAPER: &str = include_str!("../presets/paper.toml");
 
 /// For a ride of small, quick motions at constant speed, such as in a truck's wake
 /// (the paper's second run).
@@ -36,179 +36,89 @@ pub const PAPER: &[(&str, f64)] = &joined::<{ OF_THE_PAPER.len() + QUICK_TILT.le
 ///
 /// Not for longitudinal runs: accelerations that last would drive the platform
 /// into its safety units.
-pub const SMALL_MOTIONS: &[(&str, f64)] =
-    &joined::<{ OF_THE_PAPER.len() + LONG_TRAVEL.len() }>(OF_THE_PAPER, LONG_TRAVEL);
-
-/// Common part of the sets for the paper's runs.
-const OF_THE_PAPER: &[(&str, f64)] = &[
-    ("strategy", item(StrategyKind::Classical as i32)),
-    ("splitter.order", 4.0),
-    ("angular.order", 4.0),
-    ("angular.roll.omega1", 1.0),
-    ("angular.pitch.omega1", 1.0),
-    ("angular.yaw.omega1", 1.0),
-    ("scale.angularVelocity.y", 1.0),
-    ("scale.angularVelocity.z", 1.0),
-    ("compensation", item(Compensation::Full as i32)),
-    ("input.rateCutoff", 0.0),
-    ("input.reconstruction", item(Reconstruction::Hold as i32)),
-    ("tilt.rateLimit", 0.052_359_877_559_829_88),
-    ("tilt.accelerationLimit", 0.2),
-    ("tilt.angleLimit", 0.38),
-    ("tilt.tracking", item(TiltTracking::Exact as i32)),
-    ("limit.specificForce.x", 8.0),
-    ("limit.specificForce.y", 8.0),
-    ("softLimit.pace", 0.0),
-];
-
-/// Break frequencies at which tilt reproduces nearly all of an acceleration.
-const QUICK_TILT: &[(&str, f64)] = &[
-    ("splitter.x.omega1", 2.5),
-    ("splitter.y.omega1", 2.5),
-    ("splitter.z.omega1", 2.5),
-    ("splitter.x.zeta1", 1.0),
-    ("splitter.y.zeta1", 1.0),
-    ("splitter.z.zeta1", 1.0),
-    ("splitter.x.omega2", 2.5),
-    ("splitter.y.omega2", 2.5),
-    ("splitter.z.omega2", 2.5),
-    ("splitter.x.zeta2", 1.0),
-    ("splitter.y.zeta2", 1.0),
-    ("splitter.z.zeta2", 1.0),
-    ("scale.angularVelocity.x", 1.0),
-];
-
-/// Break frequencies at which travel reproduces nearly all of an acceleration.
-const LONG_TRAVEL: &[(&str, f64)] = &[
-    ("splitter.x.omega1", 0.35),
-    ("splitter.y.omega1", 0.35),
-    ("splitter.z.omega1", 0.35),
-    ("splitter.x.zeta1", 0.5),
-    ("splitter.y.zeta1", 0.5),
-    ("splitter.z.zeta1", 0.5),
-    ("splitter.x.omega2", 0.35),
-    ("splitter.y.omega2", 0.35),
-    ("splitter.z.omega2", 0.35),
-    ("splitter.x.zeta2", 0.5),
-    ("splitter.y.zeta2", 0.5),
-    ("splitter.z.zeta2", 0.5),
-    ("scale.angularVelocity.x", 0.3),
-];
+pub const SMALL_MOTIONS: &str = include_str!("../presets/small-motions.toml");
 
 /// For motorcycles: the classical strategy with less surge, and with tilt that is small and slow. A
 /// slalom's braking and accelerating at 7 m/s2 then fits.
-pub const MOTORCYCLE: &[(&str, f64)] = &[
-    ("strategy", item(StrategyKind::Classical as i32)),
-    ("splitter.x.omega1", 5.5),
-    ("splitter.x.zeta1", 1.3),
-    ("splitter.x.omega2", 1.3),
-    ("splitter.y.omega1", 1.6),
-    ("splitter.y.zeta1", 1.8),
-    ("splitter.y.omega2", 0.6),
-    ("splitter.z.omega1", 4.0),
-    ("angular.roll.omega1", 0.6),
-    ("angular.pitch.omega1", 0.35),
-    ("angular.yaw.omega1", 0.3),
-    ("scale.specificForce.x", 0.75),
-    ("scale.specificForce.y", 0.9),
-    ("scale.specificForce.z", 0.9),
-    ("scale.angularVelocity.x", 0.28),
-    ("scale.angularVelocity.y", 0.45),
-    ("scale.angularVelocity.z", 0.3),
-    ("input.rateCutoff", 16.0),
-    ("tilt.rateLimit", 0.026),
-    ("tilt.accelerationLimit", 0.14),
-    ("tilt.angleLimit", 0.15),
-];
+pub const MOTORCYCLE: &str = include_str!("../presets/motorcycle.toml");
 
 /// For cars, which turn slowly and sway hard: the classical strategy with less sway and slow tilt.
 /// Roll, pitch and heave go down to a low frequency.
-pub const CAR: &[(&str, f64)] = &[
-    ("strategy", item(StrategyKind::Classical as i32)),
-    ("splitter.x.omega1", 3.0),
-    ("splitter.x.zeta1", 1.3),
-    ("splitter.x.omega2", 0.35),
-    ("splitter.y.omega1", 3.2),
-    ("splitter.y.zeta1", 1.8),
-    ("splitter.y.omega2", 1.4),
-    ("splitter.z.omega1", 3.0),
-    ("angular.roll.omega1", 0.35),
-    ("angular.pitch.omega1", 0.5),
-    ("angular.yaw.omega1", 0.12),
-    ("scale.specificForce.x", 0.9),
-    ("scale.specificForce.y", 0.6),
-    ("scale.specificForce.z", 0.9),
-    ("scale.angularVelocity.x", 0.25),
-    ("scale.angularVelocity.y", 0.3),
-    ("scale.angularVelocity.z", 0.4),
-    ("input.rateCutoff", 22.0),
-    ("tilt.rateLimit", 0.033),
-    ("tilt.accelerationLimit", 0.12),
-    ("tilt.angleLimit", 0.165),
-];
+pub const CAR: &str = include_str!("../presets/car.toml");
 
 /// For a ride that ends in an abrupt stop, if the vehicle model gives its speed: tilt and
 /// surge act before it comes.
-pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
+pub const PREACTION: &str = include_str!("../presets/preaction.toml");
 
 /// The classical strategy. The start values of its parameters are made for any kind of motion.
-pub const CLASSICAL: &[(&str, f64)] = &only(StrategyKind::Classical);
+pub const CLASSICAL: &str = include_str!("../presets/classical.toml");
+
 /// The adaptive strategy.
-pub const ADAPTIVE: &[(&str, f64)] = &only(StrategyKind::Adaptive);
+pub const ADAPTIVE: &str = include_str!("../presets/adaptive.toml");
+
 /// The optimal strategy.
-pub const OPTIMAL: &[(&str, f64)] = &only(StrategyKind::Optimal);
+pub const OPTIMAL: &str = include_str!("../presets/optimal.toml");
+
 /// The robust strategy.
-pub const ROBUST: &[(&str, f64)] = &only(StrategyKind::Robust);
+pub const ROBUST: &str = include_str!("../presets/robust.toml");
+
 /// The predictive strategy, which is the start value.
-pub const PREDICTIVE: &[(&str, f64)] = &only(StrategyKind::Predictive);
+pub const PREDICTIVE: &str = include_str!("../presets/predictive.toml");
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
 /// wider, since what comes after is known.
-pub const PREVIEW: &[(&str, f64)] = &joined::<{ PREDICTIVE.len() + FARTHER.len() }>(PREDICTIVE, FARTHER);
+pub const PREVIEW: &str = include_str!("../presets/preview.toml");
 
-/// The limits of force and tilt that a preview allows, since what comes after is known.
-const FARTHER: &[(&str, f64)] = &[
-    ("limit.specificForce.x", 10.0),
-    ("limit.specificForce.y", 10.0),
-    ("tilt.angleLimit", 0.38),
-    ("softLimit.pace", 9.0),
-];
-
-/// The choice of a strategy, and nothing else.
-const fn only(strategy: StrategyKind) -> [(&'static str, f64); 1] {
-    [("strategy", item(strategy as i32))]
+/// Names of a set's variables, and their values as slots hold them: enumerations count from 1.
+///
+/// A line is a comment, or a quoted name and its value.
+///
+/// # Panics
+/// If a line is not that of a parameter and its value.
+pub fn values(set: &str) -> Vec<(&str, f64)> {
+    let is_value = |line: &&str| !line.is_empty() && !line.starts_with('#');
+    let value = |line| {
+        let (name, value) = str::split_once(line, " = ").unwrap_or_else(|| panic!("{line} is no name and value"));
+        (unquoted(name), number(unquoted(name), unquoted(value)))
+    };
+    set.lines().filter(is_value).map(value).collect()
 }
 
-/// The value of an enumeration's item: they count from 1.
-const fn item(index: i32) -> f64 {
-    1.0 + index as f64
+fn unquoted(text: &str) -> &str {
+    text.trim_matches('"')
 }
 
-/// Two sets as one; N is the sum of their lengths.
-pub const fn joined<const N: usize>(
-    first: &[(&'static str, f64)],
-    second: &[(&'static str, f64)],
-) -> [(&'static str, f64); N] {
-    let mut all = [("", 0.0); N];
-    let mut k = 0;
-    while k < N {
-        all[k] = if k < first.len() { first[k] } else { second[k - first.len()] };
-        k += 1;
-    }
-    all
+fn number(name: &str, value: &str) -> f64 {
+    let item = match Washout::IDENTITY.row(slot(name)).kind {
+        Kind::Enumeration(enumeration) => enumeration.items.iter().position(|item| item.name == value),
+        _ => None,
+    };
+    let number = item.map_or_else(|| value.parse().ok(), |item| Some(1.0 + item as f64));
+    number.unwrap_or_else(|| panic!("{name} has no value {value}"))
+}
+
+fn slot(name: &str) -> usize {
+    Washout::IDENTITY.slot(name).unwrap_or_else(|| panic!("{name} is no variable of the washout"))
 }
 
 /// The default parameters with a set's values over them.
 ///
 /// # Panics
 /// If the set names a variable that is not a parameter.
-pub fn parameters(set: &[(&str, f64)]) -> Parameters {
-    let identity = Washout::IDENTITY;
-    let mut slots = vec![0.0; identity.slots.len()];
+pub fn parameters(set: &str) -> Parameters {
+    with(set, &[])
+}
+
+/// The default parameters with a set's values over them, and with these over both.
+///
+/// # Panics
+/// If a name is not that of a parameter.
+pub fn with(set: &str, changed: &[(&str, f64)]) -> Parameters {
+    let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
     Washout::start_slots(&mut slots);
-    for (name, value) in set {
-        let slot = identity.slot(name).unwrap_or_else(|| panic!("{name} is no variable of the washout"));
-        assert_eq!(identity.row(slot).causality, Causality::Parameter, "{name}");
+    for (name, value) in values(set).iter().chain(changed) {
+        let slot = slot(name);
+        assert_eq!(Washout::IDENTITY.row(slot).causality, Causality::Parameter, "{name}");
         slots[slot] = *value;
     }
     Washout::parameters_in(&slots)

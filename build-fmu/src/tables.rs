@@ -5,6 +5,7 @@
 
 use moris_interface::{Causality, Kind, Row};
 use moris_setup::SETS;
+use moris_washout::presets;
 
 use crate::model::{MODELS, MOTORCYCLE, WASHOUT};
 use crate::{FmuModel, Start};
@@ -47,7 +48,7 @@ impl Table {
 fn parameter_sets() -> String {
     let start = Start::own(&WASHOUT);
     let identity = &WASHOUT.functions.identity;
-    let sets = &SETS[1..];
+    let sets: Vec<_> = SETS[1..].iter().map(|(name, set)| (name, presets::values(set))).collect();
     let names: Vec<String> = sets.iter().map(|(name, _)| format!("`{name}`")).collect();
     let mut text =
         line(&[&["variable", "unit", "start"][..], &names.iter().map(String::as_str).collect::<Vec<_>>()].concat());

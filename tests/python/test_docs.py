@@ -47,7 +47,7 @@ DRAWN = {
 SEARCHES = ("docs/response.md", "docs/tuning-by-search.md", "docs/worst-case.md")
 """Pages whose commands simulate hundreds of rides. The tests in Rust run the same commands in a short form."""
 COPIED = ("docs", "examples", "target/fmu")
-LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "src", "tests")
+LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "presets", "src", "tests")
 
 
 @dataclass

@@ -10,8 +10,8 @@ use crate::common::accelerating;
 const STEP: f64 = 0.01;
 
 /// A set's parameters, with the automatic scale on.
-fn automatic(set: &[(&str, f64)]) -> Parameters {
-    presets::parameters(&[set, &[("scale.automatic", 2.0)]].concat())
+fn automatic(set: &str) -> Parameters {
+    presets::with(set, &[("scale.automatic", 2.0)])
 }
 
 /// A force that alternates in sway and a little in surge \[m/s2\].

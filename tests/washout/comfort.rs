@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::common::{G, accelerating, ride_between};
 
 /// The sets.
-const SETS: [(&str, &[(&str, f64)]); 7] = [
+const SETS: [(&str, &str); 7] = [
     ("classical", presets::CLASSICAL),
     ("motorcycle", presets::MOTORCYCLE),
     ("car", presets::CAR),
@@ -123,7 +123,7 @@ fn engaging_and_disengaging_are_felt_without_a_jerk() {
 fn soft_limits_that_do_not_act_change_no_bit() {
     for strategy in [1.0, 2.0, 3.0, 4.0, 5.0] {
         let calm: Force = |t| [0.4 * (0.9 * t).sin(), 0.3 * (1.3 * t).sin(), 0.2 * (2.0 * t).sin()];
-        let with = |pace| presets::parameters(&[("strategy", strategy), ("softLimit.pace", pace)]);
+        let with = |pace| presets::with("", &[("strategy", strategy), ("softLimit.pace", pace)]);
         let (on, off) = (felt(&with(12.0), calm), felt(&with(0.0), calm));
         assert!(on.1.iter().all(|output| !output.soft_limited), "strategy {strategy}");
         assert_eq!(on.1, off.1, "strategy {strategy}");
@@ -133,7 +133,7 @@ fn soft_limits_that_do_not_act_change_no_bit() {
 /// The same ride with and without soft limits: who acts.
 #[test]
 fn soft_limits_act_before_the_hard_ones() {
-    let run = |pace| felt(&presets::parameters(&[("strategy", 3.0), ("softLimit.pace", pace)]), lateral).1;
+    let run = |pace| felt(&presets::with("", &[("strategy", 3.0), ("softLimit.pace", pace)]), lateral).1;
     let (on, off) = (run(5.0), run(0.0));
     assert!(on.iter().any(|output| output.soft_limited));
     assert!(off.iter().any(|output| output.safety_active || output.actuator_limited));

@@ -15,7 +15,7 @@ const STEP: f64 = 0.001;
 const TRAVEL: &[(&str, f64)] = &[("safety.x.positionLimit", 0.45)];
 
 fn preaction(on: bool) -> Parameters {
-    parameters(&[TRAVEL, if on { presets::PREACTION } else { &[] }].concat())
+    parameters(&[TRAVEL, &presets::values(if on { presets::PREACTION } else { "" })].concat())
 }
 
 /// Motion of a vehicle: acceleration \[m/s2\] and speed \[m/s\] at a time \[s\].

@@ -21,10 +21,11 @@ fn every_set_changes_each_of_its_parameters_once_and_can_be_used() {
         (PREVIEW, 4.0),
     ];
     for (set, strategy) in sets {
-        let names: HashSet<_> = set.iter().map(|(name, _)| *name).collect();
-        assert_eq!(names.len(), set.len(), "{names:?}");
+        let values = presets::values(set);
+        let names: HashSet<_> = values.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names.len(), values.len(), "{names:?}");
         let parameters = presets::parameters(set);
-        assert_eq!(parameters, presets::parameters(&[&[("strategy", strategy)], set].concat()));
+        assert_eq!(parameters, presets::with("", &[&[("strategy", strategy)], &values[..]].concat()));
         Washout::new(&parameters).unwrap();
     }
 }

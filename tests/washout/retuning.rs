@@ -13,7 +13,7 @@ const STEP: f64 = 0.001;
 /// The start values with the classical strategy, whose parameters are most of all, and with these
 /// variables changed.
 fn parameters(changed: &[(&str, f64)]) -> Parameters {
-    presets::parameters(&[presets::CLASSICAL, changed].concat())
+    presets::with(presets::CLASSICAL, changed)
 }
 
 /// A washout with these variables changed.

@@ -6,6 +6,7 @@ use std::fs;
 use moris_build_fmu::tables::TABLES;
 use moris_build_fmu::workspace;
 use moris_setup::SETS;
+use moris_washout::presets::values;
 use roxmltree::Document;
 
 fn read(file: &str) -> String {
@@ -64,7 +65,8 @@ fn the_table_of_sets_has_the_values_of_every_set_and_no_others() {
             .map(|row| (code(&row[0]).to_owned(), row[column].parse().unwrap()))
             .collect();
         // A later value of a set overrides an earlier one. Some sets name start values, too.
-        let values: BTreeMap<String, f64> = set.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
+        let values: BTreeMap<String, f64> =
+            values(set).into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
         let differing = values.into_iter().filter(|(name, value)| start(name).0 != *value).collect();
         assert_eq!(printed, differing, "{name}");
     }

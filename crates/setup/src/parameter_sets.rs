@@ -4,12 +4,9 @@ use moris_washout::presets::{
     ADAPTIVE, CAR, CLASSICAL, MOTORCYCLE, OPTIMAL, PAPER, PREACTION, PREDICTIVE, PREVIEW, ROBUST, SMALL_MOTIONS,
 };
 
-/// A parameter set: names and values of variables.
-pub type ParameterSet = &'static [(&'static str, f64)];
-
-/// The parameter sets that are shipped, by the names that users write.
-pub const SETS: [(&str, ParameterSet); 12] = [
-    ("default", &[]),
+/// The texts of the parameter sets that are shipped, by the names that users write.
+pub const SETS: [(&str, &str); 12] = [
+    ("default", ""),
     ("classical", CLASSICAL),
     ("motorcycle", MOTORCYCLE),
     ("car", CAR),

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use moris_bounded_files::TEXT;
 use moris_interface::{Group, Row};
-use moris_washout::{Parameters, check};
+use moris_washout::{Parameters, check, presets};
 
 use crate::named_values::overlaid;
 use crate::names::nearest;
@@ -70,7 +70,7 @@ pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
 /// There is no such set or file, or [`parameter_file::read`] rejects the file.
 pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
     if let Some((_, set)) = SETS.iter().find(|(known, _)| *known == name) {
-        return Ok(set.iter().map(|(variable, value)| ((*variable).to_owned(), *value)).collect());
+        return Ok(presets::values(set).into_iter().map(|(variable, value)| (variable.to_owned(), value)).collect());
     }
     let file = Path::new(name);
     if !file.exists() && file.extension().is_none() {

@@ -23,7 +23,7 @@ pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64
     ensure!(step > 0.0 && step <= run.duration, "the step must be between 0 and {} s, not {step} s", run.duration);
     let references = References::of(fmu)?;
     let mut instance = fmu.instantiate(run.name)?;
-    instance.initialize(parameters.values, Some(run.duration))?;
+    instance.initialize(&parameters.values(), Some(run.duration))?;
 
     let steps = (run.duration / step).round() as usize;
     let mut samples = Vec::with_capacity(steps + 1);

@@ -233,7 +233,7 @@ mod tests {
     const STEP: f64 = 0.004;
 
     fn parameters(strategy: StrategyKind) -> Parameters {
-        presets::parameters(&[("strategy", 1.0 + strategy as i32 as f64), ("solver.maxStep", STEP)])
+        presets::with("", &[("strategy", 1.0 + strategy as i32 as f64), ("solver.maxStep", STEP)])
     }
 
     fn coordinated(parameters: &Parameters) -> Coordinated {

@@ -16,7 +16,7 @@ pub const G: f64 = STANDARD_GRAVITY;
 
 /// The paper's set with these variables changed: what it computes has closed forms.
 pub fn parameters(changed: &[(&str, f64)]) -> Parameters {
-    presets::parameters(&[presets::PAPER, changed].concat())
+    presets::with(presets::PAPER, changed)
 }
 
 /// A washout with these variables changed from the paper's set.

@@ -4,7 +4,7 @@ use std::fs;
 
 use moris_interface::{Group, Kind};
 use moris_setup::parameter_file::{read, write};
-use moris_setup::{NamedValues, Setup, all, changed, load_set, overlaid};
+use moris_setup::{NamedValues, SETS, Setup, all, changed, load_set, overlaid};
 use moris_washout::Parameters;
 use moris_washout::interface::{GravityRemoval, LowPassKind};
 use moris_washout::presets;
@@ -48,9 +48,21 @@ fn only_what_has_changed_can_be_written() {
     let text = write("", &changed(&small), Parameters::ROWS);
     // The set says its values in full, and some are the default's.
     let names = changed(&small);
-    assert!(names.len() > 20 && names.len() < presets::SMALL_MOTIONS.len());
+    assert!(names.len() > 20 && names.len() < presets::values(presets::SMALL_MOTIONS).len());
     assert_eq!(text.matches(" = ").count(), names.len());
     assert_eq!(overlaid(&Parameters::default(), &values(&text)), small);
+}
+
+#[test]
+fn shipped_sets_are_parameter_files() {
+    for (name, text) in SETS {
+        let shipped = load_set(name, Parameters::ROWS).unwrap();
+        let sorted = |mut values: NamedValues| {
+            values.sort_by(|a, b| a.0.cmp(&b.0));
+            values
+        };
+        assert_eq!(sorted(values(text)), sorted(shipped), "{name}");
+    }
 }
 
 #[test]

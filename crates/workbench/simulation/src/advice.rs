@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn who_needs_none_gets_none() {
         let predictive = presets::parameters(presets::PREDICTIVE);
-        let automatic = presets::parameters(&[presets::PREDICTIVE, &[("scale.automatic", 2.0)]].concat());
+        let automatic = presets::with(presets::PREDICTIVE, &[("scale.automatic", 2.0)]);
         let of = |parameters, shape| Advice::of(&slalom(0.3), parameters, 0.0, &shape).unwrap();
         assert_eq!(of(&predictive, inverted(0.01)), None);
         assert_eq!(of(&automatic, inverted(0.1)), None);

@@ -25,7 +25,7 @@ fn plain_filters() -> Instance {
         ("compensation", 1.0),
         ("washoutLocation", 2.0),
     ];
-    instance.initialize(&[presets::PAPER, &parameters].concat(), None).unwrap();
+    instance.initialize(&[&presets::values(presets::PAPER)[..], &parameters].concat(), None).unwrap();
     instance
 }
 

@@ -75,7 +75,7 @@ fn the_second_lap_is_felt_with_at_most_six_tenths_of_the_first_one_s_error() {
 fn the_motorcycle_s_lap_is_felt_better_from_its_second_round_on() {
     let (inputs, samples, begins) = motorcycle::ride(5);
     // As in examples/10_lap.toml.
-    let parameters = presets::parameters(&[presets::PREVIEW, &[("scale.angularVelocity.x", 0.1)]].concat());
+    let parameters = presets::with(presets::PREVIEW, &[("scale.angularVelocity.x", 0.1)]);
     let by_lap = |squares: Vec<f64>| -> Vec<f64> {
         begins.windows(2).map(|ends| rms(&squares[ends[0]..ends[1].min(squares.len())])).collect()
     };
@@ -89,7 +89,7 @@ fn the_motorcycle_s_lap_is_felt_better_from_its_second_round_on() {
 #[test]
 fn the_automatic_scale_is_larger_once_the_road_is_known() {
     let samples = busy_laps(3.0);
-    let parameters = presets::parameters(&[presets::PREVIEW, &[("scale.automatic", 2.0)]].concat());
+    let parameters = presets::with(presets::PREVIEW, &[("scale.automatic", 2.0)]);
     let previews = previews(&samples);
     let factors = [false, true].map(|learns| {
         let mut washout = Washout::new(&parameters).unwrap();

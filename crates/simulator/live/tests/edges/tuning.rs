@@ -35,7 +35,7 @@ fn tuned(parameters: &Parameters, name: &str, value: impl Fn(f64) -> Option<f64>
 
 #[test]
 fn scales_and_paces_glide_and_sliders_are_no_jolt() {
-    for set in [&[][..], presets::CAR, presets::OPTIMAL] {
+    for set in ["", presets::CAR, presets::OPTIMAL] {
         let parameters = presets::parameters(set);
         for (name, low, high) in
             [("scale.specificForce.x", 0.1, 1.2), ("scale.specificForce.y", 0.1, 1.0), ("softLimit.pace", 3.0, 8.0)]
@@ -57,7 +57,7 @@ fn sliders_of_the_soft_limits_add_nothing_to_their_extremes() {
     let all = packets(40.0, |t| {
         Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
     });
-    for set in [&[][..], presets::OPTIMAL] {
+    for set in ["", presets::OPTIMAL] {
         let parameters = presets::parameters(set);
         for (name, low, high) in
             [("softLimit.pace", 0.5, 100.0), ("softLimit.pace", 0.5, 8.0), ("softLimit.margin", 0.01, 1.0)]

@@ -275,8 +275,8 @@ fn discomfort(parameters: &Parameters, ride: Ride, events: &[(f64, RideEvent)]) 
 const MOST: [f64; 2] = [0.1, 1.0];
 
 /// The sets whose soft limits are on.
-const SETS: &[(&str, &[(&str, f64)])] = &[
-    ("default", &[]),
+const SETS: &[(&str, &str)] = &[
+    ("default", ""),
     ("motorcycle", presets::MOTORCYCLE),
     ("car", presets::CAR),
     ("adaptive", presets::ADAPTIVE),

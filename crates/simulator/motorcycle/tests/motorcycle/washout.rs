@@ -81,8 +81,8 @@ fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
 
 /// Rides at 30 m/s and brakes to the stop. Returns when it stops, in milliseconds, and the error of
 /// the surge force felt \[m/s2\] every millisecond.
-fn errors_of_a_stop(brake: f64, set: &[(&str, f64)]) -> (usize, Vec<f64>) {
-    let mut washout = Washout::new(&presets::parameters(&[presets::PAPER, set].concat())).unwrap();
+fn errors_of_a_stop(brake: f64, set: &str) -> (usize, Vec<f64>) {
+    let mut washout = Washout::new(&presets::with(presets::PAPER, &presets::values(set))).unwrap();
     let mut vehicle = motorcycle(&at_speed(30.0));
     let mut stop = None;
     let errors = (0..40_000).map(|k| {
@@ -108,7 +108,7 @@ fn errors_of_a_stop(brake: f64, set: &[(&str, f64)]) -> (usize, Vec<f64>) {
 #[test]
 fn preaction_halves_the_error_of_a_stop() {
     for brake in [0.1, 0.15, 0.2] {
-        let [(rms_off, peak_off), (rms, peak)] = [&[][..], presets::PREACTION].map(|set| {
+        let [(rms_off, peak_off), (rms, peak)] = ["", presets::PREACTION].map(|set| {
             let (stop, errors) = errors_of_a_stop(brake, set);
             let around = &errors[stop - 5000..stop + 5000];
             let rms = (around.iter().map(|error| error * error).sum::<f64>() / around.len() as f64).sqrt();
