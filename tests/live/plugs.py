@@ -291,7 +291,8 @@ def killed():
     frames = controller.frames
     time.sleep(0.3)
     assert frames > 0 and controller.frames == frames and "stop" not in controller.words
-    again = Live(controller, settled=False)
+    again = Live(controller)
+    again.wait_for("--settled is not believed")
     again.wait_for("the legs' place is unknown")
     time.sleep(0.5)
     assert controller.frames == frames and "legs?" in controller.words, controller.words

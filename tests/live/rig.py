@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import urllib.error
@@ -23,6 +24,10 @@ FASTEST = 1.05
 # The time between frames of the form csv [s], and the largest change of a leg from frame to frame [m].
 INTERVAL = 0.01
 STEP = 1.2 * 1.0 * INTERVAL
+
+
+# Where locks of controllers lie: those of earlier runs would say how the last session of a port has ended.
+LOCKS = tempfile.TemporaryDirectory()
 
 
 def free_port():
@@ -116,7 +121,12 @@ class Live:
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
         command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
         self.process = subprocess.Popen(
-            command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stderr
+            command,
+            cwd=ROOT,
+            env=os.environ | {"TMPDIR": LOCKS.name},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=stderr,
         )
         self.said = []
         self.state = "off"

@@ -315,6 +315,11 @@ impl Session {
         self.located
     }
 
+    /// Way of the leg that is farthest with these lengths from the lowest pose \[m\].
+    pub fn way_from_settled(&self, lengths: &[f64; 6]) -> f64 {
+        lengths.iter().zip(self.settled).map(|(length, settled)| (length - settled).abs()).fold(0.0, f64::max)
+    }
+
     /// Time until the platform is settled \[s\], while it parks; an estimate until the cue has
     /// gone out.
     pub fn time_to_settled(&self) -> Option<f64> {

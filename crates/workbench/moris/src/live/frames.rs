@@ -100,6 +100,11 @@ impl Display for Loss {
     }
 }
 
+/// The interval between frames in whole steps \[s\]: a frame follows a step.
+pub fn whole_steps(interval: f64) -> f64 {
+    (interval / STEP).round().max(1.0) * STEP
+}
+
 /// The loop's end of the way.
 pub struct Frames {
     ring: Producer<Sending>,
@@ -110,8 +115,10 @@ pub struct Frames {
     before: State,
     /// Arrival of the newest sample that no frame has followed.
     pub newest: Option<Duration>,
-    /// Messages for which there was no room.
+    /// Frames for which there was no room.
     pub lost: u64,
+    /// A message that is no frame, and had no room: it goes first.
+    owed: Option<Sending>,
     /// The session ends: no start string any more.
     pub ends: bool,
     /// The actuators are where the next start begins, as a person or the controller has said.
@@ -123,7 +130,7 @@ pub struct Frames {
 impl Frames {
     /// Frames at this interval \[s\], for the thread that sends them.
     pub fn new(ring: Producer<Sending>, sender: Thread, interval: f64, ahead: f64) -> Self {
-        let every = (interval / STEP).round().max(1.0) as u64;
+        let every = (whole_steps(interval) / STEP).round() as u64;
         Frames {
             ring,
             sender,
@@ -132,6 +139,7 @@ impl Frames {
             before: State::Off,
             newest: None,
             lost: 0,
+            owed: None,
             ends: false,
             is_placed: false,
             ahead: Ahead::by(ahead),
@@ -146,6 +154,9 @@ impl Frames {
         }
         let before = std::mem::replace(&mut self.before, commands.state);
         self.step += 1;
+        if let Some(owed) = self.owed.take() {
+            self.push_sending(owed);
+        }
         match (before, commands.state) {
             (State::Off, State::Off) => return,
             (_, State::Off) => self.push(Message::Stop, values),
@@ -171,7 +182,18 @@ impl Frames {
 
     fn push(&mut self, message: Message, values: Values) {
         let sending = Sending { message, values, arrival: self.newest.take(), made: pace::now() };
-        self.lost += u64::from(self.ring.push(sending).is_err());
+        self.push_sending(sending);
+    }
+
+    /// A frame without room is lost; another message waits for it, or gives way to the next one.
+    fn push_sending(&mut self, sending: Sending) {
+        let is_frame = sending.message == Message::Frame;
+        if is_frame && self.owed.is_some() {
+            self.lost += 1;
+        } else if self.ring.push(sending).is_err() {
+            self.lost += u64::from(is_frame);
+            self.owed = (!is_frame).then_some(sending);
+        }
     }
 }
 
@@ -349,6 +371,8 @@ pub struct Sent {
     pub late: Lateness,
     /// Longest time between two frames.
     pub gap: Duration,
+    /// Lengths of the last frame \[m\].
+    pub last: Option<[f64; 6]>,
 }
 
 /// Bytes to the device for a message.
@@ -543,7 +567,10 @@ impl<'a> Sender<'a> {
             return None;
         }
         let mut values = *values;
-        if matches!(message, Message::Start | Message::Begin | Message::Frame) {
+        if message == Message::Stop {
+            // The legs stay where the last frame has them.
+            values = if self.wire.gap(now).is_some() { self.last } else { values };
+        } else {
             if message == Message::Frame
                 && let Some(gap) = self.wire.gap(now)
             {
@@ -561,6 +588,7 @@ impl<'a> Sender<'a> {
             }
             values = self.wire.pass(now, &values);
             self.last = values;
+            self.sent.last = Some(values.length);
         }
         self.deliver(message, &values)
     }
@@ -627,39 +655,29 @@ impl<'a> Sender<'a> {
     fn end(&mut self) {
         if self.running {
             let mut last = self.last;
-            rest(&mut last, |values| {
-                self.deliver(Message::Frame, values);
-            });
+            for frame in 1..=REST_FRAMES {
+                let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
+                    break;
+                };
+                self.deliver(Message::Frame, &values);
+                self.sent.last = Some(values.length);
+                last = Values { velocity: [0.0; 6], ..values };
+                std::thread::sleep(REST_INTERVAL);
+            }
             self.deliver(Message::Stop, &last);
             self.running = false;
         }
     }
 }
 
-/// Time between frames of a platform that comes to rest, their number, and the time in which its
-/// speed falls to a third \[s\].
+/// Time between frames of a platform that comes to rest, and their number.
 const REST_INTERVAL: Duration = Duration::from_millis(10);
 const REST_FRAMES: u32 = 100;
-const REST_TIME: f64 = 0.15;
-
-/// Brings the actuators to rest where they are: there is no washout any more that knows a way.
-fn rest(values: &mut Values, mut send: impl FnMut(&Values)) {
-    let step = REST_INTERVAL.as_secs_f64();
-    for _ in 0..REST_FRAMES {
-        values.time += step;
-        for (length, velocity) in values.length.iter_mut().zip(&mut values.velocity) {
-            *velocity *= 1.0 - step / REST_TIME;
-            *length += step * *velocity;
-        }
-        send(values);
-        std::thread::sleep(REST_INTERVAL);
-    }
-    values.velocity = [0.0; 6];
-}
 
 #[cfg(test)]
 mod tests {
-    use moris_live::frame;
+    use moris_live::{Session, Settings, frame};
+    use moris_washout::Parameters;
     use rtrb::RingBuffer;
 
     use super::*;
@@ -678,7 +696,7 @@ mod tests {
                 device,
                 sink,
                 orders,
-                (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }),
+                (0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] }),
                 &Shared::default(),
             )
             .run()
@@ -718,7 +736,7 @@ mod tests {
                     device,
                     sink,
                     orders,
-                    (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }),
+                    (0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] }),
                     shared,
                 )
                 .run()
@@ -777,7 +795,7 @@ mod tests {
                 csv(),
                 sink,
                 orders,
-                (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }),
+                (0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] }),
                 &shared,
             );
             sender.time_out = Some(Duration::from_millis(200));
@@ -823,8 +841,15 @@ mod tests {
         std::thread::scope(|scope| {
             let shared = &shared;
             let sender = scope.spawn(move || {
-                Sender::new(messages, csv(), sink, orders, (0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] }), shared)
-                    .run()
+                Sender::new(
+                    messages,
+                    csv(),
+                    sink,
+                    orders,
+                    (0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] }),
+                    shared,
+                )
+                .run()
             });
             let mut packet = [0; 100];
             let (length, from) = device.recv_from(&mut packet).unwrap();
@@ -844,6 +869,27 @@ mod tests {
             drop(ring);
             sender.join().unwrap();
         });
+    }
+
+    /// The sending thread stands still while frames pile up, and a person stops.
+    #[test]
+    fn a_stop_without_room_leaves_as_soon_as_there_is_room() {
+        let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+        let (ring, mut sent) = RingBuffer::new(8);
+        let mut frames = Frames::new(ring, std::thread::current(), 0.001, 0.0);
+        session.handle(Event::Start).unwrap();
+        (0..20).for_each(|_| frames.take(session.step()));
+        session.handle(Event::Stop).unwrap();
+        (0..5).for_each(|_| frames.take(session.step()));
+        let mut messages = |frames: &mut Frames, session: &mut Session| {
+            let all: Vec<Message> = std::iter::from_fn(|| sent.pop().ok()).map(|sending| sending.message).collect();
+            frames.take(session.step());
+            all
+        };
+        let piled = messages(&mut frames, &mut session);
+        assert_eq!((piled[0], piled[7]), (Message::Start, Message::Frame));
+        assert_eq!(messages(&mut frames, &mut session), [Message::Stop]);
+        assert_eq!(frames.lost, 12);
     }
 
     #[test]

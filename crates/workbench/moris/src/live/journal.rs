@@ -36,6 +36,9 @@ pub enum Note {
     Lost(f64, Loss),
     /// The place of the legs at a start, and the time for which the first lengths are held \[s\].
     Located(f64, Legs, f64),
+    /// A person says that the platform is settled, and the last frames have left
+    /// it so far away \[m\].
+    Doubted(f64, f64),
     /// The telemetry's delay is long \[s\].
     Delayed(f64, f64),
     /// A thread has ended by an error of this program.
@@ -67,6 +70,11 @@ fn line(note: &Note) -> Option<String> {
             format!("{time:9.3} s  legs: a slow start; the first lengths are held for {hold:.0} s")
         }
         Note::Located(time, legs, _) => format!("{time:9.3} s  legs: {}", legs.name()),
+        Note::Doubted(time, away) => format!(
+            "{time:9.3} s  refused: the last frames have left a leg {:.0} mm from the lowest pose. Look, and say settled \
+             again if it is there",
+            1e3 * away
+        ),
         Note::Delayed(time, delay) => {
             format!("{time:9.3} s  the telemetry's delay is {:.0} ms: packets come with gaps", 1e3 * delay)
         }

@@ -269,7 +269,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     // The motorcycle's signs are known, and its falls are like nothing that the test knows.
     let ignore_signs = options.ignore_signs || input.handling() == Some(Handling::Rider);
     // Until the end: another session has no part in this controller.
-    let _occupied = options.to.as_deref().map(Occupied::take).transpose()?;
+    let mut occupied = options.to.as_deref().map(Occupied::take).transpose()?;
+    let was_left = occupied.as_ref().is_some_and(Occupied::was_left);
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
     let rig = &setup.parameters.rig;
     let (device, interval, time_out, place) = if options.frames == moog::NAME {
@@ -281,7 +282,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
         let place = match options.dry {
             true => LegPlace::own(),
-            false => LegPlace::of(&template, &encoder, options.settled, options.slow_start),
+            false => LegPlace::of(&template, &encoder, options.settled && !was_left, options.slow_start),
         };
         // Also where a person has said it: after a loss the controller is asked.
         if encoder.asks() {
@@ -289,6 +290,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         }
         (Device::Template(Box::new(encoder)), template.interval, template.time_out, place)
     };
+    let doubts = options.settled && was_left && !place.starts_settled();
+    if doubts {
+        console::line(
+            "--settled is not believed: the last session with this controller has not parked. Look, then say settled",
+        );
+    }
     if options.engage && !place.can_start() {
         bail!(
             "--engage starts the platform, but nobody has said where its legs are: add --settled if it is at its \
@@ -344,9 +351,14 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     // It waits for a line for ever: nobody joins it.
     let listening = Arc::clone(&shared);
     thread::spawn(move || watch(&listening.failed, Part::Commands, || commands::read(stdin(), commands)));
-    let interval = if options.dry { interval.max(0.1) } else { interval };
+    let interval = frames::whole_steps(if options.dry { interval.max(0.1) } else { interval });
     let rig = &setup.parameters.rig;
-    let actuators = Actuators { speed: rig.velocity_limit, stroke: [rig.min_length, rig.max_length] };
+    let actuators = Actuators {
+        speed: rig.velocity_limit,
+        acceleration: rig.acceleration_limit,
+        stroke: [rig.min_length, rig.max_length],
+    };
+    occupied.iter_mut().for_each(|occupied| occupied.leave(true));
     let summary = thread::scope(|scope| {
         let (shared, desk) = (&*shared, &desk);
         let page = server.as_ref().map(|_| &**desk);
@@ -411,7 +423,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         counts.teleports,
         1e3 * session.delay()
     );
-    let Sent { sent, failed, skipped, passage, late, gap } = sent;
+    let Sent { sent, failed, skipped, passage, late, gap, last } = sent;
+    let has_parked = session.is_located() && last.is_some_and(|lengths| session.way_from_settled(&lengths) < 1e-3);
+    occupied.iter_mut().for_each(|occupied| occupied.leave(if last.is_none() { was_left } else { !has_parked }));
     report += &format!("frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames);
     report += &format!("; the longest gap {:.0} ms\n", 1e3 * gap.as_secs_f64());
     report += &format!("frames late by: {}\n", late.summary());

@@ -1,10 +1,11 @@
 //! A controller that a session has: a second session is refused by a lock file.
 //!
 //! The system releases the lock with the process, also with one that is killed. Sessions on other
-//! machines, and other addresses of the same controller, are not noticed.
+//! machines, and other addresses of the same controller, are not noticed. In the file is whether
+//! the last session has parked, as long as the system keeps its folder of temporary files.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read as _, Seek as _, Write as _};
 use std::net::ToSocketAddrs;
 use std::path::{Path, PathBuf};
 
@@ -15,8 +16,13 @@ use super::console;
 /// The lock of a controller, until it is dropped.
 #[derive(Debug)]
 pub struct Occupied {
-    _file: Option<File>,
+    file: Option<File>,
+    /// The session before has not parked.
+    was_left: bool,
 }
+
+/// The file's text during a session, and after one that has not parked.
+const LEFT: &str = "left";
 
 impl Occupied {
     /// Takes the controller that `--to` names.
@@ -27,18 +33,37 @@ impl Occupied {
         Self::take_in(&std::env::temp_dir(), target)
     }
 
+    /// True if the session before has left the legs somewhere else than at the lowest pose: it was
+    /// killed, has failed, or has been stopped.
+    pub fn was_left(&self) -> bool {
+        self.was_left
+    }
+
+    /// Keeps for the next session whether the legs are left somewhere. A file of another user stays
+    /// as it is.
+    pub fn leave(&mut self, is_left: bool) {
+        if let Some(file) = &mut self.file {
+            let text = if is_left { LEFT } else { "" };
+            let _ = file.rewind().and_then(|()| file.set_len(0)).and_then(|()| file.write_all(text.as_bytes()));
+        }
+    }
+
     fn take_in(directory: &Path, target: &str) -> Result<Self> {
         let path = directory.join(name(target));
         let locked = open(&path).map_err(TryLockError::Error).and_then(|file| file.try_lock().map(|()| file));
         match locked {
-            Ok(file) => Ok(Occupied { _file: Some(file) }),
+            Ok(mut file) => {
+                let mut text = String::new();
+                let was_left = file.read_to_string(&mut text).is_ok() && text == LEFT;
+                Ok(Occupied { file: Some(file), was_left })
+            }
             Err(TryLockError::WouldBlock) => {
                 bail!("another session of moris live sends to {target}; end it first (its lock is {})", path.display())
             }
             Err(TryLockError::Error(error)) => {
                 let file = path.display();
                 console::line(&format!("no lock of the controller: {file}: {error}; a second session is not noticed"));
-                Ok(Occupied { _file: None })
+                Ok(Occupied { file: None, was_left: false })
             }
         }
     }
@@ -46,10 +71,11 @@ impl Occupied {
 
 /// Opens a file of any user, or makes it. A link in its place is not followed to make one.
 fn open(path: &Path) -> std::io::Result<File> {
-    match File::open(path) {
+    let opened = || OpenOptions::new().read(true).write(true).open(path).or_else(|_| File::open(path));
+    match opened() {
         Err(error) if error.kind() == ErrorKind::NotFound => {
-            match OpenOptions::new().write(true).create_new(true).open(path) {
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => File::open(path),
+            match OpenOptions::new().read(true).write(true).create_new(true).open(path) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => opened(),
                 made => made,
             }
         }
@@ -95,6 +121,20 @@ mod tests {
         take("udp:127.0.0.1:5000").unwrap();
         // Without a place for the lock the session goes on.
         assert!(Occupied::take_in(Path::new("/nowhere"), "udp:127.0.0.1:5000").is_ok());
+    }
+
+    #[test]
+    fn the_next_session_knows_whether_the_last_one_has_parked() {
+        let directory = tempfile::tempdir().unwrap();
+        let take = || Occupied::take_in(directory.path(), "udp:127.0.0.1:5000").unwrap();
+        assert!(!take().was_left());
+        take().leave(true);
+        assert!(take().was_left() && take().was_left());
+        let mut parks = take();
+        parks.leave(true);
+        parks.leave(false);
+        drop(parks);
+        assert!(!take().was_left());
     }
 
     #[cfg(unix)]

@@ -11,6 +11,10 @@ const PATIENCE: f64 = 0.5;
 /// Legs that have changed by less than this \[m\] over at least this time \[s\] are at rest.
 const STILL: f64 = 0.003;
 const REST: f64 = 0.3;
+/// Way from the last frame to the lowest pose \[m\] from which on a person is asked to look again,
+/// and the time for it \[s\].
+const AWAY: f64 = 0.02;
+const SECOND_LOOK: f64 = 20.0;
 /// Speed of a leg in a slow start, without another one \[m/s\].
 pub const SLOW_SPEED: f64 = 0.02;
 
@@ -24,6 +28,10 @@ pub struct LegPlace {
     is_own: bool,
     /// The place that a person has given for the next start.
     given: Option<Legs>,
+    /// It was given before this session.
+    is_given_before: bool,
+    /// Time at which a person was asked to look again \[s\].
+    doubted: Option<f64>,
     /// Speed with which the controller goes to its first length by itself \[m/s\].
     slow_speed: Option<f64>,
     /// The controller is asked.
@@ -46,6 +54,8 @@ impl LegPlace {
         LegPlace {
             is_own: !encoder.moves_actuators(),
             given: settled.then_some(Legs::Settled),
+            is_given_before: settled,
+            doubted: None,
             slow_speed: slow_start.or(template.slow_start),
             asks: encoder.asks(),
             report: None,
@@ -71,7 +81,7 @@ impl LegPlace {
 
     /// True if the controller is to be asked.
     pub fn wants_report(&self) -> bool {
-        self.asks && !self.is_own && self.given.is_none()
+        self.asks && !self.is_own && !self.is_given_before
     }
 
     /// True if a start by itself at this time \[s\] has nothing to wait for.
@@ -91,6 +101,15 @@ impl LegPlace {
         self.given.is_some()
     }
 
+    /// True if a person or the controller says at this time \[s\] where the legs are.
+    pub fn is_known_anew(&self, now: f64) -> bool {
+        self.is_given() || self.fresh(now).is_some()
+    }
+
+    fn fresh(&self, now: f64) -> Option<[f64; 6]> {
+        self.report.filter(|(at, _)| now - at <= FRESH).map(|(_, lengths)| lengths)
+    }
+
     /// The controller has reported these lengths \[m\].
     pub fn report(&mut self, now: f64, lengths: [f64; 6]) {
         let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > STILL);
@@ -101,29 +120,48 @@ impl LegPlace {
         self.report = Some((now, lengths));
     }
 
-    /// Sets the place for the next start, as a person has given it.
-    pub fn give(&mut self, legs: Legs) {
-        self.given = (!self.is_own).then_some(legs);
+    /// Sets the place for the next start, as a person has given it at a time \[s\]. Legs that the
+    /// last frames have left `away` \[m\] from their lowest pose are settled if a person says so
+    /// twice: false the first time.
+    pub fn give(&mut self, legs: Legs, now: f64, away: f64) -> bool {
+        let was_doubted = self.doubted.take().is_some_and(|at| now - at <= SECOND_LOOK);
+        if legs == Legs::Settled && away > AWAY && !was_doubted && !self.is_own {
+            self.doubted = Some(now);
+            return false;
+        }
+        (self.given, self.is_given_before) = ((!self.is_own).then_some(legs), false);
+        true
     }
 
     /// The controller was lost: what was known before does not hold.
     pub fn forget(&mut self) {
         (self.given, self.report, self.rest) = (None, None, None);
+        self.is_given_before = false;
     }
 
-    /// The place for a start at this time \[s\]. A place that a person has given holds once.
+    /// The place for a start at this time \[s\]. A controller that reports knows better than a
+    /// person, whose word holds once.
     pub fn take(&mut self, now: f64) -> Legs {
         if self.is_own {
             return Legs::Settled;
         }
-        let fresh = self.report.filter(|(at, _)| now - at <= FRESH);
-        match (self.given.take(), fresh) {
-            (Some(given), _) => given,
-            (None, Some((_, lengths))) if self.is_at_rest() => Legs::Reported(lengths),
-            (None, Some(_)) => Legs::Unknown,
+        match (self.given, self.fresh(now)) {
+            (_, Some(lengths)) if self.is_at_rest() => {
+                self.drop_given();
+                Legs::Reported(lengths)
+            }
+            (_, Some(_)) => Legs::Unknown,
+            (Some(given), None) => {
+                self.drop_given();
+                given
+            }
             (None, None) if self.slow_speed.is_some() => Legs::Slow,
             (None, None) => Legs::Unknown,
         }
+    }
+
+    fn drop_given(&mut self) {
+        (self.given, self.is_given_before) = (None, false);
     }
 
     /// Advice before a start with this stroke \[m\]; none if the place is known.
@@ -161,7 +199,7 @@ mod tests {
             let mut place = of(name, false, None);
             assert!(!place.can_start() && place.advice(0.6).unwrap().contains("say settled"), "{name}");
             assert_eq!(place.take(5.0), Legs::Unknown, "{name}");
-            place.give(Legs::Settled);
+            assert!(place.give(Legs::Settled, 4.0, 0.0));
             assert_eq!([place.take(5.0), place.take(5.0)], [Legs::Settled, Legs::Unknown], "{name}");
             let mut place = of(name, false, Some(0.05));
             assert!(place.can_start() && place.advice(0.6).unwrap().contains("held for 12 s"), "{name}");
@@ -178,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn a_report_holds_for_a_moment_and_what_a_person_has_seen_comes_first() {
+    fn a_report_holds_for_a_moment() {
         let mut place = of("csv", false, None);
         assert!(place.wants_report() && !place.is_ready(0.4) && place.is_ready(0.5));
         place.report(0.0, [1.2; 6]);
@@ -188,12 +226,32 @@ mod tests {
         place.report(2.0, [1.2; 6]);
         place.forget();
         assert_eq!(place.take(2.1), Legs::Slow);
-        place.give(Legs::Settled);
+        place.give(Legs::Settled, 2.1, 0.0);
         place.forget();
         assert_eq!(place.take(2.2), Legs::Slow);
         let mut place = of("csv", true, None);
         assert!(place.is_given() && !place.wants_report() && place.is_ready(0.0) && place.advice(0.6).is_none());
         assert_eq!([place.take(0.0), place.take(9.0)], [Legs::Settled, Legs::Slow]);
+    }
+
+    #[test]
+    fn legs_far_from_the_lowest_pose_are_settled_if_a_person_says_so_twice() {
+        let mut place = of("simtools", false, None);
+        assert!(!place.give(Legs::Settled, 5.0, 0.248) && !place.is_given());
+        assert!(place.give(Legs::Settled, 8.0, 0.248) && place.is_given());
+        assert_eq!([place.take(9.0), place.take(9.0)], [Legs::Settled, Legs::Unknown]);
+        // Neither a word of long ago nor another one is the first of two.
+        assert!(!place.give(Legs::Settled, 30.0, 0.248) && !place.give(Legs::Settled, 60.0, 0.248));
+        assert!(place.give(Legs::Slow, 61.0, 0.248) && !place.give(Legs::Settled, 62.0, 0.248));
+        assert!(place.give(Legs::Settled, 90.0, 0.01));
+        // A controller that reports knows better than a person.
+        let mut place = of("csv", false, None);
+        place.give(Legs::Settled, 0.0, 0.0);
+        assert!(place.wants_report());
+        place.report(0.0, [1.3; 6]);
+        assert_eq!(place.take(0.1), Legs::Unknown);
+        place.report(0.3, [1.3; 6]);
+        assert_eq!([place.take(0.4), place.take(9.0)], [Legs::Reported([1.3; 6]), Legs::Slow]);
     }
 
     #[test]

@@ -137,7 +137,8 @@ impl Steps<'_> {
                 self.start(&mut summary);
                 self.engage(&mut summary);
             }
-            self.shared.asks.store(!self.session.is_located() && self.place.wants_report(), Ordering::Relaxed);
+            let is_open = !self.session.is_located() || self.session.state() == State::Off;
+            self.shared.asks.store(is_open && self.place.wants_report(), Ordering::Relaxed);
             let commands = *self.session.step();
             summary.steps += 1;
             digest.take(&commands);
@@ -254,17 +255,26 @@ impl Steps<'_> {
         let state = self.session.state();
         if self.session.is_located() && state != State::Off {
             self.note(Note::Refused(self.session.time(), Refusal::Commanded(state)), summary);
-        } else {
-            self.place.give(legs);
+            return;
         }
+        let now = self.session.time();
+        let away = self.session.way_from_settled(&self.session.commands().length);
+        if !self.place.give(legs, now, away) {
+            self.note(Note::Doubted(now, away), summary);
+        }
+    }
+
+    /// True if a person or the controller says where the legs are, which may be elsewhere than the
+    /// last frame has left them.
+    fn is_given_anew(&self) -> bool {
+        self.session.state() == State::Off && self.place.is_known_anew(self.session.time())
     }
 
     /// Asks for an event. True if it has an effect.
     fn ask(&mut self, event: Event, summary: &mut Summary) -> bool {
         let state = self.session.state();
         let moves = matches!(event, Event::Start | Event::Clear) && state.after(event) != state;
-        let is_given = state == State::Off && self.place.is_given();
-        if moves && (is_given || !self.session.is_located()) {
+        if moves && (self.is_given_anew() || !self.session.is_located()) {
             self.locate(summary);
         }
         self.record(Happening::Event(event), summary);
@@ -276,14 +286,20 @@ impl Steps<'_> {
     fn locate(&mut self, summary: &mut Summary) {
         let now = self.session.time();
         let legs = self.place.take(now);
-        if legs == Legs::Unknown {
+        if legs == Legs::Unknown && !self.session.is_located() {
             return;
         }
         self.record(Happening::Legs(legs), summary);
         let rig = &self.session.washout().parameters().rig;
         let hold = (rig.max_length - rig.min_length) / self.place.slow_speed();
         let located = self.session.locate(legs);
-        self.frames.is_placed = located.is_ok() && legs != Legs::Slow && !self.place.starts_settled();
+        let is_known = matches!(legs, Legs::Settled | Legs::Reported(_));
+        self.frames.is_placed = located.is_ok() && is_known && !self.place.starts_settled();
+        if located.is_err() {
+            // Where the last frame has left them is no place for a start, if the controller denies it.
+            self.record(Happening::Legs(Legs::Unknown), summary);
+            let _ = self.session.locate(Legs::Unknown);
+        }
         let note = match located {
             Ok(()) => Note::Located(now, legs, hold),
             Err(refusal) => Note::Refused(now, refusal),
@@ -374,7 +390,7 @@ mod tests {
         };
         let text = header(&Parameters::default(), &settings, None);
         let (summary, digest) = (Summary::default(), Digest::default());
-        let wire = Wire::new(0.01, Actuators { speed: 1.0, stroke: [1.0, 1.6] });
+        let wire = Wire::new(0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] });
         test(&mut Computed { steps, summary, notes, sent, wire, digest, text, said: Vec::new() })
     }
 
@@ -386,6 +402,7 @@ mod tests {
                     Note::Entry(entry) => self.text += &format!("{entry}\n"),
                     Note::Located(_, legs, _) => self.said.push(legs.name().to_owned()),
                     Note::Refused(_, refusal) => self.said.push(refusal.to_string()),
+                    Note::Doubted(..) => self.said.push("doubted".to_owned()),
                     _ => (),
                 }
             }
@@ -532,6 +549,12 @@ mod tests {
                     live.ask(Event::Clear);
                     assert!(live.state() == State::Fault && live.steps.is_lost, "it does not know where the legs are");
                     live.obey(Order::Legs(legs));
+                    if legs == Legs::Settled {
+                        // The last frames have left them somewhere else: a person looks again.
+                        live.ask(Event::Clear);
+                        assert!(live.state() == State::Fault && live.said.iter().any(|line| line == "doubted"));
+                        live.obey(Order::Legs(legs));
+                    }
                 }
                 live.ask(Event::Clear);
                 assert!(live.state() == State::Homing && !live.steps.is_lost, "{:?}", live.said);
@@ -575,6 +598,39 @@ mod tests {
                 last = frame;
             }
             assert_eq!(live.state(), State::Neutral);
+        });
+    }
+
+    /// A person says settled in the state off, after a stop high above.
+    #[test]
+    fn settled_is_believed_at_the_second_word_where_the_last_frame_says_otherwise() {
+        with_place(place("amc-aasd15a", true), |live| {
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            let last = live.step().length;
+            live.ask(Event::Stop);
+            (0..500).for_each(|_| _ = live.frame());
+            live.obey(Order::Legs(Legs::Settled));
+            assert_eq!(live.said.last().unwrap(), "doubted");
+            live.ask(Event::Start);
+            // It is not taken: the way begins where the last frame was.
+            let first = live.step().length;
+            assert!(farthest(&first, &last) < 1e-3, "{first:?} after {last:?}");
+            live.ask(Event::Stop);
+            (0..2).for_each(|_| live.obey(Order::Legs(Legs::Settled)));
+            live.ask(Event::Start);
+            assert!(farthest(&live.step().length, &[1.012; 6]) < 1e-3);
+        });
+        // The controller knows better.
+        with_place(place("csv", true), |live| {
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            let last = live.step().length;
+            live.ask(Event::Stop);
+            (0..2).for_each(|_| live.obey(Order::Legs(Legs::Settled)));
+            live.report_at_rest(last);
+            live.ask(Event::Start);
+            assert!(farthest(&live.step().length, &last) < 1e-3);
         });
     }
 

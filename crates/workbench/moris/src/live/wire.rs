@@ -1,9 +1,9 @@
 //! Frames as they leave: the actuators' change from one frame to the next stays within their speed.
 //!
 //! The loop's commands change within the limits from step to step. Frames may be left out or
-//! delayed on their way, so that the next one is far from the last that left. Then the difference
-//! goes to zero: a glide, whose speed comes on top of the commands' own. Actuators that have come
-//! to rest are taken from there to the commands, so that no glide leaves the stroke.
+//! delayed on their way, so that the next one is far from the last that left. After a short gap the
+//! actuators go on with the commands' speed, and the difference to the commands goes to zero. After
+//! a longer one they stand: the commands come in from there, a mean of two places in the stroke.
 
 use std::time::Duration;
 
@@ -11,13 +11,26 @@ use moris_live::frame::Values;
 
 /// Change between two frames, in terms of the largest speed, from which on a frame begins a glide.
 const LARGEST: f64 = 1.15;
+/// Time without frames from which on the actuators stand \[s\], and the same in intervals.
+const STANDS: f64 = 0.05;
+const STANDS_INTERVALS: f64 = 3.0;
 /// Speed of a glide in terms of the actuators' largest.
 const GLIDE_SPEED: f64 = 0.1;
-/// Speed of a glide to a controller that was lost \[m/s\].
+/// Speed of a glide to a controller that was lost, or without frames for so long \[m/s, s\].
 const LOST_SPEED: f64 = 0.05;
-/// Largest slope of the glide's profile, and its shortest time \[s\].
-const STEEPEST: f64 = 1.5;
-const SHORTEST: f64 = 0.2;
+const LONG: f64 = 0.5;
+/// Part of the actuators' acceleration that a glide may add, twice.
+const GLIDE_ACCELERATION: f64 = 0.3;
+/// Part of the actuators' acceleration with which a glide brakes before the stroke's end.
+const BRAKING: f64 = 1.2;
+/// Part of a glide that is too short to see.
+const NO_PART: f64 = 1e-7;
+/// Longest step of a glide \[s\].
+const STEP: f64 = 1e-3;
+/// Time in which the speed falls to a third where there is no loop any more \[s\], and the part of
+/// the stroke's rest that the way may take.
+const REST_TIME: f64 = 0.15;
+const REST_WAY: f64 = 0.9;
 
 /// Numbers of a frame that a glide changes.
 const NUMBERS: usize = 17;
@@ -27,8 +40,22 @@ const NUMBERS: usize = 17;
 pub struct Actuators {
     /// Largest speed \[m/s\].
     pub speed: f64,
+    /// Largest acceleration \[m/s2\].
+    pub acceleration: f64,
     /// Shortest and longest length \[m\].
     pub stroke: [f64; 2],
+}
+
+impl Actuators {
+    /// A length so much later than the last one \[s, m\], from which it can still
+    /// brake before its end.
+    fn braked(&self, time: f64, last: f64, length: f64) -> f64 {
+        let [shortest, longest] = self.stroke;
+        let by_braking = BRAKING * self.acceleration * time * time;
+        // The speed of this step is that of which the rest of the stroke is the way to rest.
+        let most = |room: f64| (by_braking * (by_braking + 2.0 * room.max(0.0))).sqrt() - by_braking;
+        length.clamp((last - most(last - shortest)).max(shortest), (last + most(longest - last)).min(longest))
+    }
 }
 
 /// The way of frames to the controller.
@@ -38,6 +65,8 @@ pub struct Wire {
     interval: f64,
     actuators: Actuators,
     last: Option<(Duration, Values)>,
+    /// Change of the last frame's numbers per second.
+    change: [f64; NUMBERS],
     glide: Option<Glide>,
     /// The actuators have stopped since the last frame.
     is_lost: bool,
@@ -45,33 +74,57 @@ pub struct Wire {
 
 #[derive(Clone, Copy, Debug)]
 struct Glide {
-    /// What the last frame had beyond the commands at the beginning.
-    difference: [f64; NUMBERS],
-    /// The last frame, if the actuators have come to rest there.
-    rest: Option<[f64; NUMBERS]>,
-    /// Its beginning in the session's time, and its length \[s\].
-    begin: f64,
-    duration: f64,
+    from: Beginning,
+    /// Its largest speed \[m/s\].
+    speed: f64,
+    /// The part of the way that is left, behind two equal lags.
+    lag: f64,
+    left: f64,
+}
+
+/// The beginning of a glide.
+#[derive(Clone, Copy, Debug)]
+enum Beginning {
+    /// Actuators that move, so far from the commands.
+    Beside([f64; NUMBERS]),
+    /// Actuators that stand.
+    Rest([f64; NUMBERS]),
 }
 
 impl Glide {
-    /// The part of the difference that is left.
-    fn left(&self, time: f64) -> f64 {
-        let part = ((time - self.begin) / self.duration).clamp(0.0, 1.0);
-        1.0 - part * part * (3.0 - 2.0 * part)
+    fn difference(&self, commands: &[f64; NUMBERS]) -> [f64; NUMBERS] {
+        match self.from {
+            Beginning::Beside(difference) => difference,
+            Beginning::Rest(rest) => std::array::from_fn(|k| rest[k] - commands[k]),
+        }
+    }
+
+    /// Goes on by a time \[s\], if its whole way is so far \[m\].
+    fn advance(&mut self, time: f64, far: f64, actuators: &Actuators) {
+        let steps = (time / STEP).ceil();
+        let step = time / steps.max(1.0);
+        let most = GLIDE_ACCELERATION * actuators.acceleration;
+        let fastest = (most / actuators.speed).min((most / far.max(1e-9)).sqrt());
+        for _ in 0..steps as u32 {
+            let ahead = (self.left - self.lag) * far;
+            let pace = fastest.min(self.speed / ahead.max(1e-9));
+            let kept = (-pace * step).exp();
+            self.left = kept * (self.left + pace * step * self.lag);
+            self.lag *= kept;
+        }
     }
 }
 
 impl Wire {
     /// A way with frames at this interval \[s\] to these actuators.
     pub fn new(interval: f64, actuators: Actuators) -> Self {
-        Wire { interval, actuators, last: None, glide: None, is_lost: false }
+        Wire { interval, actuators, last: None, change: [0.0; NUMBERS], glide: None, is_lost: false }
     }
 
     /// The actuators are where the next frame has them, as a person or the controller says: it has
     /// nothing to do with the last one.
     pub fn begin_anew(&mut self) {
-        (self.last, self.glide, self.is_lost) = (None, None, false);
+        *self = Wire::new(self.interval, self.actuators);
     }
 
     /// The controller does not receive frames, or has stopped by itself: its actuators come to rest
@@ -87,66 +140,95 @@ impl Wire {
 
     /// The frame that leaves now for these commands.
     pub fn pass(&mut self, now: Duration, commanded: &Values) -> Values {
-        let has_stopped = std::mem::take(&mut self.is_lost);
-        let mut values = self.with_glide(commanded);
-        if let Some((_, last)) = self.last {
-            let change =
-                |values: &Values| (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
-            if change(&values) > LARGEST * self.actuators.speed * self.interval {
-                self.begin(&last, commanded, has_stopped);
-                values = self.with_glide(commanded);
+        let was_lost = std::mem::take(&mut self.is_lost);
+        let mut values = *commanded;
+        if let Some((at, last)) = self.last {
+            let gap = now.saturating_sub(at).as_secs_f64();
+            let mut time = (commanded.time - last.time).clamp(0.0, self.interval);
+            if was_lost || gap > STANDS.max(STANDS_INTERVALS * self.interval) {
+                let speed = GLIDE_SPEED * self.actuators.speed;
+                let is_slow = was_lost || gap > LONG;
+                self.begin(Beginning::Rest(numbers(&last)), if is_slow { speed.min(LOST_SPEED) } else { speed });
+                time = 0.0;
             }
+            values = self.with_glide(&last, commanded, time);
+            let change = (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
+            if change > LARGEST * self.actuators.speed * self.interval {
+                self.begin(Beginning::Beside(self.beside(&last, commanded)), GLIDE_SPEED * self.actuators.speed);
+                values = self.with_glide(&last, commanded, 0.0);
+            }
+            let [before, now] = [&last, &values].map(numbers);
+            self.change = std::array::from_fn(|k| (now[k] - before[k]) / self.interval);
         }
         self.last = Some((now, values));
         values
     }
 
-    /// Begins a glide from the last frame, which goes on at the commands' speed.
-    fn begin(&mut self, last: &Values, commanded: &Values, has_stopped: bool) {
-        // Whoever was lost stands still.
-        let has_stopped = has_stopped || self.was_long_ago(last, commanded);
+    fn begin(&mut self, from: Beginning, speed: f64) {
+        self.glide = Some(Glide { from, speed, lag: 1.0, left: 1.0 });
+    }
+
+    /// The difference to the commands of actuators that go on from the last frame at their speed.
+    fn beside(&self, last: &Values, commanded: &Values) -> [f64; NUMBERS] {
         let fastest = self.actuators.speed;
-        let (goes_on, speed) = match has_stopped {
-            true => (0.0, LOST_SPEED.min(GLIDE_SPEED * fastest)),
-            false => (self.interval, GLIDE_SPEED * fastest),
-        };
         let mut from = *last;
         for (length, velocity) in from.length.iter_mut().zip(commanded.velocity) {
-            *length += goes_on * velocity.clamp(-fastest, fastest);
+            *length += self.interval * velocity.clamp(-fastest, fastest);
         }
         let [from, to] = [&from, commanded].map(numbers);
-        let difference: [f64; NUMBERS] = std::array::from_fn(|k| from[k] - to[k]);
-        let farthest = difference[..6].iter().fold(0.0, |most: f64, one| most.max(one.abs()));
-        let duration = (STEEPEST * farthest / speed).max(SHORTEST);
-        let rest = has_stopped.then_some(from);
-        self.glide = Some(Glide { difference, rest, begin: commanded.time, duration });
+        std::array::from_fn(|k| from[k] - to[k])
     }
 
-    /// True if the actuators have come to rest since the last frame.
-    fn was_long_ago(&self, last: &Values, commanded: &Values) -> bool {
-        commanded.time - last.time > 0.5
-    }
-
-    fn with_glide(&mut self, commanded: &Values) -> Values {
-        let Some(glide) = self.glide else { return *commanded };
-        let left = glide.left(commanded.time);
-        if left <= 0.0 {
-            self.glide = None;
-        }
+    /// The frame after the last one, with what is left of the glide after this time \[s\].
+    fn with_glide(&mut self, last: &Values, commanded: &Values, time: f64) -> Values {
+        let Some(glide) = &mut self.glide else { return *commanded };
         let commands = numbers(commanded);
-        // From rest the commands come in as the difference goes out: a mean of two places in the stroke.
-        let difference = glide.rest.map_or(glide.difference, |rest| std::array::from_fn(|k| rest[k] - commands[k]));
-        let velocity = (left - glide.left(commanded.time - self.interval)) / self.interval;
-        let own = if glide.rest.is_some() { 1.0 - left } else { 1.0 };
-        let mut values = *commanded;
-        for (k, speed) in values.velocity.iter_mut().enumerate() {
-            *speed = own * *speed + velocity * difference[k];
+        let difference = glide.difference(&commands);
+        let far = difference[..6].iter().fold(0.0, |most: f64, one| most.max(one.abs()));
+        glide.advance(time, far, &self.actuators);
+        if glide.left < NO_PART {
+            self.glide = None;
+            return *commanded;
         }
+        let left = glide.left;
+        let mut values = *commanded;
         set(&mut values, &std::array::from_fn(|k| commands[k] + left * difference[k]));
-        // Commands that have come nearer to the stroke's end since the glide began leave it less room.
-        let [shortest, longest] = self.actuators.stroke;
-        values.length = values.length.map(|length| length.clamp(shortest, longest));
+        // A mean of two places in the stroke brakes before its end if both do.
+        if let Beginning::Beside(difference) = &mut glide.from {
+            for k in 0..6 {
+                let length = self.actuators.braked(self.interval, last.length[k], values.length[k]);
+                if length != values.length[k] {
+                    // What has been left out is no way to make up for.
+                    values.length[k] = length;
+                    difference[k] = (length - commands[k]) / left;
+                }
+            }
+        }
+        let speed = |k: usize| (values.length[k] - last.length[k]) / self.interval;
+        values.velocity = std::array::from_fn(speed);
         values
+    }
+
+    /// The last frame's actuators on their way to rest within the stroke, so much later \[s\]:
+    /// there is no washout any more that knows a way.
+    pub fn at_rest_after(&self, time: f64) -> Option<Values> {
+        let (_, last) = self.last?;
+        let [shortest, longest] = self.actuators.stroke;
+        let room = |k: usize| {
+            let end = if last.velocity[k] > 0.0 { longest } else { shortest };
+            (end - last.length[k]).abs()
+        };
+        let fades = (0..6).map(|k| REST_WAY * room(k) / last.velocity[k].abs().max(1e-9)).fold(REST_TIME, f64::min);
+        let fades = fades.max(STEP);
+        let speeds = last.velocity.iter().chain(&self.change[6..]);
+        let left = (-time / fades).exp();
+        let mut all = numbers(&last);
+        all.iter_mut().zip(speeds).for_each(|(number, speed)| *number += speed * fades * (1.0 - left));
+        let velocity = last.velocity.map(|speed| speed * left);
+        let mut values = Values { time: last.time + time, velocity, ..last };
+        set(&mut values, &all);
+        values.length = values.length.map(|length| length.clamp(shortest, longest));
+        Some(values)
     }
 }
 
@@ -163,83 +245,4 @@ fn set(values: &mut Values, numbers: &[f64; NUMBERS]) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const INTERVAL: f64 = 0.01;
-    const SPEED: f64 = 1.0;
-    const ACTUATORS: Actuators = Actuators { speed: SPEED, stroke: [1.0, 1.6] };
-
-    /// A command at a time \[s\]: a sine of 0.1 m and 0.9 m/s at most.
-    fn commanded(time: f64) -> Values {
-        let length = [1.3 + 0.1 * (9.0 * time).sin(); 6];
-        Values { time, length, velocity: [0.9 * (9.0 * time).cos(); 6], ..Values::default() }
-    }
-
-    /// Frames that leave at these times \[ms\].
-    fn passed(wire: &mut Wire, times: impl IntoIterator<Item = u32>) -> Vec<Values> {
-        times
-            .into_iter()
-            .map(|time| wire.pass(Duration::from_millis(time.into()), &commanded(f64::from(time) * 1e-3)))
-            .collect()
-    }
-
-    #[test]
-    fn frames_on_time_pass_as_they_are() {
-        let mut wire = Wire::new(INTERVAL, ACTUATORS);
-        for (k, values) in passed(&mut wire, (0..3000).step_by(10)).iter().enumerate() {
-            assert_eq!(*values, commanded(k as f64 * 10.0 * 1e-3));
-        }
-    }
-
-    #[test]
-    fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
-        for gap in [20, 30, 106, 219, 700, 1670, 5000] {
-            let mut wire = Wire::new(INTERVAL, ACTUATORS);
-            let times = (0..500).step_by(10).chain((490 + gap..12_000).step_by(10));
-            let frames = passed(&mut wire, times);
-            let steps = frames.windows(2).map(|pair| (pair[1].length[0] - pair[0].length[0]).abs());
-            let most = steps.fold(0.0, f64::max);
-            assert!(most <= 1.2 * SPEED * INTERVAL, "gap of {gap} ms: {most} m in a frame");
-            // It comes back to the commands.
-            let last = frames.last().unwrap();
-            assert_eq!(last.length, commanded(last.time).length, "gap of {gap} ms");
-        }
-    }
-
-    /// Frames that were left out near the end of the stroke, and commands that come back there.
-    #[test]
-    fn no_glide_leaves_the_stroke() {
-        let mut wire = Wire::new(INTERVAL, ACTUATORS);
-        let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
-        wire.pass(Duration::ZERO, &at(0.0, 1.59));
-        for k in 20..1000 {
-            let time = f64::from(k) * INTERVAL;
-            let now = wire.pass(Duration::from_secs_f64(time), &at(time, (1.4 + 0.2 * (time - 0.2)).min(1.6)));
-            assert!((1.0..=1.6).contains(&now.length[0]), "{} m at {time} s", now.length[0]);
-        }
-    }
-
-    #[test]
-    fn a_controller_that_was_lost_is_followed_from_where_it_was() {
-        let mut wire = Wire::new(INTERVAL, ACTUATORS);
-        passed(&mut wire, (0..500).step_by(10));
-        let before = wire.last.unwrap().1.length[0];
-        wire.lose();
-        let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.0; 6], ..Values::default() });
-        assert!((first.length[0] - before).abs() < 1e-9);
-        // The commands go up meanwhile: no frame leaves the stroke, and none jumps.
-        let mut last = first.length[0];
-        for k in 1..4000 {
-            let time = 9.0 + 0.01 * f64::from(k);
-            let up = [1.0 + 0.6 * (0.2 * (time - 9.0)).min(1.0); 6];
-            let now = wire.pass(Duration::from_secs_f64(time), &Values { time, length: up, ..Values::default() });
-            assert!((1.0..=1.6).contains(&now.length[0]) && (now.length[0] - last).abs() < 0.0025, "{time} s");
-            last = now.length[0];
-        }
-        assert_eq!(last, 1.6);
-        // Somebody knows where the platform is.
-        wire.begin_anew();
-        assert_eq!(wire.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
-    }
-}
+mod tests;

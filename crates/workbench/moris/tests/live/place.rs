@@ -143,6 +143,8 @@ fn a_computer_that_has_slept_sends_no_frame_before_the_place_is_known() {
     live.command("clear");
     live.wait_for("or start slowly");
     assert!(socket.recv(&mut [0; 100]).is_err(), "a frame before anybody knows where the legs are");
+    // The last frames may have left it elsewhere: whoever has looked says so twice.
+    live.command("settled");
     live.command("settled");
     live.command("clear");
     live.wait_for("legs: settled");
@@ -151,4 +153,35 @@ fn a_computer_that_has_slept_sends_no_frame_before_the_place_is_known() {
     live.wait_for("off");
     live.interrupt();
     assert!(!live.end().0.success(), "the session was in a fault");
+}
+
+#[test]
+fn a_session_that_was_killed_is_not_followed_by_a_settled_one_unless_a_person_says_so() {
+    let directory = tempfile::tempdir().unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let to = format!("udp:{}", socket.local_addr().unwrap());
+    let arguments = ["--format", "csv", "--frames", "simtools", "--settled"];
+    let from = format!("udp:{}", free_port());
+    let start = || Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    let mut live = start();
+    live.command("start");
+    live.wait_for("neutral");
+    live.signal("KILL");
+    assert!(!live.end().0.success());
+    let mut live = start();
+    live.wait_for("has not parked. Look, then say settled");
+    live.command("start");
+    live.wait_for("or start slowly");
+    live.command("settled");
+    live.command("start");
+    live.wait_for("neutral");
+    live.interrupt();
+    live.wait_for("off");
+    assert!(live.end().0.success());
+    // That one has parked.
+    let mut live = start();
+    live.command("start");
+    live.wait_for("legs: settled");
+    live.signal("KILL");
+    live.end();
 }

@@ -47,6 +47,8 @@ impl Live {
             .args(["live", "--from", from, "--to", to, "--for", "100"])
             .args(arguments)
             .current_dir(directory)
+            // Locks of other tests' controllers lie elsewhere.
+            .env("TMPDIR", directory)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

@@ -1,0 +1,202 @@
+//! Frames with any gaps, judged by what leaves.
+
+use super::*;
+
+const INTERVAL: f64 = 0.01;
+const SPEED: f64 = 1.0;
+const ACTUATORS: Actuators = Actuators { speed: SPEED, acceleration: 15.0, stroke: [1.0, 1.6] };
+
+/// A command at a time \[s\]: a sine of 0.1 m and 0.9 m/s at most.
+fn commanded(time: f64) -> Values {
+    let length = [1.3 + 0.1 * (9.0 * time).sin(); 6];
+    Values { time, length, velocity: [0.9 * (9.0 * time).cos(); 6], ..Values::default() }
+}
+
+/// Frames that leave at these times \[ms\].
+fn passed(wire: &mut Wire, times: impl IntoIterator<Item = u32>) -> Vec<Values> {
+    times
+        .into_iter()
+        .map(|time| wire.pass(Duration::from_millis(time.into()), &commanded(f64::from(time) * 1e-3)))
+        .collect()
+}
+
+/// Numbers from 0 to 1, the same with each run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Commands within the actuators' limits: full acceleration to and fro, and
+/// braking before the ends.
+struct Commands {
+    actuators: Actuators,
+    length: [f64; 6],
+    velocity: [f64; 6],
+    push: [f64; 6],
+}
+
+impl Commands {
+    fn step(&mut self, random: &mut Random, step: f64) {
+        let Actuators { speed, acceleration, stroke } = self.actuators;
+        for k in 0..6 {
+            if random.next() < 0.02 {
+                self.push[k] = (2.5 * random.next() - 1.25).clamp(-1.0, 1.0) * acceleration;
+            }
+            let [length, velocity] = [self.length[k], self.velocity[k]];
+            let room = if velocity > 0.0 { stroke[1] - length } else { length - stroke[0] } - 0.001;
+            let brakes = velocity * velocity > 1.8 * acceleration * (room - 2.0 * velocity.abs() * step).max(0.0);
+            let change =
+                if brakes { -acceleration.min(velocity.abs() / step) * velocity.signum() } else { self.push[k] };
+            let after = (velocity + step * change).clamp(-speed, speed);
+            self.length[k] = (length + step * 0.5 * (velocity + after)).clamp(stroke[0], stroke[1]);
+            self.velocity[k] = after;
+        }
+    }
+}
+
+#[test]
+fn frames_on_time_pass_as_they_are() {
+    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    for (k, values) in passed(&mut wire, (0..3000).step_by(10)).iter().enumerate() {
+        assert_eq!(*values, commanded(k as f64 * 10.0 * 1e-3));
+    }
+}
+
+#[test]
+fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
+    for gap in [20, 30, 106, 219, 700, 1670, 5000] {
+        let mut wire = Wire::new(INTERVAL, ACTUATORS);
+        let times = (0..500).step_by(10).chain((490 + gap..14_000).step_by(10));
+        let frames = passed(&mut wire, times);
+        let steps = frames.windows(2).map(|pair| (pair[1].length[0] - pair[0].length[0]).abs());
+        let most = steps.fold(0.0, f64::max);
+        assert!(most <= 1.2 * SPEED * INTERVAL, "gap of {gap} ms: {most} m in a frame");
+        // It comes back to the commands.
+        let last = frames.last().unwrap();
+        assert_eq!(last.length, commanded(last.time).length, "gap of {gap} ms");
+    }
+}
+
+/// Gaps of any length, losses and stops of the whole computer at any time, also within a glide.
+#[test]
+fn nothing_that_happens_to_frames_makes_a_jump_or_leaves_the_stroke() {
+    let rigs = [ACTUATORS, Actuators { speed: 0.2, acceleration: 1.5, stroke: [0.4, 0.5] }];
+    let intervals = [0.001, 0.002, 0.01, 0.017, 0.05];
+    let (mut worst, mut kick) = (0.0_f64, 0.0_f64);
+    for seed in 0..120 {
+        let mut random = Random(seed);
+        let actuators = rigs[seed as usize % 2];
+        let interval = intervals[seed as usize % 5];
+        let every = (interval / 1e-3_f64).round() as u64;
+        let mut wire = Wire::new(interval, actuators);
+        let middle = 0.5 * (actuators.stroke[0] + actuators.stroke[1]);
+        let mut commands = Commands { actuators, length: [middle; 6], velocity: [0.0; 6], push: [0.0; 6] };
+        let often = [0.0, 0.02, 0.2][seed as usize % 3];
+        let (mut until, mut stopped) = (0_u64, 0.0);
+        let mut frames: Vec<(bool, Values)> = Vec::new();
+        let mut was_late = true;
+        for step in 1..=45_000_u64 {
+            commands.step(&mut random, 1e-3);
+            if step % every > 0 || step < until {
+                continue;
+            }
+            if random.next() < often * interval / 0.05 && step < 20_000 {
+                let seconds = [0.02, 0.05, 0.1, 0.3, 0.7, 1.9][(6.0 * random.next()) as usize] * random.next();
+                match (3.0 * random.next()) as u32 {
+                    0 => until = step + (1000.0 * seconds) as u64,
+                    1 => stopped += seconds,
+                    _ => wire.lose(),
+                }
+                was_late = true;
+                if step < until {
+                    continue;
+                }
+            }
+            let Commands { length, velocity, .. } = commands;
+            let values = Values { time: step as f64 * 1e-3, length, velocity, ..Values::default() };
+            frames.push((was_late, wire.pass(Duration::from_secs_f64(values.time + stopped), &values)));
+            was_late = false;
+        }
+        let inside = |values: &Values| {
+            values.length.iter().all(|length| (actuators.stroke[0]..=actuators.stroke[1]).contains(length))
+        };
+        assert!(frames.iter().all(|(_, values)| inside(values)), "{seed}: beyond the stroke");
+        for three in frames.windows(3) {
+            let [(_, a), (late, b), (later, c)] = three else { unreachable!() };
+            for k in 0..6 {
+                let change = (c.length[k] - b.length[k]).abs() / (actuators.speed * interval);
+                worst = worst.max(change);
+                assert!(change <= 1.2, "{seed}, {} s: {change} times the speed", c.time);
+                if !late && !later {
+                    let turn = (c.length[k] - 2.0 * b.length[k] + a.length[k]).abs() / interval / interval;
+                    kick = kick.max(turn / actuators.acceleration);
+                    assert!(turn <= 1.35 * actuators.acceleration, "{seed}, {} s: {turn} m/s2", c.time);
+                }
+            }
+        }
+        let (_, last) = frames.last().unwrap();
+        assert!(
+            (0..6).all(|k| (last.length[k] - commands.length[k]).abs() < 1.01 * actuators.speed * interval),
+            "{seed}"
+        );
+    }
+    println!("at most {worst:.3} times the speed, {kick:.3} times the acceleration");
+}
+
+/// Frames that were left out near the end of the stroke, and commands that come back there.
+#[test]
+fn no_glide_leaves_the_stroke() {
+    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
+    wire.pass(Duration::ZERO, &at(0.0, 1.59));
+    for k in 20..1000 {
+        let time = f64::from(k) * INTERVAL;
+        let now = wire.pass(Duration::from_secs_f64(time), &at(time, (1.4 + 0.2 * (time - 0.2)).min(1.6)));
+        assert!((1.0..=1.6).contains(&now.length[0]), "{} m at {time} s", now.length[0]);
+    }
+}
+
+#[test]
+fn a_controller_that_was_lost_is_followed_from_where_it_was() {
+    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    passed(&mut wire, (0..500).step_by(10));
+    let before = wire.last.unwrap().1.length[0];
+    wire.lose();
+    let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.0; 6], ..Values::default() });
+    assert!((first.length[0] - before).abs() < 1e-9);
+    // The commands go up meanwhile: no frame leaves the stroke, and none jumps.
+    let mut last = first.length[0];
+    for k in 1..4000 {
+        let time = 9.0 + 0.01 * f64::from(k);
+        let up = [1.0 + 0.6 * (0.2 * (time - 9.0)).min(1.0); 6];
+        let now = wire.pass(Duration::from_secs_f64(time), &Values { time, length: up, ..Values::default() });
+        assert!((1.0..=1.6).contains(&now.length[0]) && (now.length[0] - last).abs() < 0.0026, "{time} s");
+        last = now.length[0];
+    }
+    assert_eq!(last, 1.6);
+    // Somebody knows where the platform is.
+    wire.begin_anew();
+    assert_eq!(wire.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
+}
+
+/// The loop has ended by an error while legs move towards their ends, which they could just reach.
+#[test]
+fn actuators_without_a_loop_come_to_rest_within_the_stroke() {
+    for (length, velocity) in [(1.3, 0.4), (1.56, 0.99), (1.04, -0.99), (1.6, 0.0)] {
+        let mut wire = Wire::new(INTERVAL, ACTUATORS);
+        let values = Values { length: [length; 6], velocity: [velocity; 6], ..Values::default() };
+        wire.pass(Duration::ZERO, &values);
+        let mut before = values;
+        for k in 1..=100 {
+            let now = wire.at_rest_after(0.01 * f64::from(k)).unwrap();
+            assert!((1.0..=1.6).contains(&now.length[0]), "{} m", now.length[0]);
+            assert!((now.length[0] - before.length[0]).abs() <= velocity.abs() * 0.01);
+            before = now;
+        }
+        assert!(before.velocity[0].abs() < 2e-3);
+    }
+}
