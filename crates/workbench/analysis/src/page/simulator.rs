@@ -98,17 +98,14 @@ fn is_prominent(name: &str) -> bool {
     !name.contains(".zeta") && !name.starts_with("input.") || name.starts_with("adaptive.")
 }
 
-/// Slots and ranges of a group; of the strategies, all.
+/// Slots and ranges of a group, with any strategy: the page changes it.
 fn ranges_of(parameters: &Parameters, group: Group) -> Vec<(usize, [f64; 2])> {
     let with = |strategy: &StrategyKind| {
         let mut parameters = *parameters;
         parameters.structure.strategy = *strategy;
         ranges(&parameters, &[group])
     };
-    match group {
-        Group::Strategy => StrategyKind::ALL.iter().flat_map(with).collect(),
-        _ => ranges(parameters, &[group]),
-    }
+    StrategyKind::ALL.iter().flat_map(with).collect()
 }
 
 fn parameter(row: &Row, element: usize, start: f64, base: f64) -> Parameter {
