@@ -5,7 +5,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use moris_bounded_files::unpack;
-use moris_fmi::{SectionError, embedded};
+use moris_fmi::{Overrides, SectionError, embedded};
 use quick_xml::de::from_str;
 use serde::Deserialize;
 
@@ -72,23 +72,19 @@ impl Base {
         };
         let libraries: Vec<(Platform, Vec<u8>)> = Platform::value_variants().iter().filter_map(library).collect();
         let sources = Sources::of_files(&files);
-        let mut starts = Vec::new();
-        for (platform, library) in &libraries {
-            let overrides = embedded(library, identity.slots.len()).map_err(|error| match error {
-                SectionError::Missing => format!("has a library for {platform} without a place for start values"),
+        let start = |what: &str, overrides: Result<Overrides, SectionError>| {
+            let overrides = overrides.map_err(|error| match error {
+                SectionError::Missing => format!("has {what} without a place for start values"),
                 SectionError::Version => other_build(),
-                SectionError::Damaged => format!("has a library for {platform} whose start values are damaged"),
-            })?;
-            starts.push(Start::of_library(model, overrides));
-        }
-        if let Some(sources) = &sources {
-            let overrides = sources.embedded(model).map_err(|error| match error {
-                SectionError::Missing => "has sources without a place for start values".to_owned(),
-                SectionError::Version => other_build(),
-                SectionError::Damaged => "has sources whose start values are damaged".to_owned(),
-            })?;
-            starts.push(Start::of_library(model, overrides));
-        }
+                SectionError::Damaged => format!("has {what} whose start values are damaged"),
+            });
+            overrides.map(|overrides| Start::of_library(model, overrides))
+        };
+        let of_library = |(platform, library): &(Platform, Vec<u8>)| {
+            start(&format!("a library for {platform}"), embedded(library, identity.slots.len()))
+        };
+        let of_sources = sources.iter().map(|sources| start("sources", sources.embedded(model)));
+        let starts: Vec<Start> = libraries.iter().map(of_library).chain(of_sources).collect::<Result<_, _>>()?;
         let start = starts.first().ok_or("has no library for a platform that this program knows")?;
         // The description's token follows from the model, its start values and the layout.
         let fmi = versions.into_iter().find(|&fmi| model.token(fmi, start) == root.token).ok_or_else(other_build)?;
