@@ -5,7 +5,8 @@
 //! a platform at rest:
 //!
 //! - what is felt wrong: 1 - shape + 2 inverted, the mean of surge and sway;
-//! - what is felt too small: 1 - size, where a size above 1 counts as its reciprocal;
+//! - what is felt too small: 1 - size, with the geometric mean of surge and sway, so that neither
+//!   vanishes. A size above 1 counts as its reciprocal;
 //! - the sensed error of all channels.
 //!
 //! Axes of surge and sway on which hardly anything is desired do not count. Where neither counts,
@@ -306,14 +307,14 @@ impl Objective {
 
     /// The error of a recording with this shape and this sensed error.
     fn error(&self, shape: &Shape, sensed: f64) -> f64 {
-        let axes = || (0..2).filter_map(|axis| Some((self.weights[axis], shape.axes[axis]?)));
+        let axes = || (0..2).filter_map(|k| Some((self.weights[k], shape.axes[k]?))).filter(|axis| axis.0 > 0.0);
         let whole: f64 = axes().map(|(weight, _)| weight).sum();
         if self.aim == Aim::Error || whole == 0.0 {
             return sensed;
         }
         let mean = |of: fn(&AxisShape) -> f64| axes().map(|(weight, axis)| weight * of(&axis)).sum::<f64>() / whole;
         let wrong = mean(|axis| 1.0 - axis.shape + WEIGHT_OF_INVERTED * axis.inverted);
-        let small = mean(|axis| 1.0 - axis.size.min(1.0 / axis.size));
+        let small = 1.0 - mean(|axis| axis.size.min(1.0 / axis.size).ln()).exp();
         let parts = [wrong, small, sensed];
         parts.iter().zip(WEIGHTS_OF_SHAPE).map(|(part, weight)| weight * part).sum()
     }

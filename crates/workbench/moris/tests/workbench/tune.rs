@@ -14,6 +14,7 @@ use moris::tune::space::{Group, Space};
 use moris_setup::Setup;
 use moris_simulation::Manoeuvre;
 use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, Parameters, presets};
 
 /// The classical strategy, which is quick to search with.
@@ -110,6 +111,21 @@ fn sign_and_time_count_before_size() {
     assert!(late.shape.most_inverted().unwrap().1 > 0.15 && small.shape.least_shape().unwrap() > 0.999);
     assert!(late_sensed.error < small_sensed.error, "{} {}", late_sensed.error, small_sensed.error);
     assert!(small.error < 0.9 * late.error, "{} {}", small.error, late.error);
+}
+
+/// An axis that is hardly felt any more is not made up for by the other.
+#[test]
+fn the_size_is_the_geometric_mean_of_surge_and_sway() {
+    let objective = objective(weaving(), NO_RESERVE);
+    let mut felt = simulation(&objective, &classical());
+    let mut error = |surge: f64, sway: f64| {
+        for (input, output) in felt.inputs.iter().zip(&mut felt.outputs) {
+            output.felt_specific_force = input.specific_force.component_mul(&Vector3::new(surge, sway, 1.0));
+            output.felt_angular_velocity = input.angular_velocity;
+        }
+        objective.cost(&felt).unwrap().error
+    };
+    assert!(error(0.4, 0.4) < error(0.05, 0.95) - 0.02);
 }
 
 /// Heave alone has no shape of surge and sway.
