@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::forecast::{AHEAD, Record, SPACING};
 use crate::line::{CAPACITY, Line, Point};
-use crate::pass::{NEAR, Pass, SAME_DIRECTION, UNKNOWN, dot};
+use crate::pass::{NEAR, Pass, SAME_DIRECTION, UNKNOWN, dot, fade};
 use crate::smooth::{LAG, LATEST_LAG, Smooth};
 use crate::ticks::{Sample, TICK, Ticks, distance};
 
@@ -272,14 +272,16 @@ impl Whole<'_> {
         let mut ahead = [[0.0; AHEAD]; 2];
         let mut now = [0.0; 2];
         let mut weights = [0.0; 2];
+        let times: [f64; AHEAD] = std::array::from_fn(|k| ((k + 1) * SPACING) as f64 * TICK);
+        let fades = times.map(fade);
         for pass in self.passes.iter().flatten() {
             let mut forces = [[0.0; 2]; AHEAD];
             let is_known = forces.iter_mut().enumerate().all(|(k, force)| {
-                let there = pass.force(self.line, ((k + 1) * SPACING) as f64 * TICK);
+                let there = pass.force_ahead(self.line, times[k], fades[k]);
                 *force = there.unwrap_or_default();
                 there.is_some()
             });
-            let Some(present) = pass.force(self.line, -LATEST_LAG).filter(|_| is_known) else { continue };
+            let Some(present) = pass.force_ago(self.line, LATEST_LAG).filter(|_| is_known) else { continue };
             let difference = (pass.pace - 1.0) / ALIKE;
             let alike = 1.0 / (1.0 + difference * difference);
             for axis in 0..2 {

@@ -30,6 +30,11 @@ const ERROR_TIME: f64 = 2.0;
 /// Squared error of a pass of which nothing is known \[(m/s2)^2\].
 pub const UNKNOWN: f64 = 4.0;
 
+/// Part of a difference of the pace from 1 that is left after so many seconds.
+pub fn fade(time: f64) -> f64 {
+    libm::exp(-time / PACE_FADE)
+}
+
 /// The place on an earlier pass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
@@ -70,25 +75,26 @@ impl Pass {
         self.missed <= PATIENCE
     }
 
-    /// The force to come in so many seconds, of which a negative number is past; none where the
-    /// line is not known \[m/s2\].
-    pub fn force(&self, line: &Line, time: f64) -> Option<[f64; 2]> {
+    /// The force to come at a time whose [`fade`] is this; none where the line is not
+    /// known \[m/s2\].
+    pub fn force_ahead(&self, line: &Line, time: f64, fade: f64) -> Option<[f64; 2]> {
         let excess = self.pace - 1.0;
-        let (advance, pace, change) = if time > 0.0 {
-            let fade = libm::exp(-time / PACE_FADE);
-            let square = excess * excess;
-            let change = -excess * fade / PACE_FADE * square / (square + WANDER * WANDER);
-            (time + excess * PACE_FADE * (1.0 - fade), 1.0 + excess * fade, change)
-        } else {
-            (time * self.pace, self.pace, 0.0)
-        };
-        let there = line.at(self.number + advance / TICK)?;
+        let square = excess * excess;
+        let change = -excess * fade / PACE_FADE * square / (square + WANDER * WANDER);
+        let pace = 1.0 + excess * fade;
+        let there = line.at(self.number + (time + excess * PACE_FADE * (1.0 - fade)) / TICK)?;
         Some([there.force(0) + change * there.speed(), there.force(1) * pace * pace])
+    }
+
+    /// The force so many seconds ago; none where the line is not known \[m/s2\].
+    pub fn force_ago(&self, line: &Line, time: f64) -> Option<[f64; 2]> {
+        let there = line.at(self.number - time * self.pace / TICK)?;
+        Some([there.force(0), there.force(1) * self.pace * self.pace])
     }
 
     /// Compares the pass with the force [`LAG`] ticks ago.
     pub fn compare(&mut self, line: &Line, truth: [f64; 2]) {
-        let Some(force) = self.force(line, -(LAG as f64) * TICK) else { return };
+        let Some(force) = self.force_ago(line, LAG as f64 * TICK) else { return };
         for axis in 0..2 {
             let error = force[axis] - truth[axis];
             self.errors[axis] += (error * error - self.errors[axis]) * (TICK / ERROR_TIME);
