@@ -1,5 +1,5 @@
-//! Compiles the simulation for the report's page, and the ride, to WebAssembly,
-//! and finds the commit.
+//! Lists the scripts of the pages. Compiles the simulation for the report's page, and the ride, to
+//! WebAssembly, and finds the commit.
 //!
 //! Where the target is not installed the files are empty. The report's page then does not simulate,
 //! and there is no ride. Without git the version is that of the package alone.
@@ -46,6 +46,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     for source in SOURCES {
         println!("cargo::rerun-if-changed={}", root.join(source).display());
     }
+    println!("cargo::rerun-if-changed={}", root.join("crates/workbench/pages/page").display());
+    fs::write(out.join("scripts.rs"), scripts(&root.join("crates/workbench/pages/page"))?)?;
     let version = variable("CARGO_PKG_VERSION")?;
     let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
@@ -56,6 +58,24 @@ fn main() -> Result<(), Box<dyn Error>> {
         fs::write(out.join(name).with_extension("wasm"), module)?;
     }
     Ok(())
+}
+
+/// An array of the path of each script below `pages`, and of its text.
+fn scripts(pages: &Path) -> Result<String, Box<dyn Error>> {
+    let mut paths = Vec::new();
+    for folder in fs::read_dir(pages)? {
+        for file in fs::read_dir(folder?.path())? {
+            let path = file?.path();
+            if path.extension().is_some_and(|extension| extension == "js") {
+                let names = path.strip_prefix(pages)?.iter().map(|name| name.to_string_lossy());
+                paths.push(names.collect::<Vec<_>>().join("/"));
+            }
+        }
+    }
+    paths.sort();
+    let listed =
+        |path: &String| format!("({path:?}, include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/page/{path}\"))),\n");
+    Ok(format!("[\n{}]", paths.iter().map(listed).collect::<String>()))
 }
 
 fn variable(name: &str) -> Result<String, String> {

@@ -2,11 +2,14 @@
 //!
 //! - [`report`] is the page about a recording.
 //! - [`ride`] is a ride in the browser: the page, and motorcycle and washout behind it.
+//! - [`live`] is the page of a live session.
 //! - [`memory`] is shared by a page's script and its WebAssembly. The modules themselves stand in
 //!   `modules/`, each an example of this package: a library of its own with functions for one page.
 
 #![deny(unsafe_code)]
 
+mod bundle;
+pub mod live;
 #[allow(unsafe_code)]
 pub mod memory;
 pub mod report;

@@ -1,10 +1,14 @@
 // The controls of a vehicle that moris live steps: sent as long as this page holds them.
 
+import { byId } from "../shared/dom.js";
+import { setText } from "../shared/shown.js";
+import { Controls } from "../shared/controls.js";
+
 /** Time between what is sent [ms]; moris live releases the controls after 500 ms without it. */
 const DRIVING_INTERVAL = 40;
-const DRIVING_KEY = "n";
+export const DRIVING_KEY = "n";
 
-class Driving {
+export class Driving {
   /** `send(what)` sends an order, and returns why it is refused, or nothing. */
   constructor(box, handling, send) {
     Object.assign(this, { box, send, isRider: handling === "rider", controls: new Controls(), held: { throttle: 0, brake: 0, stick: 0 } });

@@ -1,5 +1,17 @@
 // The page: messages of moris live, and pictures of them.
 
+import { page } from "../shared/payload.js";
+import { fixed, significant } from "../shared/format.js";
+import { byId, element } from "../shared/dom.js";
+import { letTurn, View } from "../shared/view.js";
+import { Strip } from "../shared/strip.js";
+import { addLegend, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
+import { Road, SCENE } from "../shared/road.js";
+import { ask, listenToCommands, Sliders, token } from "./orders.js";
+import { Driving, DRIVING_KEY } from "./driving.js";
+import { Pair } from "./pair.js";
+import { Track } from "./track.js";
+
 const RECORDED = ["time", "desired_x", "desired_y", "desired_z", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
 const HEADER = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed";
 

@@ -1,12 +1,15 @@
 // What this page asks for: commands by buttons and keys, parameters by sliders.
 
+import { element } from "../shared/dom.js";
+import { ParameterControl } from "../shared/parameter.js";
+
 const COMMAND_KEYS = { s: "start", e: "engage", d: "disengage", p: "park", c: "clear", escape: "stop" };
 /** Headings of parameters that stand first. */
 const FIRST = ["Strategy", "Scales"];
-const token = new URLSearchParams(location.search).get("token");
+export const token = new URLSearchParams(location.search).get("token");
 
 /** Sends what is asked for; the reason why it is refused, or nothing. */
-async function ask(client, what) {
+export async function ask(client, what) {
   try {
     const answer = await fetch("/ask", { method: "POST", headers: { "X-Token": token }, body: JSON.stringify({ client, ask: what }) });
     return answer.ok ? "" : await answer.text();
@@ -16,7 +19,7 @@ async function ask(client, what) {
 }
 
 /** Buttons and keys that call with the name of a command. */
-function listenToCommands(buttons, command, keys) {
+export function listenToCommands(buttons, command, keys) {
   for (const button of buttons) button.addEventListener("click", () => command(button.dataset.event));
   addEventListener("keydown", (event) => {
     if (event.repeat || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -28,7 +31,7 @@ function listenToCommands(buttons, command, keys) {
 }
 
 /** Sliders of the tunable parameters. A change goes out at once; those that come meanwhile go together. */
-class Sliders {
+export class Sliders {
   /** `send(values)` sends an object of values, and returns why they are refused, or nothing. */
   constructor(box, data, send) {
     Object.assign(this, { box, data, send, waiting: {}, isSending: false });

@@ -1,6 +1,8 @@
 // Two parameter sets: kept, gone to, and voted on.
 
-class Pair {
+import { setText } from "../shared/shown.js";
+
+export class Pair {
   /** `send(what)` sends an order, and returns why it is refused, or nothing. */
   constructor(buttons, send) {
     Object.assign(this, { buttons: [...buttons], send });

@@ -1,5 +1,9 @@
 // The road as it is learned: its line, where the preview was trusted, and the vehicle.
 
+import { fixed } from "../shared/format.js";
+import { drawSegment, fitted } from "../shared/dom.js";
+import { setText } from "../shared/shown.js";
+
 /** Distance of points that are kept [m]; a longer one than the second is a jump. */
 const TRACK_SPACING = [3, 40];
 /** Points that are kept. */
@@ -7,7 +11,7 @@ const TRACK_POINTS = 8000;
 /** Trust from which on a stretch counts as trusted. */
 const TRUSTED = 0.5;
 
-class Track {
+export class Track {
   /** `known` has places of the road that was loaded, a null where it is interrupted. */
   constructor(section, known) {
     this.canvas = section.querySelector("canvas");

@@ -1,10 +1,17 @@
 // A chart over time: curves, limits, a legend with the values at the cursor. All charts share the times shown.
 
-const MARGIN = { left: 52, right: 10, top: 8, bottom: 22 };
+import { fixed, ticks } from "../shared/format.js";
+import { drawSegment, element, fitted, setAttributes } from "../shared/dom.js";
+import { colour } from "../shared/palette.js";
+import { inWords } from "../shared/parameter.js";
+import { valueAt } from "./data.js";
+import { extent, thinned } from "./thin.js";
+
+export const MARGIN = { left: 52, right: 10, top: 8, bottom: 22 };
 
 /** The x of a time in a plot so wide, and back. */
-const plotWidth = (width) => width - MARGIN.left - MARGIN.right;
-const xOf = (time, [from, to], width) => MARGIN.left + (time - from) / (to - from) * plotWidth(width);
+export const plotWidth = (width) => width - MARGIN.left - MARGIN.right;
+export const xOf = (time, [from, to], width) => MARGIN.left + (time - from) / (to - from) * plotWidth(width);
 const timeOf = (x, [from, to], width) => from + (x - MARGIN.left) / plotWidth(width) * (to - from);
 
 /** How much a turn of the wheel zooms. */
@@ -14,7 +21,7 @@ const WHEEL = 1.0015;
  * A plot's canvas with a cursor line over it. A click sets the time, a drag chooses the times shown, a drag with shift moves
  * them; the wheel with control zooms, with shift it moves. The pointer reads the curves.
  */
-class Plot {
+export class Plot {
   constructor(height, shown, { seek, show, hover }) {
     this.canvas = element("canvas", { role: "img" });
     this.cursor = element("div", { class: "cursor" });
@@ -102,7 +109,7 @@ class Plot {
 }
 
 /** Draws the time axis below a plot. */
-function drawTimeAxis(context, shown, width, height, from = MARGIN.top) {
+export function drawTimeAxis(context, shown, width, height, from = MARGIN.top) {
   const { values, digits } = ticks(shown[0], shown[1], Math.max(3, plotWidth(width) / 90));
   context.textAlign = "center";
   context.textBaseline = "top";
@@ -134,7 +141,7 @@ function areEqual(one, other) {
   return one.values.length > 0 && same(one.values, other.values) && same(one.times, other.times);
 }
 
-class Chart {
+export class Chart {
   /**
    * `lines`: { label, colour, width, dash, times, values }, `aside` for those in the background, and `layer`, higher on top
    * of lower; `others`: curves that are not drawn but set the vertical axis, too; `limits`: values of dashed lines; `unit`

@@ -1,5 +1,7 @@
 // Data: the report as it travels in the page, decoded as src/encode.rs encodes it.
 
+import { inflated, page } from "../shared/payload.js";
+
 /** Values of a series from its second differences; null without one. */
 async function decoded(encoded, Numbers = Float32Array) {
   if (encoded === null) return null;
@@ -24,7 +26,7 @@ async function decoded(encoded, Numbers = Float32Array) {
 const RUN_DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4]];
 
 /** How a run's curves look. */
-const runStyle = (index) => ({ colour: `--run-${index % 4 + 1}`, dash: RUN_DASHES[index % RUN_DASHES.length] });
+export const runStyle = (index) => ({ colour: `--run-${index % 4 + 1}`, dash: RUN_DASHES[index % RUN_DASHES.length] });
 
 /** A run with typed arrays in place of text. */
 async function decodedRun(run, events, index) {
@@ -65,10 +67,10 @@ async function decodedRun(run, events, index) {
 }
 
 const decodedRuns = page.report.runs.map((run, i) => decodedRun(run, page.events[i], i));
-const report = { ...page.report, runs: await Promise.all(decodedRuns) };
+export const report = { ...page.report, runs: await Promise.all(decodedRuns) };
 
 /** The index of the last of the ascending times that is not after `time`; 0 if all are. */
-function indexAt(times, time) {
+export function indexAt(times, time) {
   let low = 0;
   let high = times.length - 1;
   while (low < high) {
@@ -80,7 +82,7 @@ function indexAt(times, time) {
 }
 
 /** A series' value at `time`, on the straight line between its samples; outside of them that of the nearest. */
-function valueAt(times, values, time) {
+export function valueAt(times, values, time) {
   const i = indexAt(times, time);
   if (i === times.length - 1 || time <= times[i]) return values[i];
   const fraction = (time - times[i]) / (times[i + 1] - times[i]);

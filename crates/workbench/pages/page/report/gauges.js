@@ -1,6 +1,10 @@
 // The legs against their stroke, as six gauges.
 
-class Gauges {
+import { fixed } from "../shared/format.js";
+import { element } from "../shared/dom.js";
+import { rgb, strokeColour } from "../shared/palette.js";
+
+export class Gauges {
   constructor(box) {
     this.box = box;
     this.gauges = Array.from({ length: 6 }, (_, i) => {

@@ -1,5 +1,10 @@
 // The time line of what was limited, and the list of it with reasons.
 
+import { fixed } from "../shared/format.js";
+import { element } from "../shared/dom.js";
+import { colour } from "../shared/palette.js";
+import { drawTimeAxis, MARGIN, Plot, plotWidth, xOf } from "./chart.js";
+
 const KINDS = {
   tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit." },
   soft: { label: "soft", long: "soft limits", colour: "--soft", help: "The soft limits changed the motion ahead of a limit of a leg or a safety unit." },
@@ -16,7 +21,7 @@ function timeLimited(run, flags) {
 }
 
 /** One lane for each kind of limit. */
-class TimeLine {
+export class TimeLine {
   constructor(shown, handlers) {
     this.shown = shown;
     this.events = [];
@@ -91,7 +96,7 @@ class TimeLine {
 }
 
 /** What is limited at the moment, as chips beside the machine. */
-class Chips {
+export class Chips {
   constructor(list) {
     this.chips = Object.entries(KINDS).map(([kind, { long, colour: paint, help }]) => {
       const chip = element("li", { title: help, style: `--chip: var(${paint})` }, [long]);

@@ -1,5 +1,22 @@
 // The page: one time, one selected run, one window of times shown; everything drawn follows them.
 
+import { page } from "../shared/payload.js";
+import { fixed } from "../shared/format.js";
+import { byId, element } from "../shared/dom.js";
+import { colour } from "../shared/palette.js";
+import { letTurn, View } from "../shared/view.js";
+import { report } from "./data.js";
+import { Chart } from "./chart.js";
+import { stateAt } from "./state.js";
+import { Chips, TimeLine } from "./limits.js";
+import { Gauges } from "./gauges.js";
+import { cellText, definitions, printBox, showMeasures } from "./measures.js";
+import { overlayChoice } from "./overlay.js";
+import { roughestSecond } from "./roughest.js";
+import { sections } from "./panels.js";
+import { Simulator } from "./simulator.js";
+import { Tuning } from "./tuning.js";
+
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5"];
 
 const recording = {
@@ -186,7 +203,8 @@ const showAllMeasures = () => showMeasures(byId("measures"), report.runs);
 
 function drawMachine() {
   view.rig = now.run.rig;
-  const state = view.draw(now.run, now.time);
+  const state = stateAt(now.run, now.time);
+  view.drawState(state, colour(now.run.colour));
   gauges.update(state, now.run.rig.stroke);
   chips.update(state);
 }
@@ -258,7 +276,6 @@ async function setUpTuning() {
 }
 
 function redraw() {
-  style = readStyle();
   drawCharts();
   seek(now.time);
 }

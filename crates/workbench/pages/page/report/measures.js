@@ -1,6 +1,9 @@
 // The measures, channel by channel: the runs side by side, and each measure's definition and source below it all.
 
-const cellText = (value) => (value == null ? "\u2013" : significant(value, 3));
+import { significant } from "../shared/format.js";
+import { element } from "../shared/dom.js";
+
+export const cellText = (value) => (value == null ? "\u2013" : significant(value, 3));
 
 /** The index of the best of some runs' values of a measure; -1 where none is better than another. */
 function best(values, better) {
@@ -59,7 +62,7 @@ function channelBlock({ name, groups }, runs) {
 const runMark = (run) => element("span", { class: "mark", style: `background: var(${run.colour})` });
 
 /** Every definition once, with its source and what it is the definition of. */
-function definitions(groups) {
+export function definitions(groups) {
   const known = new Map();
   for (const { name: group, measures } of groups) {
     for (const { name, definition, source } of measures) {
@@ -77,7 +80,7 @@ function definitions(groups) {
   return element("details", {}, [element("summary", {}, ["Definitions and sources"]), table]);
 }
 
-function showMeasures(box, runs) {
+export function showMeasures(box, runs) {
   const groups = gathered(runs);
   if (groups.length === 0) return;
   const wasOpen = box.querySelector("details")?.open;
@@ -89,5 +92,5 @@ function showMeasures(box, runs) {
 }
 
 /** The switch that prints the definitions, too; it stays as it is when the measures change. */
-const printBox = element("input", { type: "checkbox", id: "print-definitions" });
+export const printBox = element("input", { type: "checkbox", id: "print-definitions" });
 const printChoice = () => element("label", { class: "print-choice" }, [printBox, " print with the definitions"]);

@@ -1,5 +1,9 @@
 // Channels chosen by the reader, in one chart.
 
+import { element } from "../shared/dom.js";
+import { DASHES } from "../shared/palette.js";
+import { AXES, inDegrees, LEGS, TURNS } from "./axes.js";
+
 const overlay = new Set();
 
 /** Every channel of a run: name, unit, values. */
@@ -18,7 +22,7 @@ function channelsOf(run) {
 }
 
 /** The section with the channels that the reader has chosen. */
-function overlaid(run) {
+export function overlaid(run) {
   if (overlay.size === 0) return [];
   const chosen = channelsOf(run).filter(({ name }) => overlay.has(name));
   const lines = chosen.map(({ name, unit, values }, i) => ({
@@ -28,7 +32,7 @@ function overlaid(run) {
 }
 
 /** The list to choose from. */
-function overlayChoice(run, changed) {
+export function overlayChoice(run, changed) {
   const boxes = channelsOf(run).map(({ name }) => {
     const box = element("input", { type: "checkbox" });
     box.checked = overlay.has(name);

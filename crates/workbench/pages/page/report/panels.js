@@ -1,19 +1,14 @@
 // Which charts there are.
 
-const AXES = [["Surge", "x"], ["Sway", "y"], ["Heave", "z"]];
-const TURNS = ["Roll", "Pitch", "Yaw"];
-const THREE = ["--axis-x", "--axis-y", "--axis-z"];
-const LEGS = ["--leg-1", "--leg-2", "--leg-3", "--leg-4", "--leg-5", "--leg-6"];
+import { DEGREES } from "../shared/format.js";
+import { colour, DASHES } from "../shared/palette.js";
+import { report } from "./data.js";
+import { extent } from "./thin.js";
+import { AXES, inDegrees, LEGS, THREE, TURNS } from "./axes.js";
+import { overlaid } from "./overlay.js";
 
 /** Cues that vary less than this are not worth a chart: m/s2, degrees/s. */
 const STILL = { specific_force: 0.01, angular_velocity: 0.05 };
-
-/** A loop, because `map` takes six times as long, and all curves wait for it while a slider moves. */
-function inDegrees(values) {
-  const made = new Float32Array(values.length);
-  for (let k = 0; k < made.length; k += 1) made[k] = values[k] * DEGREES;
-  return made;
-}
 
 /** Felt against desired on one axis, felt for every run, on one vertical axis whichever is selected. */
 function cueLines(quantity, axis, selected, convert) {
@@ -58,7 +53,7 @@ function series(selected, list, names, colours, convert = (values) => values) {
 const bothWays = (limit) => (limit > 0 ? [-limit, limit] : []);
 
 /** The sections of the page for a run: heading, charts, and a note where something is left out. */
-function sections(run) {
+export function sections(run) {
   const position = ({ position: [x, y, z], rig }) => [x, y, z.map((value) => value - rig.neutral_height)];
   const forces = AXES.map(([name, axis]) => `${name}, ${axis}`);
   const rates = TURNS.map((name, i) => `${name} rate, ${AXES[i][1]}`);

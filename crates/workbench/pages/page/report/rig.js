@@ -1,7 +1,10 @@
 // The rig: its file, and what it can do.
 
+import { element } from "../shared/dom.js";
+import { asComment, written } from "./parameter-file.js";
+
 /** Text of the rig file; `of(name)` is a parameter's value. */
-function rigFile({ heading, rig_name: name, actuator_diameter: diameter }, of) {
+export function rigFile({ heading, rig_name: name, actuator_diameter: diameter }, of) {
   const real = (value) => written({ kind: "real" }, value);
   const axes = (item) => `[${["x", "y", "z"].map((axis) => real(of(item(axis)))).join(", ")}]`;
   const joints = (where) => [1, 2, 3, 4, 5, 6].map((leg) => `  ${axes((axis) => `rig.${where}[${leg}].${axis}`)},`).join("\n");
@@ -19,7 +22,7 @@ function rigFile({ heading, rig_name: name, actuator_diameter: diameter }, of) {
 }
 
 /** The verdict on a rig: reach, speed and acceleration of each axis, and sentences. */
-class RigVerdict {
+export class RigVerdict {
   constructor() {
     this.state = element("p", { class: "summary", role: "status" });
     this.details = element("div", { id: "verdict" });

@@ -4,7 +4,7 @@
  * Start of the second in which felt surge or sway has least of the desired one's shape: where the standard deviation of their
  * difference is largest.
  */
-function roughestSecond({ times, desired, felt }) {
+export function roughestSecond({ times, desired, felt }) {
   let [largest, start] = [-1, times[0]];
   for (const axis of [0, 1]) {
     const error = (k) => felt.specific_force[axis][k] - desired.specific_force[axis][k];

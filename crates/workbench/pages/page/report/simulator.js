@@ -1,5 +1,7 @@
 // The simulation of the recording: a worker, and a run of its answers.
 
+import { inflated } from "../shared/payload.js";
+
 /** Values from the bytes of all first places, all second places, and so on, as src/encode.rs writes them. */
 async function exactValues(text) {
   const planes = await inflated(text);
@@ -11,7 +13,7 @@ async function exactValues(text) {
   return new Float64Array(bytes.buffer);
 }
 
-class Simulator {
+export class Simulator {
   /** `data`: as src/simulator.rs describes it; `script`: the worker's. */
   constructor(data, script) {
     this.data = data;

@@ -1,10 +1,12 @@
 // Leaves out of a curve what nobody can see.
 
+import { indexAt } from "./data.js";
+
 /**
  * The part of a curve between two times as points [time, value], at most four for each of `columns` pixels: the first, the
  * lowest, the highest and the last in it, so that no peak is lost. Gaps (values that are not numbers) stay gaps.
  */
-function thinned(times, values, from, to, columns) {
+export function thinned(times, values, from, to, columns) {
   const first = indexAt(times, from);
   const last = Math.min(times.length - 1, indexAt(times, to) + 1);
   const points = [];
@@ -29,7 +31,7 @@ function thinned(times, values, from, to, columns) {
 }
 
 /** Lowest and highest of a curve's values between two times; null where there is none. */
-function extent(times, values, from, to) {
+export function extent(times, values, from, to) {
   let [low, high] = [Infinity, -Infinity];
   const last = Math.min(times.length - 1, indexAt(times, to) + 1);
   for (let i = indexAt(times, from); i <= last; i += 1) {

@@ -1,30 +1,18 @@
 // The panel with the parameters: each change simulates the recording again and redraws the page.
 
+import { fixed } from "../shared/format.js";
+import { element } from "../shared/dom.js";
+import { idleReason, plainWords, searched } from "../shared/words.js";
+import { ParameterControl } from "../shared/parameter.js";
+import { report } from "./data.js";
+import { panelButton, Variants } from "./variants.js";
+import { parameterFile } from "./parameter-file.js";
+import { rigFile, RigVerdict } from "./rig.js";
+
 /** Most parameters that a search shows. */
 const MOST_FOUND = 12;
 /** Time for which changes may follow each other so closely that none is simulated to its end [ms]. */
 const UNFINISHED = 300;
-
-/** A value as a parameter file has it. */
-function written({ kind, items }, value) {
-  if (kind === "enumeration") return `"${items[value - 1]}"`;
-  if (kind === "boolean") return String(value !== 0);
-  const text = String(value);
-  return kind === "real" && /^-?\d+$/.test(text) ? `${text}.0` : text;
-}
-
-/** A text as a comment or a name may have it. */
-const asComment = (text) => text.replace(/[\u0000-\u001f\u007f]/g, " ");
-
-/** Text of the parameter file: what differs from the rig with default parameters. */
-function parameterFile({ parameters, heading }, values) {
-  const lines = parameters.flatMap((parameter, slot) => {
-    if (values[slot] === parameter.base) return [];
-    const unit = parameter.unit ? ` [${parameter.unit}]` : "";
-    return [`\n# ${parameter.text}${unit}\n"${parameter.name}" = ${written(parameter, values[slot])}\n`];
-  });
-  return `# ${asComment(heading)}\n${lines.join("")}`;
-}
 
 /** Gives a text to save as a file. */
 function saveAs(name, text) {
@@ -34,7 +22,7 @@ function saveAs(name, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-class Tuning {
+export class Tuning {
   /** `show(run)` shows a run, and every curve and measure anew; `showCurves(run)` curves that change. */
   constructor(box, simulator, show, showCurves) {
     Object.assign(this, { box, simulator, show, showCurves });

@@ -1,15 +1,18 @@
 // Runs with parameters of their own: the one by hand, and those kept by name, to choose, compare, rename and delete.
 
+import { element } from "../shared/dom.js";
+import { report, runStyle } from "./data.js";
+
 const BY_HAND = "by hand";
 
 /** A button of the panel. */
-function panelButton(text, title, act) {
+export function panelButton(text, title, act) {
   const made = element("button", { type: "button", title }, [text]);
   made.addEventListener("click", act);
   return made;
 }
 
-class Variants {
+export class Variants {
   /** `show(run)` shows a run, and every curve and measure anew; `say(text)` says what cannot be done. */
   constructor(show, say) {
     Object.assign(this, { show, say, shown: report.runs[0], looks: report.runs.length });

@@ -1,5 +1,8 @@
 // Simulates beside the page, so that sliders do not wait. The first message brings the module and the recording, every
 // other one a set of parameters, a rig, or the wish to abandon the simulation.
+
+import { Module } from "../shared/module.js";
+
 let simulation = null;
 let samples = 0;
 let isAbandoned = false;

@@ -1,10 +1,12 @@
 // The ride in the WebAssembly, in step with the browser's clock.
 
+import { Module } from "../shared/module.js";
+
 const STAGES = ["ready", "riding", "off_road", "fallen", "returning"];
 /** Longest time that a frame makes up for; what a stall has taken beyond it is left out [s]. */
 const LONGEST_FRAME = 0.1;
 
-class Engine {
+export class Engine {
   static async start(bytes, values) {
     const engine = Object.assign(new Engine(), { module: await Module.start(bytes), left: 0, steps: 0 });
     engine.module.hand(values);

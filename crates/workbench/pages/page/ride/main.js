@@ -1,5 +1,16 @@
 // The page: input, steps and pictures, a frame at a time.
 
+import { inflated, page } from "../shared/payload.js";
+import { fixed } from "../shared/format.js";
+import { byId, element } from "../shared/dom.js";
+import { letTurn, View } from "../shared/view.js";
+import { Strip } from "../shared/strip.js";
+import { addLegend, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
+import { Controls } from "../shared/controls.js";
+import { Road, SCENE } from "../shared/road.js";
+import { Engine } from "./engine.js";
+import { Panel } from "./panel.js";
+
 const MESSAGES = {
   ready: "Ready. Throttle: ↑, W or its button; lean: ← →",
   off_road: "Off the road. R or Restart for another try",

@@ -1,5 +1,8 @@
 // The parameters that matter most, and the friction of the road.
 
+import { element } from "../shared/dom.js";
+import { ParameterControl } from "../shared/parameter.js";
+
 const PROMINENT = [
   "strategy", "scale.automatic", "scale.specificForce.x", "scale.specificForce.y", "scale.angularVelocity.x", "tilt.rateLimit", "tilt.angleLimit",
 ];
@@ -8,7 +11,7 @@ const FRICTION = {
   accepted: [0.05, 3], slider: [0.1, 1.4], start: 1.2,
 };
 
-class Panel {
+export class Panel {
   /** `retune(values)` and `setFriction(value)` return why a value cannot be used, or nothing. */
   constructor(box, data, { retune, setFriction }) {
     this.data = data;

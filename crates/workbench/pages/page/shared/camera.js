@@ -1,9 +1,11 @@
 // A camera that turns about the machine.
 
-const DISTANCE = 7.5;
-const HIGHEST = 1.5;
+import { dot, minus, plus, scaled } from "./vector.js";
 
-class Camera {
+const DISTANCE = 7.5;
+export const HIGHEST = 1.5;
+
+export class Camera {
   /** `rig` says what has to be in the picture. */
   constructor(rig) {
     const reach = Math.max(...rig.base.map((joint) => Math.hypot(joint[0], joint[1])));

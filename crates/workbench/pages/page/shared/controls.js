@@ -10,7 +10,7 @@ const KEY_BRAKE = 0.8;
 const FULL_TILT = 30;
 const DEAD = 0.08;
 
-class Controls {
+export class Controls {
   constructor() {
     this.held = new Set();
     this.byKeys = { throttle: 0, brake: 0, stick: 0 };

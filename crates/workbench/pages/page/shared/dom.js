@@ -1,23 +1,23 @@
 // Building the document. Text is always text: nothing that a user has named can become markup.
 
 /** Sets attributes, and `style` by the object model: the page's policy forbids it as an attribute. */
-function setAttributes(made, { style = "", ...attributes }) {
+export function setAttributes(made, { style = "", ...attributes }) {
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   if (style) made.style.cssText = style;
   return made;
 }
 
 /** A new element with attributes and children (elements, or strings). */
-function element(tag, attributes = {}, children = []) {
+export function element(tag, attributes = {}, children = []) {
   const made = setAttributes(document.createElement(tag), attributes);
   made.append(...children);
   return made;
 }
 
-const byId = (id) => document.getElementById(id);
+export const byId = (id) => document.getElementById(id);
 
 /** Clears a canvas and makes it as fine as the screen; returns its context and its size in CSS pixels. */
-function fitted(canvas) {
+export function fitted(canvas) {
   const { width, height } = canvas.getBoundingClientRect();
   const ratio = window.devicePixelRatio || 1;
   const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
@@ -31,7 +31,7 @@ function fitted(canvas) {
 }
 
 /** Draws a straight line. */
-function drawSegment(context, from, to, paint, width) {
+export function drawSegment(context, from, to, paint, width) {
   context.strokeStyle = paint;
   context.lineWidth = width;
   context.beginPath();

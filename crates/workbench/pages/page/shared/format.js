@@ -1,19 +1,19 @@
 // Numbers and ticks as people write them.
 
-const DEGREES = 180 / Math.PI;
+export const DEGREES = 180 / Math.PI;
 const MINUS = "\u2212";
 
-const withMinus = (text) => text.replace("-", MINUS);
+export const withMinus = (text) => text.replace("-", MINUS);
 
 /** With so many digits after the point; no negative zero. */
-function fixed(value, digits) {
+export function fixed(value, digits) {
   if (!Number.isFinite(value)) return "\u2013";
   const text = value.toFixed(digits);
   return withMinus(Number(text) === 0 ? text.replace("-", "") : text);
 }
 
 /** With so many significant digits, but none beyond the sixth after the point: smaller numbers are rounding. */
-function significant(value, digits) {
+export function significant(value, digits) {
   if (!Number.isFinite(value)) return "\u2013";
   if (Math.abs(value) < 1e-6) return "0";
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
@@ -21,7 +21,7 @@ function significant(value, digits) {
 }
 
 /** Round values from `low` to `high`, about `count` of them, and the digits that they need. */
-function ticks(low, high, count) {
+export function ticks(low, high, count) {
   const rough = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((candidate) => candidate >= rough * 0.999);

@@ -1,38 +1,24 @@
 // The machine in a pose: where its joints, its legs, the mock-up and the rider are, in the base frame.
 
-/** Everything about a run at one time. */
-function stateAt(run, time) {
-  const at = (values) => valueAt(run.times, values, time);
-  const i = indexAt(run.times, time);
-  const [roll, pitch, yaw] = run.orientation.map(at);
-  return {
-    position: run.position.map(at),
-    rotation: rotation(roll, pitch, yaw),
-    lean: run.lean ? at(run.lean) : 0,
-    legs: run.legs.map(at),
-    desired: run.desired.specific_force.map(at),
-    felt: run.felt.specific_force.map(at),
-    limited: { tilt: run.limited.tilt[i], soft: run.limited.soft[i], safety: run.limited.safety[i], actuator: run.limited.actuator[i] },
-  };
-}
+import { plus, rolled, turned } from "./vector.js";
 
 /** A point of the platform in the base frame. */
-const onPlatform = (state, point) => plus(state.position, turned(state.rotation, point));
+export const onPlatform = (state, point) => plus(state.position, turned(state.rotation, point));
 
 /** Both ends of each leg. */
-const legEnds = (rig, state) => rig.base.map((joint, i) => [joint, onPlatform(state, rig.platform[i])]);
+export const legEnds = (rig, state) => rig.base.map((joint, i) => [joint, onPlatform(state, rig.platform[i])]);
 
 /** A point of the rider's torso, `height` above the seat along the back, `aside` to the left and `ahead`: it leans with the rider. */
-function onTorso(rig, state, height, aside = 0, ahead = 0) {
+export function onTorso(rig, state, height, aside = 0, ahead = 0) {
   const seat = [0, 0, rig.head_height - rig.torso_length];
   return onPlatform(state, plus(seat, turned(rolled(state.lean), [ahead, aside, height])));
 }
 
 /** The rider's head: the point where the washout's specific force is felt. */
-const headOf = (rig, state) => onTorso(rig, state, rig.torso_length);
+export const headOf = (rig, state) => onTorso(rig, state, rig.torso_length);
 
 /** A vector in the head's axes, in the base frame. */
-const fromHead = (state, a) => turned(state.rotation, turned(rolled(state.lean), a));
+export const fromHead = (state, a) => turned(state.rotation, turned(rolled(state.lean), a));
 
 // The mock-ups in side view, as x and z in units of the seat's height above the platform, and half their widths. A wheel has
 // its centre's y as third coordinate.
@@ -59,10 +45,10 @@ const CAR = {
   ],
   bar: { at: [0.62, 1.42], half: 0.28 },
 };
-const MOCK_UPS = { motorcycle: MOTORCYCLE, car: CAR };
+export const MOCK_UPS = { motorcycle: MOTORCYCLE, car: CAR };
 
 /** A flat shape swept across: its two sides and the strip between them, as polygons of points on the platform. */
-function swept(outline, half, size) {
+export function swept(outline, half, size) {
   const side = (y) => outline.map(([x, z]) => [size * x, y * size, size * z]);
   const [left, right] = [side(half), side(-half)];
   const strip = outline.map((_, i) => {
@@ -73,7 +59,7 @@ function swept(outline, half, size) {
 }
 
 /** A ring of points on the platform, standing along its x axis. */
-function wheel({ centre: [x, z, y], radius }, size) {
+export function wheel({ centre: [x, z, y], radius }, size) {
   return Array.from({ length: 29 }, (_, k) => {
     const angle = k / 28 * 2 * Math.PI;
     return [size * (x + radius * Math.cos(angle)), size * y, size * (z + radius * Math.sin(angle))];
@@ -81,7 +67,7 @@ function wheel({ centre: [x, z, y], radius }, size) {
 }
 
 /** A plate with corners at the joints, so thick, below them. */
-function plate(joints, thickness) {
+export function plate(joints, thickness) {
   const around = joints.slice().sort((a, b) => Math.atan2(a[1], a[0]) - Math.atan2(b[1], b[0]));
   const below = around.map(([x, y, z]) => [x, y, z - thickness]);
   const rim = around.map((_, i) => {

@@ -1,6 +1,6 @@
 // The WebAssembly's side of numbers and a text.
 
-class Module {
+export class Module {
   static async start(bytes) {
     const { instance } = await WebAssembly.instantiate(bytes, {});
     return Object.assign(new Module(), { calls: instance.exports });

@@ -1,22 +1,21 @@
 // Colours: those of the style sheet, so that they follow the reader's choice of light or dark.
 
-const readStyle = () => getComputedStyle(document.documentElement);
-let style = readStyle();
+const style = getComputedStyle(document.documentElement);
 
-const colour = (name) => style.getPropertyValue(name).trim();
+export const colour = (name) => style.getPropertyValue(name).trim();
 
 /** Red, green and blue of a colour that is written #rrggbb. */
-const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+export const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
 
-const rgb = (parts) => `rgb(${parts.map((part) => Math.round(part)).join(", ")})`;
+export const rgb = (parts) => `rgb(${parts.map((part) => Math.round(part)).join(", ")})`;
 
 /** So much of the second colour in the first. */
-const mixed = (first, second, fraction) => first.map((part, i) => part + fraction * (second[i] - part));
+export const mixed = (first, second, fraction) => first.map((part, i) => part + fraction * (second[i] - part));
 
 /** Colours of a leg by how much of its stroke is left to the nearer end: 1 in the middle, 0 at an end. */
 const STROKE_COLOURS = [[0, "--leg-end"], [0.2, "--leg-near"], [0.4, "--leg-some"], [0.6, "--leg-easy"]];
 
-function strokeColour(length, [shortest, longest]) {
+export function strokeColour(length, [shortest, longest]) {
   const left = Math.min(length - shortest, longest - length) / (0.5 * (longest - shortest));
   const above = STROKE_COLOURS.findIndex(([from]) => left < from);
   if (above === 0) return channels(colour("--leg-end"));
@@ -26,4 +25,4 @@ function strokeColour(length, [shortest, longest]) {
 }
 
 /** Dashes that tell curves from each other without colour: in drawing order, the first is a whole line. */
-const DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [5, 2, 1, 2, 1, 2], [12, 4]];
+export const DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [5, 2, 1, 2, 1, 2], [12, 4]];

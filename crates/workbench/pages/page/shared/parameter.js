@@ -1,5 +1,9 @@
 // One parameter of the panel: its name, a field, a slider with its start marked.
 
+import { DEGREES, withMinus } from "./format.js";
+import { element } from "./dom.js";
+import { plainWords } from "./words.js";
+
 const STEPS = 400;
 /** A slider whose ends are farther apart goes by ratios; those of scales are not. */
 const WIDE = 100;
@@ -8,7 +12,7 @@ const WIDE = 100;
 const rounded = (value) => Number(value.toPrecision(3));
 /** With at most four digits, as shown; the value keeps all of its digits. */
 const brief = (value) => String(Number(value.toPrecision(4)));
-const inWords = (value) => withMinus(brief(value));
+export const inWords = (value) => withMinus(brief(value));
 
 /** The unit of a value; of an angle with its degrees, as the curves have them. Frequencies are no angles. */
 function withDegrees({ unit, text }, value) {
@@ -16,7 +20,7 @@ function withDegrees({ unit, text }, value) {
   return rest === undefined ? unit : `${unit} = ${inWords(rounded(value * DEGREES))}\u00b0${rest.replace("2", "\u00b2")}`;
 }
 
-class ParameterControl {
+export class ParameterControl {
   /** `changed(value)` is called while a control moves, `done()` when it is let go. */
   constructor(parameter, value, changed, done) {
     this.parameter = parameter;

@@ -1,5 +1,7 @@
 // The road from the rider's eye, and as a map.
 
+import { drawSegment, fitted } from "./dom.js";
+
 /** The eye beside the rear tyre's contact, ahead and above [m], and its look down [rad]. */
 const EYE = { ahead: 0.65, above: 1.5, down: 0.1 };
 /** How far the road is drawn, and the nearest that is [m]. */
@@ -14,7 +16,7 @@ const ANNOUNCED = 160;
 const LOOK = { ahead: 0.9, part: 0.5, most: 0.4, time: 0.25 };
 
 /** Colours of a road. */
-const SCENE = {
+export const SCENE = {
   sky: "--sky", haze: "--haze", grass: "--grass", farGrass: "--far-grass", hill: "--hill", farHill: "--far-hill", verge: "--verge",
   tarmac: "--tarmac", tarmacToo: "--tarmac-too", line: "--line", fast: "--leg-near", tooFast: "--too-fast", tyre: "--ink-on-road", trunk: "--trunk",
   leaves: "--leaves", needles: "--needles", tank: "--tank", bar: "--bar", grip: "--grip", dial: "--dial",
@@ -23,7 +25,7 @@ const SCENE = {
 /** A number from 0 to 1 that depends on a whole one. */
 const scattered = (k) => { const wave = Math.sin(12.9898 * k) * 43758.5453; return wave - Math.floor(wave); };
 
-class Road {
+export class Road {
   constructor(canvas, points, halfWidth) {
     // All of it is drawn over in each frame.
     canvas.getContext("2d", { alpha: false });

@@ -1,5 +1,9 @@
 // What pages with a running platform show beside its drawing: lamps, colours, the state as the drawing takes it.
 
+import { byId, element } from "./dom.js";
+import { colour } from "./palette.js";
+import { rotation } from "./vector.js";
+
 const LAMPS = [
   ["tilt", "Tilt", "Tilt coordination lags behind its target because of its rate, acceleration or angle limit."],
   ["soft", "Soft limits", "The soft limits change the motion ahead of a limit."],
@@ -11,12 +15,12 @@ const LAMPS = [
 ];
 /** Time for which a lamp stays lit, so that it can be seen [s]. */
 const GLOW = 0.4;
-const STRIP = { desired: "--desired", felt: "--run-1", muted: "--muted", axis: "--axis", rule: "--rule" };
+export const STRIP = { desired: "--desired", felt: "--run-1", muted: "--muted", axis: "--axis", rule: "--rule" };
 
-const resolved = (names) => Object.fromEntries(Object.entries(names).map(([key, name]) => [key, colour(name)]));
+export const resolved = (names) => Object.fromEntries(Object.entries(names).map(([key, name]) => [key, colour(name)]));
 
 /** Lamps that stay lit for a while. */
-class Lamps {
+export class Lamps {
   constructor(list) {
     this.lit = new Map();
     this.lamps = LAMPS.map(([name, label, help]) => {
@@ -34,20 +38,20 @@ class Lamps {
   }
 }
 
-function addLegend(list) {
+export function addLegend(list) {
   for (const [label, paint] of [["desired", "--desired"], ["felt", "--run-1"]]) {
     const mark = element("span", { class: "mark", style: `background: var(${paint})` });
     list.append(element("li", {}, [mark, label]));
   }
 }
 
-function setText(id, text) {
+export function setText(id, text) {
   const box = byId(id);
   if (box.textContent !== text) box.textContent = text;
 }
 
 /** The view as the drawing of the machine takes it. */
-function machineState(view) {
+export function machineState(view) {
   const { platform_x: x, platform_y: y, platform_z: z } = view;
   return {
     position: [x, y, z],

@@ -1,5 +1,8 @@
 // A curve of the last seconds: the desired force, and the felt one over it.
 
+import { fixed } from "./format.js";
+import { drawSegment, fitted } from "./dom.js";
+
 const STRIP_TIME = 15;
 /** Time between the marks of the axis [s], and the height that they take. */
 const STRIP_MARKS = 5;
@@ -7,7 +10,7 @@ const STRIP_FOOT = 14;
 /** Force at the ends of the axis, at least [m/s2]. */
 const STRIP_FORCE = 4;
 
-class Strip {
+export class Strip {
   constructor(canvas) {
     this.canvas = canvas;
     this.points = [];

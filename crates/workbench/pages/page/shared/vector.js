@@ -1,16 +1,16 @@
 // Vectors as arrays of three, rotations as three rows.
 
-const plus = (a, b) => a.map((part, i) => part + b[i]);
-const minus = (a, b) => a.map((part, i) => part - b[i]);
-const scaled = (factor, a) => a.map((part) => factor * part);
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const norm = (a) => Math.sqrt(dot(a, a));
-const direction = (a) => scaled(1 / (norm(a) || 1), a);
-const turned = (rotation, a) => rotation.map((row) => dot(row, a));
+export const plus = (a, b) => a.map((part, i) => part + b[i]);
+export const minus = (a, b) => a.map((part, i) => part - b[i]);
+export const scaled = (factor, a) => a.map((part) => factor * part);
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const norm = (a) => Math.sqrt(dot(a, a));
+export const direction = (a) => scaled(1 / (norm(a) || 1), a);
+export const turned = (rotation, a) => rotation.map((row) => dot(row, a));
 
 /** Rz(yaw) Ry(pitch) Rx(roll). */
-function rotation(roll, pitch, yaw) {
+export function rotation(roll, pitch, yaw) {
   const [cr, sr, cp, sp, cy, sy] = [roll, pitch, yaw].flatMap((angle) => [Math.cos(angle), Math.sin(angle)]);
   return [
     [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
@@ -20,4 +20,4 @@ function rotation(roll, pitch, yaw) {
 }
 
 /** Rx(roll). */
-const rolled = (angle) => rotation(angle, 0, 0);
+export const rolled = (angle) => rotation(angle, 0, 0);

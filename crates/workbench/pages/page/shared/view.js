@@ -1,12 +1,18 @@
 // The machine, drawn: what is farther from the eye first, so that what is nearer covers it.
 
+import { byId, drawSegment, element, fitted } from "./dom.js";
+import { channels, colour, mixed, rgb, strokeColour } from "./palette.js";
+import { cross, direction, dot, minus, norm, plus, scaled } from "./vector.js";
+import { fromHead, headOf, legEnds, MOCK_UPS, onPlatform, onTorso, plate, swept, wheel } from "./machine.js";
+import { Camera, HIGHEST } from "./camera.js";
+
 const LIGHT = direction([0.35, -0.6, 0.75]);
 /** Length of an arrow for 1 m/s2 [m]. */
 const ARROW = 0.12;
 const ARROW_WORTH_DRAWING = 0.1;
 const GRAVITY = 9.80665;
 
-class View {
+export class View {
   constructor(canvas, rig, vehicle) {
     this.canvas = canvas;
     this.rig = rig;
@@ -15,12 +21,6 @@ class View {
     /** As drawn last: both ends of each leg and the middle of the head, in the picture. */
     this.drawnLegs = [];
     this.drawnHead = [];
-  }
-
-  draw(run, time) {
-    const state = stateAt(run, time);
-    this.drawState(state, colour(run.colour));
-    return state;
   }
 
   /** The machine in a state; `felt` is the colour of the felt force. */
@@ -230,7 +230,7 @@ class View {
 const VIEWS = { oblique: [-0.95, 0.24], side: [-Math.PI / 2, 0.05], front: [0, 0.05], above: [-Math.PI / 2, HIGHEST] };
 
 /** Lets the mouse, a finger or the arrow keys turn the view; `changed` is called when they do. */
-function letTurn(view, changed) {
+export function letTurn(view, changed) {
   const { canvas, camera } = view;
   let last = null;
   canvas.addEventListener("pointerdown", (event) => {

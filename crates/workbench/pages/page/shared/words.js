@@ -61,7 +61,7 @@ const PLAIN = [
 ];
 
 /** A parameter's meaning in plain words; nothing where its description says it as briefly. */
-function plainWords({ name }) {
+export function plainWords({ name }) {
   for (const [pattern, plain] of PLAIN) {
     const found = pattern.exec(name);
     if (found) return plain(...found.slice(1));
@@ -70,13 +70,13 @@ function plainWords({ name }) {
 }
 
 /** All by which a parameter is found, in lower case. */
-function searched(parameter) {
+export function searched(parameter) {
   const words = PLAIN.find(([pattern]) => pattern.test(parameter.name))?.[2] ?? "";
   return [parameter.name, plainWords(parameter), parameter.text, words].join(" ").toLowerCase();
 }
 
 /** Why a parameter has no effect now, of a strategy or of what is chosen elsewhere; nothing if it has one. */
-function idleReason(name, strategies, valueOf) {
+export function idleReason(name, strategies, valueOf) {
   const [first, second, last = ""] = name.split(".");
   const strategy = valueOf("strategy");
   if (strategies.includes(first) && first !== strategy) return `no effect with strategy ${strategy}`;

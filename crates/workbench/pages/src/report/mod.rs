@@ -5,7 +5,7 @@
 //!
 //! The input is a [`Report`]; [`html`] returns the page's text. The page needs no network and no
 //! other file. It contains its data, and the scripts and styles of
-//! `crates/workbench/pages/page/report/`.
+//! `crates/workbench/pages/page/report/` and `shared/` beside it.
 
 mod data;
 mod encode;

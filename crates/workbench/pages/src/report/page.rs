@@ -5,60 +5,26 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
+use crate::bundle::bundle;
 use crate::report::data::Report;
 use crate::report::events::{Event, events};
 
 /// Every page: what stands before its own template, its heading, and what follows.
-const HEAD: &str = include_str!("../../page/report/head.html");
-const HEADING: &str = include_str!("../../page/report/heading.html");
-const END: &str = include_str!("../../page/report/scripts.html");
+const HEAD: &str = include_str!("../../page/shared/head.html");
+const HEADING: &str = include_str!("../../page/shared/heading.html");
+const END: &str = include_str!("../../page/shared/scripts.html");
 
 const TEMPLATE: &str = include_str!("../../page/report/page.html");
-/// The style of a report, whose colours the scripts name.
-const STYLE: &str = include_str!("../../page/report/style.css");
+/// The style of every page, whose colours the scripts name.
+const STYLE: &str = include_str!("../../page/shared/style.css");
 /// Runs before the other scripts, and says if one of them fails.
-const ALARM: &str = include_str!("../../page/report/alarm.js");
-const WORKER: &str = concat!(
-    "\"use strict\";\n",
-    include_str!("../../page/report/module.js"),
-    include_str!("../../page/report/worker.js")
-);
-
+const ALARM: &str = include_str!("../../page/shared/alarm.js");
 /// The source of scripts for a page with a WebAssembly.
 pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
-/// Scripts for any page with a machine and parameters, in the order of their dependencies.
-const SHARED: [&str; 11] = [
-    include_str!("../../page/report/payload.js"),
-    include_str!("../../page/report/module.js"),
-    include_str!("../../page/report/format.js"),
-    include_str!("../../page/report/dom.js"),
-    include_str!("../../page/report/palette.js"),
-    include_str!("../../page/report/vector.js"),
-    include_str!("../../page/report/machine.js"),
-    include_str!("../../page/report/camera.js"),
-    include_str!("../../page/report/view.js"),
-    include_str!("../../page/report/words.js"),
-    include_str!("../../page/report/parameter.js"),
-];
-
-/// The report's own scripts, likewise.
-const SCRIPTS: [&str; 14] = [
-    include_str!("../../page/report/data.js"),
-    include_str!("../../page/report/thin.js"),
-    include_str!("../../page/report/chart.js"),
-    include_str!("../../page/report/limits.js"),
-    include_str!("../../page/report/gauges.js"),
-    include_str!("../../page/report/measures.js"),
-    include_str!("../../page/report/overlay.js"),
-    include_str!("../../page/report/roughest.js"),
-    include_str!("../../page/report/panels.js"),
-    include_str!("../../page/report/simulator.js"),
-    include_str!("../../page/report/variants.js"),
-    include_str!("../../page/report/rig.js"),
-    include_str!("../../page/report/tuning.js"),
-    include_str!("../../page/report/main.js"),
-];
+/// The modules that a report and its worker begin with.
+const ENTRY: &str = "report/main.js";
+const WORKER: &str = "report/worker.js";
 
 /// Differences between the heads of pages.
 #[derive(Clone, Copy, Debug, Default)]
@@ -101,7 +67,7 @@ struct Page<'a> {
     /// Events of each run.
     events: Vec<Vec<Event>>,
     /// The script of the simulation beside the page; none for a page without simulation.
-    worker: Option<&'static str>,
+    worker: Option<String>,
 }
 
 /// The whole page as HTML, which needs no network and no other file.
@@ -112,7 +78,7 @@ pub fn html(report: &Report) -> String {
     let page = Page {
         report,
         events: report.runs.iter().map(|run| events(run, &report.rig)).collect(),
-        worker: report.simulator.is_some().then_some(WORKER),
+        worker: report.simulator.is_some().then(|| format!("\"use strict\";\n{}", bundle(WORKER))),
     };
     let head = Head {
         title: &report.title,
@@ -121,18 +87,18 @@ pub fn html(report: &Report) -> String {
         scripts: COMPILED,
         policy: "worker-src blob:",
     };
-    assembled(&head, TEMPLATE, &page, &SCRIPTS)
+    assembled(&head, TEMPLATE, &page, ENTRY)
 }
 
-/// A page: a head, a template with the heading, then the data and the scripts, after those that
-/// pages share.
+/// A page: a head, a template with the heading, then the data, and the script of the module at
+/// `entry` below `page/`.
 ///
 /// # Panics
-/// The template names another text than the heading.
-pub fn assembled(head: &Head, template: &str, data: &impl Serialize, scripts: &[&str]) -> String {
+/// The template names another text than the heading, or there is no such module.
+pub fn assembled(head: &Head, template: &str, data: &impl Serialize, entry: &str) -> String {
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(data).expect("plain data serialise").replace('<', "\\u003c");
-    let script = format!("\n(async () => {{\n\"use strict\";\n{}\n}})();\n", [&SHARED, scripts].concat().join("\n"));
+    let script = format!("\n(async () => {{\n\"use strict\";\n{}\n}})();\n", bundle(entry));
     let head_html = head.html(&[ALARM, &script]);
     let of_end = [("alarm", ALARM.to_owned()), ("data", data), ("script", script)];
     let heading = filled(HEADING, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);

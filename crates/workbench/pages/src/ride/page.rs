@@ -5,24 +5,8 @@ use serde::Serialize;
 
 const TEMPLATE: &str = include_str!("../../page/ride/ride.html");
 /// The style of a page with curves, a platform and lamps.
-pub const STYLE: &str = include_str!("../../page/ride/ride.css");
-
-/// Scripts for any page with curves, a platform and lamps.
-pub const SHARED: [&str; 2] = [include_str!("../../page/ride/strip.js"), include_str!("../../page/ride/shown.js")];
-
-/// The script for throttle, brake and stick by keys, buttons, a gamepad or a phone's tilt.
-pub const CONTROLS: &str = include_str!("../../page/ride/controls.js");
-/// The script for the road from the rider's eye.
-pub const ROAD: &str = include_str!("../../page/ride/road.js");
-
-/// The scripts in the order of their dependencies.
-const SCRIPTS: [&str; 5] = [
-    include_str!("../../page/ride/engine.js"),
-    CONTROLS,
-    ROAD,
-    include_str!("../../page/ride/panel.js"),
-    include_str!("../../page/ride/main.js"),
-];
+pub(crate) const STYLE: &str = include_str!("../../page/shared/motion.css");
+const ENTRY: &str = "ride/main.js";
 
 /// The WebAssembly of the ride, `modules/ride.rs`; empty where it was not compiled.
 pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
@@ -49,5 +33,5 @@ pub struct Page {
 pub fn html(page: &Page) -> String {
     let head =
         shared::Head { title: "Ride", subtitle: &page.subtitle, style: STYLE, scripts: shared::COMPILED, policy: "" };
-    shared::assembled(&head, TEMPLATE, page, &[&SHARED[..], &SCRIPTS].concat())
+    shared::assembled(&head, TEMPLATE, page, ENTRY)
 }

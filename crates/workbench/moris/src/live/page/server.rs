@@ -8,8 +8,9 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use moris_pages::report::{Parameter, Rig, Vehicle, shared};
-use moris_pages::ride::{RoadMap, page as ride};
+use moris_pages::live;
+use moris_pages::report::{Parameter, Rig, Vehicle};
+use moris_pages::ride::RoadMap;
 use moris_setup::Setup;
 use serde::Serialize;
 
@@ -23,15 +24,6 @@ use crate::live::telemetry::Input;
 use crate::live::watch::{Part, watch};
 use crate::simulate::simulator::parameters;
 
-const TEMPLATE: &str = include_str!("../../../page/live.html");
-const STYLE: &str = include_str!("../../../page/live.css");
-const SCRIPTS: [&str; 5] = [
-    include_str!("../../../page/orders.js"),
-    include_str!("../../../page/driving.js"),
-    include_str!("../../../page/pair.js"),
-    include_str!("../../../page/track.js"),
-    include_str!("../../../page/live.js"),
-];
 /// Most connections at once that have not shown the token yet: a new one closes the oldest.
 const MOST_STRANGERS: usize = 16;
 /// Most pages, and most of their other requests at once.
@@ -68,14 +60,7 @@ impl Start {
     }
 
     fn html(&self) -> String {
-        let head = shared::Head {
-            title: "Live",
-            subtitle: &self.subtitle,
-            style: &[ride::STYLE, STYLE].join("\n"),
-            scripts: "",
-            policy: "connect-src 'self'",
-        };
-        shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &[ride::CONTROLS, ride::ROAD], &SCRIPTS].concat())
+        live::html(&self.subtitle, self)
     }
 }
 
