@@ -1,7 +1,7 @@
 //! `moris measure`: one table of all channels of several recordings.
 //!
-//! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] checks the targets,
-//! and [`table`] prints the table.
+//! [`host`] replays the recordings, [`targets`] checks the targets, and [`table`] prints the table.
+//! The figures of a channel are those of [`moris_simulation::channels`].
 
 pub mod table;
 pub mod targets;
