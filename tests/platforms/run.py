@@ -32,7 +32,7 @@ MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 VERSIONS = {"2": ".fmu", "3": ".fmi3.fmu"}
 # Enumerations that a ride sets before it begins: each model as it is, the washout's other strategies, the motorcycle on a path.
 RIDES = {
-    "MorisWashout": [{}, {"strategy": 2}, {"strategy": 3}, {"strategy": 4}],
+    "MorisWashout": [{}, {"strategy": 1}, {"strategy": 2}, {"strategy": 3}, {"strategy": 5}],
     "Motorcycle": [{}, {"path.course": 6}],
     "StewartPlatform": [{}],
 }
