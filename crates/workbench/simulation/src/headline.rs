@@ -7,6 +7,8 @@ use crate::{Finding, Weight};
 /// Jolt and shake from which they are the verdict \[m/s2\].
 const JOLTS: f64 = 1.0;
 const SHAKES: f64 = 0.1;
+/// Remedy where no scale is one.
+const READ_WRONGLY: &str = "A unit, a sign or an axis of the felt motion may be wrong; the findings name it.";
 
 impl Evaluated<'_> {
     /// The verdict with what to change.
@@ -31,17 +33,23 @@ impl Evaluated<'_> {
                         scale is smoother.";
             (Weight::Warning, text.to_owned())
         } else if !is_better_than_rest(self) {
-            let text = "Right in sign, but a channel is worse than on a platform at rest. The findings name it; scale it down.";
-            (Weight::Warning, text.to_owned())
+            let remedy = if self.is_doubtful() { READ_WRONGLY } else { "The findings name it; scale it down." };
+            (Weight::Warning, format!("Right in sign, but a channel is worse than on a platform at rest. {remedy}"))
         } else {
             self.good()
         };
         Finding { weight, text }
     }
 
+    /// True if a unit, a sign or an axis of a foreign motion seems wrong.
+    fn is_doubtful(&self) -> bool {
+        self.simulation.foreign.as_ref().is_some_and(|foreign| foreign.is_doubtful)
+    }
+
     /// Remedy where the scale is too large for the rig.
     fn smaller_scale(&self) -> String {
         match self.advice.and_then(|advice| advice.scaled) {
+            _ if self.is_doubtful() => READ_WRONGLY.to_owned(),
             _ if self.simulation.foreign.is_some() => "A smaller scale of force and rates helps.".to_owned(),
             Some(found) => format!("Scale force and rates by {:.2}.", found.factor),
             None => "A smaller scale of force and rates, a better strategy or a faster tilt helps; moris fit finds the scale."

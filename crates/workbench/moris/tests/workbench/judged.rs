@@ -161,6 +161,16 @@ fn wrong_units_signs_and_rates_are_said() {
     said(|[x, y, z]| [x, y, z - 9.80665], "lacks gravity's reaction");
     said(|force| force.map(|value| -value), "The felt force has the wrong sign");
     said(|[x, y, z]| [x, -y, z], "Sway is felt with the wrong sign");
+    // The verdict asks for no other scale where the reading is in doubt.
+    let headline = |change: fn([f64; 3]) -> [f64; 3]| {
+        let motion = ForeignMotion { force: Some(forces(change)), ..ForeignMotion::default() };
+        let outcome = Outcome::foreign(&recording, &setup, "other", &motion, Vec::new()).unwrap();
+        outcome.evaluated().headline().text
+    };
+    for change in [|[x, y, z]: [f64; 3]| [x / 9.80665, y / 9.80665, z / 9.80665], |[x, y, z]: [f64; 3]| [-x, -y, z]] {
+        let text = headline(change);
+        assert!(text.contains("may be wrong") && !text.contains("scale"), "{text}");
+    }
     let right = findings(forces(|force| force));
     assert!(!right.contains("wrong sign") && !right.contains("too small"), "{right}");
 

@@ -49,6 +49,8 @@ pub struct Foreign {
     pub has_legs: bool,
     /// The greatest excess of each of the actuators' limits.
     pub excesses: Vec<Excess>,
+    /// True if a unit, a sign or an axis of what is felt seems wrong.
+    pub(crate) is_doubtful: bool,
     /// Sentences about the series, such as that they were interpolated.
     pub notes: Vec<String>,
     /// Observations that let wrong units, signs or frames be suspected.
@@ -142,7 +144,9 @@ impl ForeignMotion {
             felt_within_steps,
             foreign: None,
         };
-        foreign.suspicions.extend(plausible::suspicions(&simulation, foreign.has_rate));
+        let suspicions = plausible::suspicions(&simulation, foreign.has_rate);
+        foreign.is_doubtful = !suspicions.is_empty();
+        foreign.suspicions.extend(suspicions);
         simulation.foreign = Some(foreign);
         Ok(simulation)
     }
