@@ -21,7 +21,7 @@
 //! Threads exchange values through rings without locks. The loop waits for none of them.
 
 mod commands;
-mod console;
+pub mod console;
 mod contact;
 mod controls;
 mod frames;

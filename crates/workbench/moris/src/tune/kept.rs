@@ -15,6 +15,7 @@ use moris_setup::{NamedValues, Setup, all, parameter_file};
 use moris_washout::Parameters;
 
 use super::tuner::{BestSoFar, SoFar};
+use crate::live::console;
 
 /// Exit status after a second Ctrl-C.
 const INTERRUPTED: i32 = 130;
@@ -94,7 +95,8 @@ impl Current {
     }
 }
 
-/// True after Ctrl-C; a second one writes the best so far and ends the program.
+/// True after Ctrl-C; a second one writes the best so far and ends the program. A reader of
+/// standard error that is gone hinders neither.
 ///
 /// # Errors
 /// The signal cannot be had.
@@ -103,17 +105,20 @@ pub fn listen(kept: Arc<Kept>) -> Result<Arc<AtomicBool>> {
     let pressed = Arc::clone(&interrupted);
     let handler = move || {
         if pressed.swap(true, Ordering::Relaxed) {
-            match kept.write_so_far() {
-                Ok(Some(text)) => eprintln!("{text}"),
-                Ok(None) => eprintln!("nothing is left to write"),
-                Err(error) => eprintln!("{error:#}"),
-            }
+            console::line(&match kept.write_so_far() {
+                Ok(Some(text)) => text,
+                Ok(None) => "nothing is left to write".to_owned(),
+                Err(error) => format!("{error:#}"),
+            });
+            console::flush();
             exit(INTERRUPTED);
         }
-        eprintln!("ending after this generation; press Ctrl-C again to end at once with the best so far, unchecked");
+        console::line(
+            "ending after this generation; press Ctrl-C again to end at once with the best so far, unchecked",
+        );
     };
     ctrlc::set_handler(handler).context("cannot listen for Ctrl-C")?;
-    eprintln!("searching; Ctrl-C ends it and keeps the best so far");
+    console::line("searching; Ctrl-C ends it and keeps the best so far");
     Ok(interrupted)
 }
 
