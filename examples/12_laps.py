@@ -31,16 +31,11 @@ def ride(fmu="target/fmu/Motorcycle.fmu", duration=480.0):
     return recording, recording.pop("distance")
 
 
-def on_the_rig(recording, learn):
-    """The felt force of surge and sway [m/s²]."""
-    simulation = moris.simulate(recording, parameters=PARAMETERS, learn=learn)
-    return [simulation[f"rider.specificForce.{axis}"] for axis in "xy"]
-
-
 def main():
     recording, distance = ride()
     desired = [recording["ax"], recording["ay"]]
-    felt = on_the_rig(recording, learn=True)
+    simulation = moris.simulate(recording, parameters=PARAMETERS, learn=True)
+    felt = [simulation[f"rider.specificForce.{axis}"] for axis in "xy"]
     laps = [np.searchsorted(distance, LENGTH * np.array([lap, lap + 1])) for lap in range(LAPS)]
     for lap, (begin, end) in enumerate(laps, 1):
         errors = [np.sqrt(np.mean((f - d)[begin:end] ** 2)) for f, d in zip(felt, desired)]

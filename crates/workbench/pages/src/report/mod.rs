@@ -17,8 +17,8 @@ mod simulator;
 mod tables;
 mod thinning;
 
-/// Parts of the page for pages of other packages.
-pub mod shared {
+/// Parts of the page that all pages have.
+pub(crate) mod shared {
     pub use crate::report::encode::bytes;
     pub use crate::report::page::{COMPILED, Head, assembled};
 }
