@@ -765,6 +765,25 @@ def the_start_is_the_original(browser):
 
 
 @check
+def the_fitting_scale_is_marked(browser):
+    """At the scales of surge, sway and rates, where the command's findings have it; not with another strategy."""
+    fitting = float(re.search(r"at a scale of ([\d.]+)", " ".join(of_command()["findings"]))[1])
+    mark = ".parameter:has([id='parameter-{}']) .fitting"
+    with tuned(browser) as page:
+        shown = page.evaluate("document.querySelectorAll('.fitting:not([hidden])').length")
+        assert shown == 5, shown
+        for name in ("scale.specificForce.x", "scale.angularVelocity.z"):
+            found = page.locator(mark.format(name)).get_attribute("title").split()[-1]
+            start = page.evaluate("(name) => simulationReport.tuning.parameters.find((one) => one.name === name).start", name)
+            near(float(found), fitting * start, 0.005, name)
+        move(page, "scale.specificForce.x", 100)
+        assert page.locator(mark.format("scale.specificForce.x")).is_visible()
+        control(page, "strategy").select_option(label="optimal")
+        settled(page)
+        assert not page.locator(mark.format("scale.specificForce.x")).is_visible()
+
+
+@check
 def changes_are_undone_and_compared(browser):
     """By keyboard: a slider, undo, the original beside the changed run."""
     with tuned(browser) as page:

@@ -14,6 +14,9 @@ const MOST_FOUND = 12;
 /** Time for which changes may follow each other so closely that none is simulated to its end [ms]. */
 const UNFINISHED = 300;
 
+/** Parameters that a fitting scale multiplies. */
+const SCALED = /^scale\.(specificForce\.[xy]|angularVelocity\.[xyz])$/;
+
 /** Gives a text to save as a file. */
 function saveAs(name, text) {
   const link = element("a", { download: name });
@@ -168,8 +171,19 @@ export class Tuning {
     for (const [slot, control] of this.controls) control.showIdle(this.idleReason(this.parameters[slot].name));
   }
 
+  /** The fitting scale of the recording; nothing where a parameter differs that is no scale. */
+  get fittingScale() {
+    const isSame = this.parameters.every(({ name, start }, slot) => SCALED.test(name) || this.values[slot] === start);
+    return isSame ? report.runs[0].fitting_scale : undefined;
+  }
+
   showState() {
-    for (const [slot, control] of this.controls) control.show(this.values[slot]);
+    const fitting = this.fittingScale;
+    for (const [slot, control] of this.controls) {
+      const { name, start } = this.parameters[slot];
+      control.show(this.values[slot]);
+      control.showFitting(fitting !== undefined && SCALED.test(name) ? fitting * start : undefined);
+    }
     this.showIdle();
     const isStart = this.values.every((value, slot) => value === this.parameters[slot].start);
     this.undoButton.disabled = this.history.length === 0;

@@ -67,11 +67,10 @@ export class ParameterControl {
       changed(this.valueAt(Number(this.slider.value)));
     });
     this.slider.addEventListener("change", done);
-    // The middle of the knob goes from half its width to half its width before the end.
-    const share = this.placeOf(start) / STEPS;
-    const mark = element("span", { class: "start", title: `start: ${inWords(start)}`, style: `left: calc(8px + ${share} * (100% - 16px))` });
+    this.fitting = element("span", { class: "fitting", hidden: "" });
+    const mark = element("span", { class: "start", title: `start: ${inWords(start)}`, style: this.left(start) });
     const end = (value) => element("span", { class: "end", "aria-hidden": "true" }, [inWords(value)]);
-    return element("span", { class: "range" }, [end(low), element("span", { class: "slide" }, [mark, this.slider]), end(high)]);
+    return element("span", { class: "range" }, [end(low), element("span", { class: "slide" }, [mark, this.fitting, this.slider]), end(high)]);
   }
 
   get byRatio() {
@@ -94,6 +93,20 @@ export class ParameterControl {
     if (share === 0 || share === 1) return share ? high : low;
     const value = this.byRatio ? low * (high / low) ** share : low + share * (high - low);
     return kind === "integer" ? Math.round(value) : rounded(value);
+  }
+
+  /** The style of a mark: the middle of the knob goes from half its width to half its width before the end. */
+  left(value) {
+    return `left: calc(8px + ${this.placeOf(value) / STEPS} * (100% - 16px))`;
+  }
+
+  /** Marks the largest value with which the recording is felt the right way round; none without a value. */
+  showFitting(value) {
+    if (!this.slider) return;
+    this.fitting.hidden = value === undefined;
+    if (value === undefined) return;
+    this.fitting.style.cssText = this.left(value);
+    this.fitting.title = `felt the right way round up to ${inWords(rounded(value))}`;
   }
 
   show(value) {

@@ -82,6 +82,10 @@ pub struct Run {
     pub verdict: Finding,
     /// Findings, in order of importance.
     pub findings: Vec<Finding>,
+    /// Factor on surge, sway and the rates with which the recording is felt the right way round.
+    /// None where it is already, and where no factor was searched for or found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fitting_scale: Option<f64>,
     /// Times of the samples \[s\], ascending.
     #[serde(serialize_with = "times")]
     pub times: Vec<f64>,

@@ -9,19 +9,18 @@ use moris_washout::Output;
 use super::data::{Chart, Cues, LimitHistory, Line, Run};
 use super::thinning::Thinning;
 
-/// The run of a report, without further charts and without advice: the page simulates other
-/// parameters, and searches for none.
+/// The run of a report, without further charts.
 pub fn run(evaluated: &Evaluated, name: &str, thinning: &Thinning) -> Run {
     let Simulation { inputs, outputs, step, parameters, .. } = evaluated.simulation;
     let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
     let desired_rates = evaluated.simulation.desired_rates();
     let tilt_limits = evaluated.simulation.tilt_limits();
     let leans = inputs.iter().any(|input| input.lean != 0.0);
-    let without_advice = Evaluated { advice: None, ..*evaluated };
     Run {
         name: name.to_owned(),
-        verdict: without_advice.headline(),
-        findings: without_advice.findings(),
+        verdict: evaluated.headline(),
+        findings: evaluated.findings(),
+        fitting_scale: evaluated.advice.and_then(|advice| advice.scaled).map(|scaled| scaled.factor),
         times: thinning.at_times(|k| k as f64 * step),
         desired: Cues {
             specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
