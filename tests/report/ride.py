@@ -192,6 +192,34 @@ def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
 
 
 @check
+def the_second_lap_is_known_and_the_track_is_drawn(browser):
+    """The preview is trusted in the second lap, until it is switched off."""
+    coast = "for (let k = 0; k < 6; k += 1) simulationRide.frame(0.02, { throttle: 0.2, brake: 0, stick: 0 })"
+    with opened(browser) as page:
+        ride(page, "view.distance > 300")
+        page.evaluate(coast)
+        assert page.locator("#road-state").inner_text() == "This stretch is new."
+        drawn = picture(page, "#track canvas")
+        ride(page, "view.laps === 1 && view.distance > 2000")
+        page.evaluate(coast)
+        assert view(page, "passes") == 1 and view(page, "trust") > 0.5, (view(page, "passes"), view(page, "trust"))
+        assert page.locator("#road-state").inner_text().startswith("Earlier passes here: 1; trust in the preview: ")
+        assert picture(page, "#track canvas") != drawn
+        assert page.evaluate("simulationRide.track.points.some((point) => point && point[2] > 0.5)")
+        page.screenshot(path=PICTURES / "ride-track.png", full_page=True)
+        ride(page, "view.laps === 2")
+        first, second = (float(error) for error in page.locator("#lap-rows td:nth-child(4)").all_inner_texts())
+        assert second < 0.9 * first, (first, second)
+        page.locator("#learns").uncheck()
+        ride(page, "view.distance > 3400")
+        assert view(page, "trust") == 0
+        page.locator("#learns").check()
+        page.locator("#parameter-strategy").select_option(label="classical")
+        page.evaluate(coast)
+        assert page.locator("#road-use").inner_text() == "The strategy predictive alone uses the preview."
+
+
+@check
 def leaving_the_road_says_so_and_a_key_restarts(browser):
     with opened(browser) as page:
         ride(page, "view.distance > 60")

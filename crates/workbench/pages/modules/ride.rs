@@ -51,6 +51,13 @@ pub extern "C" fn advance(milliseconds: u32, throttle: f64, brake: f64, stick: f
     with_ride(|ride| (0..milliseconds).for_each(|_| ride.step(&command)));
 }
 
+/// Gives the washout the preview by earlier laps from now on, or none.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn learn(is_on: bool) {
+    with_ride(|ride| ride.learn(is_on));
+}
+
 /// Ends the ride for the next one.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]

@@ -90,6 +90,35 @@ fn a_held_throttle_with_help_stays_on_the_road() {
     }
 }
 
+/// The second lap of the predictive strategy is felt better by what the first one taught, and a
+/// ride that begins anew knows the road.
+#[test]
+fn laps_are_learned_from_the_first_one_on() {
+    let laps = |learns: bool| {
+        let mut ride = Ride::new(&presets::parameters(presets::PREDICTIVE)).unwrap();
+        ride.learn(learns);
+        while ride.laps().len() < 2 {
+            go(&mut ride, 1.0, |ride| at_speed(ride, (0.9 * output(ride).planned_speed).max(3.0)));
+        }
+        let errors = ride.laps().iter().map(|lap| ride.ratings(lap).unwrap().map(|rating| rating.rms_error));
+        (errors.collect::<Vec<_>>(), ride)
+    };
+    let ((plain, _), (learned, mut ride)) = (laps(false), laps(true));
+    assert_eq!(plain[0], learned[0], "nothing is known in the first lap");
+    assert!(learned[1][0] < 0.6 * plain[1][0], "{learned:?} {plain:?}");
+
+    let trust = |ride: &mut Ride| ride.view().into_iter().find(|(name, _)| *name == "trust").unwrap().1;
+    assert!(trust(&mut ride) > 0.5, "{}", trust(&mut ride));
+    ride.restart().unwrap();
+    assert_eq!(trust(&mut ride), 0.0);
+    go(&mut ride, 30.0, |_| RiderCommand::default());
+    assert_eq!(ride.stage(), Stage::Ready);
+    go(&mut ride, 15.0, |ride| at_speed(ride, (0.9 * output(ride).planned_speed).max(3.0)));
+    assert!(trust(&mut ride) > 0.5, "{}", trust(&mut ride));
+    ride.learn(false);
+    assert_eq!(trust(&mut ride), 0.0);
+}
+
 /// The file's samples through a washout of its own give what was felt in the ride.
 #[test]
 fn the_file_of_a_ride_gives_the_same_cues() {

@@ -8,6 +8,7 @@ import { Strip } from "../shared/strip.js";
 import { addLegend, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
 import { Controls } from "../shared/controls.js";
 import { Road, SCENE } from "../shared/road.js";
+import { Track } from "../shared/track.js";
 import { Engine } from "./engine.js";
 import { Panel } from "./panel.js";
 
@@ -24,6 +25,7 @@ const engine = await Engine.start(await inflated(page.module), page.parameters.m
 const road = new Road(byId("road"), engine.road(), page.half_width);
 const machine = new View(byId("view"), page.rig, "motorcycle");
 const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
+const track = new Track(byId("track"), []);
 const controls = new Controls();
 const panel = new Panel(byId("panel"), page, {
   retune: (values) => engine.retune(values),
@@ -97,11 +99,19 @@ function showNumbers(view) {
   lamps.show(view, now.time);
 }
 
+/** The road as it is learned, and why the platform does not use it, if so. */
+function showTrack() {
+  const isUsed = panel.strategy === "predictive" || !byId("learns").checked;
+  setText("road-use", isUsed ? "" : "The strategy predictive alone uses the preview.");
+  track.draw(paints.strip);
+}
+
 function draw(view, seconds) {
   road.draw(view, byId("map").checked, paints.scene, seconds);
   // The platform moves less, and the curves least.
   if (now.frames % 2 === 0) machine.drawState(machineState(view), paints.strip.felt);
   else if (now.frames % 6 === 1) for (const strip of Object.values(strips)) strip.draw(paints.strip);
+  else if (now.frames % 6 === 3) showTrack();
   showNumbers(view);
 }
 
@@ -116,6 +126,7 @@ function frame(seconds, commands) {
     strips.surge.push(now.time, view.desired_x, view.felt_x);
     strips.sway.push(now.time, view.desired_y, view.felt_y);
     showLaps(view);
+    if (view.stage === "riding") track.take({ place: [view.x, view.y], trust: view.trust, passes: view.passes });
   }
   draw(view, seconds);
   now.view = view;
@@ -129,8 +140,9 @@ byId("map").checked = matchMedia("(prefers-reduced-motion: reduce)").matches;
 byId("restart").addEventListener("click", restart);
 byId("pause").addEventListener("click", () => pause());
 byId("save").addEventListener("click", save);
-controls.listen(document.querySelectorAll("#pedals button"), { r: restart, p: () => pause(), h: () => toggle("helped"), m: () => toggle("map") }, { restart });
+controls.listen(document.querySelectorAll("#pedals button"), { r: restart, p: () => pause(), h: () => toggle("helped"), m: () => toggle("map"), l: () => byId("learns").click() }, { restart });
 controls.offerTilt(byId("tilt"));
+byId("learns").addEventListener("change", () => engine.calls.learn(byId("learns").checked));
 
 let before = performance.now();
 function tick(at) {
@@ -144,4 +156,4 @@ function tick(at) {
 requestAnimationFrame(tick);
 document.getElementById("alarm").hidden = true;
 /** For checks: what is shown, and a frame by hand. */
-globalThis.simulationRide = { now, engine, controls, frame, road, machine, strips };
+globalThis.simulationRide = { now, engine, controls, frame, road, machine, strips, track };

@@ -1,13 +1,14 @@
 //! The ride: motorcycle, washout and platform, a step at a time.
 
 use moris_interface::{Model, ParameterError};
+use moris_laps::{Laps, Preview, Sample};
 use moris_motorcycle::Motorcycle;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters, Washout};
 
 use crate::ride::course::Circuit;
 use crate::ride::lamps;
-use crate::ride::recording::{Rating, Recording};
+use crate::ride::recording::{DIVISIONS, Rating, Recording};
 use crate::ride::ridden::{Ridden, RiderCommand};
 
 /// Time of a step \[s\].
@@ -57,6 +58,9 @@ pub struct Ride {
     input: Input,
     stage: Stage,
     recording: Recording,
+    road: Laps,
+    /// The washout gets the preview by earlier laps.
+    learns: bool,
     /// Steps since the ride has begun.
     steps: u64,
     laps: Vec<Lap>,
@@ -85,6 +89,8 @@ impl Ride {
             input,
             stage: Stage::Ready,
             recording: Recording::new(STEP, input, [felt.x, felt.y]),
+            road: Laps::new(),
+            learns: true,
             steps: 0,
             laps: Vec::new(),
             lap_start: 0,
@@ -108,6 +114,9 @@ impl Ride {
             Stage::Returning => Input { engaged: false, ..self.input },
             _ => self.ridden.input(is_engaged),
         };
+        if self.stage == Stage::Riding && self.steps.is_multiple_of(DIVISIONS as u64) {
+            self.remember();
+        }
         self.washout.step(&self.input, STEP);
         self.disengaged = if is_engaged { 0.0 } else { self.disengaged + STEP };
         self.update_lamps();
@@ -149,6 +158,7 @@ impl Ride {
     /// Never, because the parameters are in use.
     pub fn restart(&mut self) -> Result<(), ParameterError> {
         if !matches!(self.stage, Stage::Ready | Stage::Returning) {
+            self.interrupt();
             self.next = Some(Box::new(Washout::new(&self.parameters)?));
             self.ridden = self.ridden.restarted()?;
             self.stage = Stage::Returning;
@@ -166,12 +176,44 @@ impl Ride {
 
     fn ride(&mut self, command: &RiderCommand) {
         self.ridden.step(command);
-        let now = self.motorcycle().output();
+        let (before, now) = (self.stage, self.motorcycle().output());
         self.stage = match self.stage {
             _ if now.fallen => Stage::Fallen,
             Stage::Riding if now.off_path => Stage::OffRoad,
             stage => stage,
         };
+        if self.stage != before {
+            self.interrupt();
+        }
+    }
+
+    /// Takes the place on the road, and gives the washout the preview.
+    fn remember(&mut self) {
+        let (place, force) = (self.ridden.place(), self.input.specific_force);
+        self.road.step(&Sample {
+            step: STEP * DIVISIONS as f64,
+            position: [place.x, place.y, 0.0],
+            speed: Some(self.input.speed),
+            force: [force.x, force.y],
+        });
+        if self.learns {
+            self.washout.preview(&self.road.preview());
+        }
+    }
+
+    /// What follows has nothing to do with the road so far.
+    fn interrupt(&mut self) {
+        self.road.interrupt();
+        self.washout.preview(&Preview::default());
+    }
+
+    /// Gives the washout the preview by earlier laps from now on, or none. The road is learned
+    /// without it, too.
+    pub fn learn(&mut self, is_on: bool) {
+        self.learns = is_on;
+        if !is_on {
+            self.washout.preview(&Preview::default());
+        }
     }
 
     fn record(&mut self) {
@@ -265,6 +307,8 @@ impl Ride {
             ("lap_time", (self.steps - self.lap_start) as f64 * STEP),
             ("laps", self.laps.len() as f64),
             ("is_exchanging", f64::from(self.next.is_some() && self.stage != Stage::Returning)),
+            ("trust", if self.learns { self.road.trust() } else { 0.0 }),
+            ("passes", self.road.passes() as f64),
             ("distance", bike.path_distance),
             ("deviation", bike.path_deviation),
             ("x", self.ridden.place().x),

@@ -1,8 +1,8 @@
 // The road as it is learned: its line, where the preview was trusted, and the vehicle.
 
-import { fixed } from "../shared/format.js";
-import { drawSegment, fitted } from "../shared/dom.js";
-import { setText } from "../shared/shown.js";
+import { fixed } from "./format.js";
+import { drawSegment, fitted } from "./dom.js";
+import { setText } from "./shown.js";
 
 /** Distance of points that are kept [m]; a longer one than the second is a jump. */
 const TRACK_SPACING = [3, 40];
