@@ -12,15 +12,14 @@ use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
-use crate::cueing::soft_limits::{self, SoftLimits};
+use crate::cueing::soft_limits::SoftLimits;
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::law::Circumstances;
 use crate::cueing::strategy::predictive::preview::PreviewedCue;
 use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction};
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
-use crate::platform::LocationFrame;
-use crate::platform::{ActuatorGuard, PlatformCoordinates, PlatformMotion};
+use crate::platform::{ActuatorGuard, LocationFrame, PlatformCoordinates, PlatformMotion, PlatformState};
 use crate::validate::{check, check_change};
 
 /// The washout filter with its platform.
@@ -121,7 +120,7 @@ impl Washout {
         let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
         let last = CuedInput::new(Input::default(), parameters);
-        let at_rest = felt(guard.motion(), &last.head, structure.gravity);
+        let at_rest = felt(&guard.now().motion, &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
             engaging: 1.0,
@@ -146,7 +145,7 @@ impl Washout {
     pub fn starting_with(mut self, input: &Input) -> Self {
         self.last = CuedInput::new(input.sanitized(), &self.parameters);
         self.engaging = f64::from(input.engaged);
-        self.felt = felt(self.guard.motion(), &self.last.head, self.parameters.structure.gravity);
+        self.felt = felt(self.motion(), &self.last.head, self.parameters.structure.gravity);
         self.before.felt = self.felt;
         self
     }
@@ -292,8 +291,8 @@ impl Washout {
         let (mut cue_start, mut cue_end) = self.conditioned_cues(cue_start, cue_end, self.last.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
-        let rotation = self.guard.motion().orientation.rotation;
-        let rotation_at_end = self.guard.motion().rotation_after(step);
+        let rotation = self.motion().orientation.rotation;
+        let rotation_at_end = self.motion().rotation_after(step);
         let force_start = rotation * self.last.head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
@@ -325,31 +324,23 @@ impl Washout {
         // (3) Direct linear motion, with its safety units below.
         let filtered = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
         let linear = self.strategy.demand(filtered, self.preaction.surge(), &circumstances, &turning, step);
-        let mut demand = PlatformCoordinates { linear, angles };
-        let mut motion = PlatformMotion::new(&demand.linear, &turning, rig.neutral_height);
-        let mut legs = self.guard.legs_of(&motion);
+        let coordinates = PlatformCoordinates { linear, angles };
+        let mut demand = PlatformState::turning(coordinates, &turning, self.guard.geometry(), rig.neutral_height);
         // Soft limits, safety units, actuator guard and evaluator: each may change the demand.
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
         self.resting = if at_rest { self.resting + step } else { 0.0 };
         let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_HOLD;
-        if soft {
-            let state = soft_limits::State { coordinates: self.guard.coordinates(), legs: self.guard.legs() };
-            if let Some(softened) = self.soft_limits.soften(&demand, &legs, &state, step) {
-                demand = softened;
-                motion = demand.motion(rig.neutral_height);
-                legs = self.guard.legs_of(&motion);
-                self.limited.soft = true;
-            }
+        if soft && let Some(softened) = self.soft_limits.soften(&demand, self.guard.now(), step) {
+            demand = self.guard.state(softened);
+            self.limited.soft = true;
         }
-        let linear = *self.direct_linear.advance_within_limits(&demand.linear, safety, step);
+        let linear = *self.direct_linear.advance_within_limits(&demand.coordinates.linear, safety, step);
         if self.direct_linear.follows() {
-            demand.linear = linear;
-            motion = demand.motion(rig.neutral_height);
-            legs = self.guard.legs_of(&motion);
+            demand = self.guard.state(PlatformCoordinates { linear, ..demand.coordinates });
         }
-        self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance_with_legs(&demand, &motion, &legs, safety, at_rest, step);
-        self.felt = felt(self.guard.motion(), head_at_end, structure.gravity);
+        self.before = PreviousStep { step, acceleration: self.motion().acceleration, felt: self.felt };
+        self.guard.advance(&demand, safety, at_rest, step);
+        self.felt = felt(self.motion(), head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.limited();
@@ -358,7 +349,7 @@ impl Washout {
                 self.continue_from_real(cue_end.rates);
             }
         } else if self.guard.limited() {
-            let real = &self.guard.coordinates().linear;
+            let real = &self.guard.now().coordinates.linear;
             self.strategy.resume(&mut self.direct_linear, &self.parameters, real);
         }
     }
@@ -367,7 +358,7 @@ impl Washout {
     /// changed it. `rates` are those at the step's end.
     #[cold]
     fn continue_from_real(&mut self, rates: Vector3<f64>) {
-        let PlatformCoordinates { linear, angles } = self.guard.coordinates();
+        let PlatformCoordinates { linear, angles } = &self.guard.now().coordinates;
         if self.guard.limited() || self.direct_linear.follows() {
             self.direct_linear.continue_from(linear);
         }
@@ -462,7 +453,7 @@ impl Washout {
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let head = &self.last.head;
-        let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
+        let force = self.motion().orientation.rotation * head.to_platform_axes(cue.force);
         let turning = RotationalMotion::new(&self.guard.demand().angles);
         let arm = turning.orientation.rotation * head.point;
         let tilt = self.strategy.tilt_angles();
@@ -479,19 +470,17 @@ impl Washout {
     /// up to `slow` \[m/s\] do not count.
     pub fn soft_limits_stop(&self, parameters: &Parameters, part: f64, slow: f64) -> bool {
         let limits = SoftLimits::new(parameters, self.strategy.largest_heave());
-        let state = soft_limits::State { coordinates: self.guard.coordinates(), legs: self.guard.legs() };
-        !limits.enabled() || limits.stop_from(&state, part, slow)
+        !limits.enabled() || limits.stop_from(self.guard.now(), part, slow)
     }
 
     /// The platform's motion as commanded, with its accelerations.
     pub fn motion(&self) -> &PlatformMotion {
-        self.guard.motion()
+        &self.guard.now().motion
     }
 
     /// The output now.
     pub fn output(&self) -> Output {
-        let motion = self.guard.motion();
-        let legs = self.guard.legs();
+        let PlatformState { motion, legs, .. } = self.guard.now();
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let (plan_kept, plan_age, plan_iterations) = match self.strategy.plan() {
             Some(plan) => (plan.kept, plan.age, plan.iterations as i32),
@@ -529,8 +518,7 @@ impl Washout {
     /// angular velocities, of the platform's acceleration and of what the rider feels are means
     /// over the last internal step. They are zero before the first.
     pub fn output_derivative(&self) -> Output {
-        let motion = self.guard.motion();
-        let legs = self.guard.legs();
+        let PlatformState { motion, legs, .. } = self.guard.now();
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let per_step = if self.before.step > 0.0 { 1.0 / self.before.step } else { 0.0 };
         Output {

@@ -29,6 +29,7 @@ mod known_surveys;
 mod location;
 pub mod numbering;
 pub mod reach;
+mod state;
 mod stop_plan;
 mod survey;
 
@@ -43,6 +44,7 @@ pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;
 pub(crate) use known_surveys::known_survey;
 pub use location::{LocationFrame, check_torso};
+pub(crate) use state::PlatformState;
 pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;

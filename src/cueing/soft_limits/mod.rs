@@ -26,7 +26,7 @@ use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::platform::reach::short_stroke;
-use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, jacobian, leg_accelerations};
+use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
 
 /// The soft limits with their state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,13 +41,6 @@ pub struct SoftLimits {
     legs: TwoEnds,
     /// The rows that acted in the last step.
     sides: Sides,
-}
-
-/// The platform's coordinates and its legs at a step's start.
-#[derive(Clone, Copy)]
-pub struct State<'a> {
-    pub coordinates: &'a PlatformCoordinates,
-    pub legs: &'a Legs,
 }
 
 /// Weights of the changed accelerations' squares: surge, sway, heave, and the angles \[m2\].
@@ -158,7 +151,7 @@ impl SoftLimits {
 
     /// True if axes and legs come to rest before their limits at this part of the pace. Those up to
     /// `slow` \[m/s\] do anyway.
-    pub fn stop_from(&self, state: &State, part: f64, slow: f64) -> bool {
+    pub fn stop_from(&self, state: &PlatformState, part: f64, slow: f64) -> bool {
         let pace = part * self.pace;
         let linear = &state.coordinates.linear;
         let axes = (0..3).all(|k| self.axis_ends[k].stop(linear.position[k], linear.velocity[k], pace, slow));
@@ -166,29 +159,23 @@ impl SoftLimits {
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.
-    /// None if it need not be changed. `legs` are the demanded ones.
+    /// None if it need not be changed. `state` is that of the step's start.
     #[inline(always)]
-    pub fn soften(
-        &mut self,
-        demand: &PlatformCoordinates,
-        legs: &Legs,
-        state: &State,
-        step: f64,
-    ) -> Option<PlatformCoordinates> {
-        if self.keeps(demand, legs, state, step) {
+    pub fn soften(&mut self, demand: &PlatformState, state: &PlatformState, step: f64) -> Option<PlatformCoordinates> {
+        if self.keeps(demand, state, step) {
             if self.sides.any() {
                 self.sides = Sides::default();
             }
             return None;
         }
-        self.softened(demand, state, step)
+        self.softened(&demand.coordinates, state, step)
     }
 
     /// True if the mean accelerations of axes and legs over the step are within their ranges.
     #[inline(always)]
-    fn keeps(&self, demand: &PlatformCoordinates, legs: &Legs, state: &State, step: f64) -> bool {
+    fn keeps(&self, demand: &PlatformState, state: &PlatformState, step: f64) -> bool {
         let per_step = 1.0 / step;
-        let (after, before) = (&demand.linear.velocity, &state.coordinates.linear);
+        let (after, before) = (&demand.coordinates.linear.velocity, &state.coordinates.linear);
         let two = |values: &[f64], [i, j]: [usize; 2]| f64x2::new([values[i], values[j]]);
         let axes = |k: usize, pair: [usize; 2]| {
             let velocity = two(before.velocity.as_slice(), pair);
@@ -197,7 +184,7 @@ impl SoftLimits {
         };
         let of_legs = |pair: [usize; 2]| {
             let velocity = two(&state.legs.velocity, pair);
-            let acceleration = (two(&legs.velocity, pair) - velocity) * per_step;
+            let acceleration = (two(&demand.legs.velocity, pair) - velocity) * per_step;
             self.legs.keep(two(&state.legs.length, pair), velocity, acceleration, self.pace)
         };
         let keeps = axes(0, [0, 1]) & axes(1, [2, 2]) & of_legs([0, 1]) & of_legs([2, 3]) & of_legs([4, 5]);
@@ -205,8 +192,13 @@ impl SoftLimits {
     }
 
     #[cold]
-    fn softened(&mut self, demand: &PlatformCoordinates, state: &State, step: f64) -> Option<PlatformCoordinates> {
-        let PlatformCoordinates { linear, angles } = state.coordinates;
+    fn softened(
+        &mut self,
+        demand: &PlatformCoordinates,
+        state: &PlatformState,
+        step: f64,
+    ) -> Option<PlatformCoordinates> {
+        let PlatformCoordinates { linear, angles } = &state.coordinates;
         let change = (demand.linear.velocity - linear.velocity) / step;
         let turn = (demand.angles.velocity - angles.velocity) / step;
         let demanded = Accelerations::new(change.x, change.y, change.z, turn.x, turn.y, turn.z);
@@ -223,8 +215,8 @@ impl SoftLimits {
     }
 
     /// The ranges of the accelerations. A leg's is J c and what remains without accelerations.
-    fn rows(&self, state: &State) -> Rows {
-        let PlatformCoordinates { linear, angles } = state.coordinates;
+    fn rows(&self, state: &PlatformState) -> Rows {
+        let PlatformCoordinates { linear, angles } = &state.coordinates;
         let coasting = PlatformCoordinates {
             linear: Motion { acceleration: Vector3::zeros(), ..*linear },
             angles: Motion { acceleration: Vector3::zeros(), ..*angles },

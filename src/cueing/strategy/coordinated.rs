@@ -110,7 +110,7 @@ impl Coordinated {
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
     pub fn advance_tilt(&mut self, circumstances: &Circumstances, step: f64) {
         let Circumstances { parameters, guard, engagement, .. } = *circumstances;
-        let linear = &guard.coordinates().linear;
+        let linear = &guard.now().coordinates.linear;
         let states = [0, 1].map(|k: usize| AxisState {
             position: linear.position[k],
             velocity: linear.velocity[k],
@@ -161,7 +161,7 @@ impl Coordinated {
         beside.z += heave.acceleration + parameters.structure.gravity;
         // The head's x and y, in the base frame: felt = axis . (a + beside).
         let axes = [Vector3::x(), Vector3::y()].map(|axis| rotation * head.to_platform_axes(axis));
-        let now = &guard.coordinates().linear;
+        let now = &guard.now().coordinates.linear;
         // Disengaged, travel returns to neutral, and the rider feels that and the tilt's gravity. The tilt's
         // acceleration is compensated all the same: it may jump.
         let returning = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
@@ -255,10 +255,8 @@ mod tests {
         let acceleration = Vector3::new(2.0, -1.0, 0.5);
         let linear = Motion { position: 0.5 * STEP * STEP * acceleration, velocity: STEP * acceleration, acceleration };
         let demand = PlatformCoordinates { linear, angles: Motion::default() };
-        let motion =
-            PlatformMotion::new(&linear, &RotationalMotion::new(&demand.angles), parameters.rig.neutral_height);
-        guard.advance(&demand, &motion, &parameters.safety, false, STEP);
-        assert_eq!(guard.coordinates(), &demand);
+        guard.advance(&guard.state(demand), &parameters.safety, false, STEP);
+        assert_eq!(guard.now().coordinates, demand);
         guard
     }
 
@@ -308,7 +306,7 @@ mod tests {
                     let dropped = strategy.dropped_force[k];
                     assert!(dropped.abs() > 1e-3, "{dropped}");
                     assert!((felt[k] - circumstances.force[k] - dropped).abs() < 1e-11, "{felt:?}, dropped {dropped}");
-                    let now = circumstances.guard.coordinates().linear.axis(k);
+                    let now = circumstances.guard.now().coordinates.linear.axis(k);
                     let mean = 0.5 * (now.velocity + travel[k].velocity);
                     assert!((travel[k].position - now.position - mean * STEP).abs() < 1e-15);
                 }
@@ -365,7 +363,7 @@ mod tests {
                 };
                 let tuning = super::super::optimal::Tuning::from(&optimal);
                 let gains = Regulator::new(&model, &tuning.weights).unwrap().gains;
-                let now = circumstances.guard.coordinates().linear.axis(k);
+                let now = circumstances.guard.now().coordinates.linear.axis(k);
                 let slow = references[k] * (1.0 - (-STEP / optimal.split_time).exp());
                 let Motion { position, velocity, .. } = before[k];
                 let state = [now.position, now.velocity, position, velocity, slow, references[k] - slow];
@@ -417,7 +415,7 @@ mod tests {
             assert!((mixed.0[k] - tilt).abs() < 1e-15);
             let travel = 0.25 * engaged.1[k] + 0.75 * disengaged.1[k];
             assert!((mixed.1[k] - travel).abs() < 1e-10);
-            let now = moving(&parameters).coordinates().linear.axis(k);
+            let now = moving(&parameters).now().coordinates.linear.axis(k);
             assert!(
                 (disengaged.1[k] + now.position + 2.0 * now.velocity).abs() < 1e-12,
                 "critically damped at 1 rad/s"
@@ -498,7 +496,7 @@ mod tests {
                 for (found, expected) in surroundings.planned_stroke().into_iter().zip([1.0 + kept, 1.6 - kept]) {
                     assert!((found - expected).abs() < rounding, "{found} m beside {expected}");
                 }
-                let heave = circumstances.guard.coordinates().linear.axis(2);
+                let heave = circumstances.guard.now().coordinates.linear.axis(2);
                 assert_eq!((surroundings.heave, surroundings.heave_velocity), (heave.position, heave.velocity));
                 let omega = parameters.angular.omega1;
                 assert_eq!(surroundings.frequencies, Vector3::new(omega.roll, omega.pitch, omega.yaw));

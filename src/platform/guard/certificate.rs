@@ -10,14 +10,14 @@
 use nalgebra::Vector3;
 
 use super::bounds::JointBounds;
-use super::machine::{Candidate, Machine, STOP_FRACTION, Speed, State, sum_of_magnitudes};
+use super::machine::{Machine, STOP_FRACTION, Speed, sum_of_magnitudes};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::{ROUNDING, WITH_ROUNDING};
 use crate::motion::min_max::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{PlatformCoordinates, PlatformMotion};
+use crate::platform::{PlatformCoordinates, PlatformMotion, PlatformState};
 
 /// Stop plans are divided into cells. The bound on what happens between two points is about this
 /// fraction of the acceleration limit.
@@ -32,17 +32,23 @@ impl Machine {
     /// The whole way lies within (stop duration/2 + step) times the largest
     /// speed in the transition.
     #[inline(always)]
-    pub fn certify_by_bounds(&self, from: State, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<f64> {
-        let (now, next) = (from.coordinates, to.coordinates);
+    pub fn certify_by_bounds(
+        &self,
+        from: &PlatformState,
+        to: &PlatformState,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<f64> {
+        let (now, next) = (&from.coordinates, &to.coordinates);
         let per_step = 1.0 / step;
         let bend = 2.0 * per_step * per_step;
         let (change, gap) = change_and_gap(&now.linear, &next.linear, step);
         let (turn, twist) = change_and_gap(&now.angles, &next.angles, step);
         let gap_acceleration = bend * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&twist) * self.radius);
-        let speed = Speed::of(next);
-        let rate = max(speed.angular, from.speed.angular);
+        let (before, speed) = (Speed::of(now), Speed::of(next));
+        let rate = max(speed.angular, before.angular);
         let joint_speed = speed.of_joints(self.radius);
-        let fastest = max(joint_speed, from.speed.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
+        let fastest = max(joint_speed, before.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
         let curvature = fastest * fastest / self.limits.min + rate * rate * self.radius;
         // The gap turns the legs a little as well, which changes their rates.
         let gap_turning = 0.5 * step * gap_acceleration * (fastest / self.limits.min + rate);
@@ -80,11 +86,17 @@ impl Machine {
 
     /// A certified stop plan from the candidate, if the transition to it is certified as well.
     #[cold]
-    pub fn certify(&self, from: State, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
+    pub fn certify(
+        &self,
+        from: &PlatformState,
+        to: &PlatformState,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<StopPlan> {
         if let Some(duration) = self.certify_by_bounds(from, to, safety, step) {
-            return Some(StopPlan::new(to.coordinates, StopDurations::common(duration)));
+            return Some(StopPlan::new(&to.coordinates, StopDurations::common(duration)));
         }
-        let certified = axes_keep_limits(from.coordinates, to.coordinates, safety, step);
+        let certified = axes_keep_limits(&from.coordinates, &to.coordinates, safety, step);
         let plan = if certified { self.stop_plan(to, safety) } else { None }?;
         let keeps = self.transition_keeps_legs(from, to, step) && self.plan_keeps_legs(&plan);
         keeps.then_some(plan)
@@ -93,7 +105,7 @@ impl Machine {
     /// The stop from the candidate within the safety limits. All coordinates stop in one
     /// duration that suits the fastest leg and the safety limits of acceleration. An axis with
     /// less room stops sooner.
-    fn stop_plan(&self, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
+    fn stop_plan(&self, to: &PlatformState, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motion { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
         let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
@@ -103,7 +115,7 @@ impl Machine {
         for k in 0..3 {
             let speed = velocity[k].abs();
             // From the candidate on: one that is back inside a tightened limit stays inside.
-            let (lowest, highest) = reachable(to.coordinates, safety, k);
+            let (lowest, highest) = reachable(&to.coordinates, safety, k);
             let room = if velocity[k] >= 0.0 { highest - position[k] } else { position[k] - lowest };
             // At rest, the quotient is infinite or no number.
             durations.linear[k] = min(2.0 * room / speed, duration);
@@ -112,18 +124,18 @@ impl Machine {
                 return None;
             }
         }
-        Some(StopPlan::new(to.coordinates, durations))
+        Some(StopPlan::new(&to.coordinates, durations))
     }
 
     /// True if the legs keep speed and acceleration at every instant of the transition. Their
     /// lengths need no check: both ends are inside the stroke by the reserve.
-    fn transition_keeps_legs(&self, from: State, to: Candidate, step: f64) -> bool {
-        let (now, next) = (from.coordinates, to.coordinates);
+    fn transition_keeps_legs(&self, from: &PlatformState, to: &PlatformState, step: f64) -> bool {
+        let (now, next) = (&from.coordinates, &to.coordinates);
         let (linear, angles) =
             (Transition::new(&now.linear, &next.linear, step), Transition::new(&now.angles, &next.angles, step));
         let start = PlatformCoordinates { linear: linear.start, angles: angles.start };
         let end = PlatformCoordinates { linear: linear.end, angles: angles.end };
-        let left = leg_motion(&self.geometry, &PlatformMotion::turning(from.motion, &start));
+        let left = leg_motion(&self.geometry, &PlatformMotion::turning(&from.motion, &start));
         let right = self.leg_motion_of(&end);
         let (before, after) = (Speed::of(now), Speed::of(next));
         let speeds = [max(before.linear, after.linear), max(before.angular, after.angular)];

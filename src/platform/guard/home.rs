@@ -14,12 +14,12 @@
 //! The way is certified if every leg is inside its stroke by at least s times a clearance. From any
 //! point of a certified way the rest of it is certified as well.
 
-use super::machine::{Candidate, Home, Machine, Speed, sum_of_magnitudes};
+use super::machine::{Home, Machine, Speed, sum_of_magnitudes};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
-use crate::platform::{PlatformCoordinates, inverse_kinematics};
+use crate::platform::{PlatformCoordinates, PlatformState};
 
 /// The largest number of points of a way that are looked at, and the largest number of parts into
 /// which it is divided.
@@ -48,11 +48,11 @@ impl Machine {
     /// duration from the candidate. That stop moves no joint by more than half the duration times
     /// its speed.
     #[inline(always)]
-    pub fn sees_home_by_bounds(&self, to: Candidate, duration: f64) -> bool {
+    pub fn sees_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
         let Home { longest, beyond_clearance: [below, above], per_two_lengths, .. } = self.home;
-        let speed = Speed::of(to.coordinates);
+        let speed = Speed::of(&to.coordinates);
         let (travel, turn) = (0.5 * duration * speed.of_joints(self.radius), 0.5 * duration * speed.angular);
-        let distance = Distance::of(to.coordinates, self.radius);
+        let distance = Distance::of(&to.coordinates, self.radius);
         let (joint, angular) = (distance.joint + travel, distance.angular + turn);
         let turning = angular * angular * self.radius;
         let chord_gap = (joint * joint + (longest + joint) * turning) * per_two_lengths;
@@ -79,7 +79,7 @@ impl Machine {
                 linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
                 angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
             };
-            beyond(s, &inverse_kinematics(&self.geometry, &coordinates.motion(self.neutral_height)).length)
+            beyond(s, &self.state(coordinates).legs.length)
         };
         let neutral = beyond(1.0, &self.home.length);
         let (mut begin, mut left, mut part) = (0.0, at(0.0), 1.0);

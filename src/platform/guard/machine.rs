@@ -1,4 +1,4 @@
-//! The machine whose limits are certified, and the states that it has and may have.
+//! The machine whose limits are certified, and the states that it may have.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::interface::Rig;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
-use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, leg_lengths};
+use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths};
 
 /// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
 /// accelerations that the legs' rotation causes.
@@ -28,23 +28,6 @@ pub struct Machine {
     pub(super) stop_time_per_speed: f64,
     /// Requirements of the straight path to neutral.
     pub(super) home: Home,
-}
-
-/// A state that the platform may have next: its coordinates, the same as a motion in the
-/// base frame, and its legs.
-#[derive(Clone, Copy)]
-pub struct Candidate<'a> {
-    pub coordinates: &'a PlatformCoordinates,
-    pub motion: &'a PlatformMotion,
-    pub legs: &'a Legs,
-}
-
-/// The state that the platform has.
-#[derive(Clone, Copy)]
-pub struct State<'a> {
-    pub coordinates: &'a PlatformCoordinates,
-    pub motion: &'a PlatformMotion,
-    pub speed: Speed,
 }
 
 /// Speed of the platform's origin \[m/s\] and the sum of the angles' rates' magnitudes \[rad/s\].
@@ -124,6 +107,11 @@ impl Machine {
             limits,
             stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
         }
+    }
+
+    /// The state with these coordinates.
+    pub fn state(&self, coordinates: PlatformCoordinates) -> PlatformState {
+        PlatformState::new(coordinates, &self.geometry, self.neutral_height)
     }
 
     /// The limits within which each leg pursues a demand: a little inside the certified stroke. A

@@ -23,14 +23,14 @@ mod tests;
 use serde::{Deserialize, Serialize};
 
 pub use self::machine::stroke_reserve;
-use self::machine::{Candidate, Machine, Speed, State};
+use self::machine::{Machine, Speed};
 use super::stop_plan::{StopDurations, StopPlan};
-use super::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
+use super::{Geometry, Legs, PlatformCoordinates, PlatformState, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE, WITH_ROUNDING};
 use crate::motion::min_max::min;
 
-/// The guard with the motion that the platform is commanded, and with its legs.
+/// The guard with the state that the platform is commanded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ActuatorGuard {
     machine: Machine,
@@ -38,9 +38,7 @@ pub struct ActuatorGuard {
     stroke: [f64; 2],
     /// The limits within which each leg pursues its demand.
     pursuit: Limits,
-    motion: PlatformMotion,
-    legs: Legs,
-    speed: Speed,
+    now: PlatformState,
     /// The certified way to rest. It starts at the present state, unless the last step followed it.
     plan: StopPlan,
     limited: Option<Deviation>,
@@ -50,7 +48,6 @@ pub struct ActuatorGuard {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Deviation {
     demand: PlatformCoordinates,
-    coordinates: PlatformCoordinates,
     /// Accelerations of the legs over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
     /// Time for which the input has been at rest meanwhile \[s\].
@@ -70,14 +67,11 @@ impl ActuatorGuard {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
         let machine = Machine::new(rig, longest_step);
-        let motion = PlatformMotion::at_rest(Pose::neutral(rig));
         ActuatorGuard {
             machine,
             stroke: [rig.min_length, rig.max_length],
             pursuit: machine.pursuit_limits(),
-            motion,
-            legs: inverse_kinematics(&machine.geometry, &motion),
-            speed: Speed::default(),
+            now: machine.state(PlatformCoordinates::default()),
             plan: StopPlan::rest(),
             limited: None,
         }
@@ -88,63 +82,38 @@ impl ActuatorGuard {
         &self.machine.geometry
     }
 
-    /// The legs of a motion of the platform.
-    #[inline(always)]
-    pub fn legs_of(&self, motion: &PlatformMotion) -> Legs {
-        inverse_kinematics(&self.machine.geometry, motion)
+    /// The state of the platform with these coordinates.
+    pub fn state(&self, coordinates: PlatformCoordinates) -> PlatformState {
+        self.machine.state(coordinates)
     }
 
-    /// As [`ActuatorGuard::advance_with_legs`], where the demand's legs are not known.
-    #[cfg(test)]
-    pub fn advance(
-        &mut self,
-        demand: &PlatformCoordinates,
-        motion: &PlatformMotion,
-        safety: &SafetyParameters,
-        resting: bool,
-        step: f64,
-    ) {
-        let legs = self.legs_of(motion);
-        self.advance_with_legs(demand, motion, &legs, safety, resting, step);
-    }
-
-    /// Advances by `step` seconds. At their end the platform is to move as `demand` says; `motion`
-    /// is the same in the base frame, and `legs` are its legs. `safety` are the limits of surge,
-    /// sway and heave in force. `resting` tells that the input asks for no motion.
+    /// Advances by `step` seconds, at whose end the platform is to be in the state `demand`.
+    /// `safety` are the limits of surge, sway and heave in force. `resting` tells that the input
+    /// asks for no motion.
     #[inline(always)]
-    pub fn advance_with_legs(
-        &mut self,
-        demand: &PlatformCoordinates,
-        motion: &PlatformMotion,
-        legs: &Legs,
-        safety: &SafetyParameters,
-        resting: bool,
-        step: f64,
-    ) {
-        let candidate = Candidate { coordinates: demand, motion, legs };
+    pub fn advance(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
         if self.limited.is_none()
-            && let Some(duration) = self.machine.certify_by_bounds(self.state(), candidate, safety, step)
-            && self.machine.sees_home_by_bounds(candidate, duration)
+            && let Some(duration) = self.machine.certify_by_bounds(&self.now, demand, safety, step)
+            && self.machine.sees_home_by_bounds(demand, duration)
         {
-            self.move_to(candidate);
-            self.plan.restart(demand, StopDurations::common(duration));
+            self.now = *demand;
+            self.plan.restart(&demand.coordinates, StopDurations::common(duration));
         } else {
-            self.advance_in_doubt(candidate, safety, resting, step);
+            self.advance_in_doubt(demand, safety, resting, step);
         }
     }
 
     /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
-    fn advance_in_doubt(&mut self, demand: Candidate, safety: &SafetyParameters, resting: bool, step: f64) {
+    fn advance_in_doubt(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
         let joined = self.limited.is_none() || self.has_caught_up(demand, safety, step);
         let followed = self.plan.advanced(step);
         let plan = if joined { self.certified_to_see_home(demand, &followed, safety, step) } else { None };
         if let Some(plan) = plan {
-            self.accept(demand, plan);
-            self.limited = None;
+            (self.now, self.plan, self.limited) = (*demand, plan, None);
             return;
         }
-        let before = self.legs;
+        let before = self.now.legs;
         let (resting, homeward) = self.patience(resting, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
         let stops = resting > PATIENCE && homeward.is_none();
@@ -152,11 +121,10 @@ impl ActuatorGuard {
         let homeward =
             homeward.map(|fraction| if found.is_some() { min(FASTER * fraction, 1.0) } else { SLOWER * fraction });
         let (next, plan) = found.unwrap_or_else(|| (self.following(&followed, step), followed));
-        self.accept(next.candidate(), plan);
+        (self.now, self.plan) = (next, plan);
         self.limited = Some(Deviation {
-            demand: *demand.coordinates,
-            coordinates: next.coordinates,
-            leg_accelerations: std::array::from_fn(|i| (self.legs.velocity[i] - before.velocity[i]) / step),
+            demand: demand.coordinates,
+            leg_accelerations: std::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
             resting,
             homeward,
         });
@@ -169,7 +137,7 @@ impl ActuatorGuard {
         let Some(Deviation { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
             return (0.0, None);
         };
-        let at_rest = self.speed == Speed::default();
+        let at_rest = Speed::of(&self.now.coordinates) == Speed::default();
         (before + step, homeward.or_else(|| (before > PATIENCE && at_rest).then_some(1.0)))
     }
 
@@ -177,8 +145,14 @@ impl ActuatorGuard {
     /// than the plan held. This matters where a tightened limit is not kept yet.
     ///
     /// `followed` is the plan held, at the step's end.
-    fn certified(&self, to: Candidate, followed: &StopPlan, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
-        let plan = self.machine.certify(self.state(), to, safety, step)?;
+    fn certified(
+        &self,
+        to: &PlatformState,
+        followed: &StopPlan,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<StopPlan> {
+        let plan = self.machine.certify(&self.now, to, safety, step)?;
         let limits = WITH_ROUNDING * safety.velocity_limit;
         let (next, held) = (plan.times_until_within(&limits), followed.times_until_within(&limits));
         (0..3).all(|k| next[k] <= held[k]).then_some(plan)
@@ -187,7 +161,7 @@ impl ActuatorGuard {
     /// As [`ActuatorGuard::certified`], with a certified way home from the end of the stop.
     fn certified_to_see_home(
         &self,
-        to: Candidate,
+        to: &PlatformState,
         followed: &StopPlan,
         safety: &SafetyParameters,
         step: f64,
@@ -201,10 +175,10 @@ impl ActuatorGuard {
     /// True if the platform may join the demand. The positions must differ from what the
     /// velocities account for by at most [`REJOIN_DISTANCE`] a h², with the limit of
     /// acceleration a and the step h.
-    fn has_caught_up(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> bool {
+    fn has_caught_up(&self, demand: &PlatformState, safety: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * step * step;
-        let (legs, next) = (&self.legs, demand.legs);
-        let (now, linear) = (&self.coordinates().linear, &demand.coordinates.linear);
+        let (legs, next) = (&self.now.legs, &demand.legs);
+        let (now, linear) = (&self.now.coordinates.linear, &demand.coordinates.linear);
         let apart = |before: f64, after: f64, v: f64, w: f64| (after - before - 0.5 * (v + w) * step).abs();
         (0..6).all(|i| {
             apart(legs.length[i], next.length[i], legs.velocity[i], next.velocity[i])
@@ -215,45 +189,15 @@ impl ActuatorGuard {
         })
     }
 
-    /// Commits a state from which this plan is certified, or which lies on it.
+    /// The commanded state.
     #[inline(always)]
-    fn accept(&mut self, state: Candidate, plan: StopPlan) {
-        self.move_to(state);
-        self.plan = plan;
-    }
-
-    #[inline(always)]
-    fn move_to(&mut self, state: Candidate) {
-        self.motion = *state.motion;
-        self.legs = *state.legs;
-        self.speed = Speed::of(state.coordinates);
-    }
-
-    #[inline(always)]
-    fn state(&self) -> State<'_> {
-        State { coordinates: self.coordinates(), motion: &self.motion, speed: self.speed }
-    }
-
-    /// The platform's coordinates.
-    #[inline(always)]
-    pub fn coordinates(&self) -> &PlatformCoordinates {
-        match &self.limited {
-            Some(limited) => &limited.coordinates,
-            None => self.plan.start(),
-        }
+    pub fn now(&self) -> &PlatformState {
+        &self.now
     }
 
     /// The coordinates that were demanded last.
     pub fn demand(&self) -> &PlatformCoordinates {
-        match &self.limited {
-            Some(limited) => &limited.demand,
-            None => self.plan.start(),
-        }
-    }
-
-    /// The commanded legs.
-    pub fn legs(&self) -> &Legs {
-        &self.legs
+        self.limited.as_ref().map_or(&self.now.coordinates, |limited| &limited.demand)
     }
 
     /// The accelerations of the commanded legs' lengths \[m/s2\], within their limit.
@@ -265,14 +209,9 @@ impl ActuatorGuard {
         let most = self.machine.limits.acceleration;
         let accelerations = match &self.limited {
             Some(limited) => limited.leg_accelerations,
-            None => leg_accelerations(&self.machine.geometry, &self.motion),
+            None => leg_accelerations(&self.machine.geometry, &self.now.motion),
         };
         accelerations.map(|acceleration| acceleration.clamp(-most, most))
-    }
-
-    /// The motion that the platform makes.
-    pub fn motion(&self) -> &PlatformMotion {
-        &self.motion
     }
 
     /// True if the platform was kept from its demand in the last step.
@@ -283,7 +222,7 @@ impl ActuatorGuard {
     /// The smallest distance of a leg from either end of its stroke \[m\].
     pub fn stroke_margin(&self) -> f64 {
         let [shortest, longest] = self.stroke;
-        let [least, greatest] = self.legs.extremes();
+        let [least, greatest] = self.now.legs.extremes();
         min(least - shortest, longest - greatest)
     }
 
@@ -294,7 +233,7 @@ impl ActuatorGuard {
 
     /// Each leg's distance from each end of its stroke, and the rate of it.
     fn margins(&self) -> impl Iterator<Item = (f64, f64)> {
-        let Legs { length, velocity } = self.legs;
+        let Legs { length, velocity } = self.now.legs;
         (0..6)
             .flat_map(move |i| [(length[i] - self.stroke[0], velocity[i]), (self.stroke[1] - length[i], -velocity[i])])
     }

@@ -4,29 +4,15 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::ActuatorGuard;
-use super::machine::Candidate;
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits};
 use crate::platform::stop_plan::StopPlan;
-use crate::platform::{Legs, PlatformCoordinates, PlatformMotion, inverse_kinematics, jacobian};
+use crate::platform::{Legs, PlatformCoordinates, PlatformState, jacobian};
 
 /// Number of bisections between the plan and the pursuit. They find the farthest certified
 /// candidate to a part in 2^6.
 const BISECTIONS: usize = 6;
-
-/// A candidate of its own.
-pub(super) struct Trial {
-    pub(super) coordinates: PlatformCoordinates,
-    motion: PlatformMotion,
-    legs: Legs,
-}
-
-impl Trial {
-    pub(super) fn candidate(&self) -> Candidate<'_> {
-        Candidate { coordinates: &self.coordinates, motion: &self.motion, legs: &self.legs }
-    }
-}
 
 impl ActuatorGuard {
     /// The certified state nearest to a pursuit of the demand, with its plan, if there is one.
@@ -34,36 +20,36 @@ impl ActuatorGuard {
     /// straight way there, with this fraction of the speed.
     pub(super) fn nearest(
         &self,
-        demand: Candidate,
+        demand: &PlatformState,
         followed: &StopPlan,
         homeward: Option<f64>,
         safety: &SafetyParameters,
         step: f64,
-    ) -> Option<(Trial, StopPlan)> {
-        let now = self.coordinates();
+    ) -> Option<(PlatformState, StopPlan)> {
+        let now = &self.now.coordinates;
         let on_plan = followed.now();
         let pursued = match homeward {
             Some(fraction) => self.machine.homeward(now, safety, fraction, step),
-            None => self.pursued(now, demand.legs, safety, step),
+            None => self.pursued(now, &demand.legs, safety, step),
         };
         farthest(|fraction| {
-            let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
+            let trial = self.machine.state(on_plan.towards(&pursued, fraction, now, step));
             let plan = match homeward {
                 // A part of a certified way home is certified.
-                Some(_) => self.certified(trial.candidate(), followed, safety, step),
-                None => self.certified_to_see_home(trial.candidate(), followed, safety, step),
+                Some(_) => self.certified(&trial, followed, safety, step),
+                None => self.certified_to_see_home(&trial, followed, safety, step),
             }?;
             Some((trial, plan))
         })
     }
 
     /// The next state on the plan held; `followed` is that plan at the step's end.
-    pub(super) fn following(&self, followed: &StopPlan, step: f64) -> Trial {
-        let (now, mut next) = (self.coordinates(), followed.now());
+    pub(super) fn following(&self, followed: &StopPlan, step: f64) -> PlatformState {
+        let (now, mut next) = (&self.now.coordinates, followed.now());
         for (after, before) in [(&mut next.linear, &now.linear), (&mut next.angles, &now.angles)] {
             after.acceleration = (after.velocity - before.velocity) / step;
         }
-        self.trial(next)
+        self.machine.state(next)
     }
 
     /// The state that the platform reaches if each leg pursues its target under its own limits, and
@@ -99,16 +85,12 @@ impl ActuatorGuard {
 
     /// The rates of the legs if each pursues its target as far as its limits allow \[m/s\].
     fn each_leg_pursued(&self, target: &Legs, step: f64) -> [f64; 6] {
+        let legs = &self.now.legs;
         std::array::from_fn(|i| {
-            let leg = Motion { position: self.legs.length[i], velocity: self.legs.velocity[i], acceleration: 0.0 };
+            let leg = Motion { position: legs.length[i], velocity: legs.velocity[i], acceleration: 0.0 };
             let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };
             self.pursuit.follow(&leg, &goal, CATCH_UP_FRACTION * self.pursuit.acceleration, step).velocity
         })
-    }
-
-    fn trial(&self, coordinates: PlatformCoordinates) -> Trial {
-        let motion = coordinates.motion(self.machine.neutral_height);
-        Trial { coordinates, motion, legs: inverse_kinematics(&self.machine.geometry, &motion) }
     }
 }
 

@@ -57,7 +57,7 @@ impl<'a> Surroundings<'a> {
     pub fn of(circumstances: &Circumstances<'a>) -> Self {
         let Circumstances { parameters, guard, angles, .. } = *circumstances;
         let Parameters { rig, predictive, angular, splitter, .. } = parameters;
-        let linear = &guard.coordinates().linear;
+        let linear = &guard.now().coordinates.linear;
         Surroundings {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,

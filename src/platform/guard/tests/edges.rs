@@ -12,10 +12,10 @@ use super::{JointBounds, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law;
-use crate::platform::guard::machine::{Candidate, Machine, Speed, State, stroke_reserve};
+use crate::platform::guard::machine::{Machine, stroke_reserve};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{Geometry, PlatformCoordinates, inverse_kinematics};
+use crate::platform::{Geometry, PlatformCoordinates};
 
 /// Longest step of all machines here \[s\].
 const LONGEST_STEP: f64 = 0.004;
@@ -88,14 +88,11 @@ fn cases(gap: f64) -> impl Strategy<Value = Case> {
 fn certified(case: &Case, limits: &Limits, by_bounds: bool) -> Option<StopDurations> {
     let (rig, safety) = (limits.rig(), limits.safety());
     let machine = Machine::new(&rig, LONGEST_STEP);
-    let [from, to] = [&case.now, &case.next].map(|coordinates| coordinates.motion(rig.neutral_height));
-    let legs = inverse_kinematics(&machine.geometry, &to);
-    let state = State { coordinates: &case.now, motion: &from, speed: Speed::of(&case.now) };
-    let candidate = Candidate { coordinates: &case.next, motion: &to, legs: &legs };
+    let [from, to] = [case.now, case.next].map(|coordinates| machine.state(coordinates));
     if by_bounds {
-        return machine.certify_by_bounds(state, candidate, &safety, case.step).map(StopDurations::common);
+        return machine.certify_by_bounds(&from, &to, &safety, case.step).map(StopDurations::common);
     }
-    machine.certify(state, candidate, &safety, case.step).map(|plan| *plan.durations())
+    machine.certify(&from, &to, &safety, case.step).map(|plan| *plan.durations())
 }
 
 /// The conditions of the proof, for a case and limits.

@@ -6,7 +6,7 @@ use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::platform::guard::{ActuatorGuard, Deviation, PATIENCE};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{Geometry, PlatformCoordinates, Pose, inverse_kinematics, leg_lengths, stroke_reserve};
+use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, stroke_reserve};
 
 const STEP: f64 = 0.005;
 
@@ -61,14 +61,14 @@ fn distance_left(seed: u64, rest: f64) -> f64 {
         SafetyParameters { position_limit: numbers.vector(0.05).abs().add_scalar(0.03), ..SafetyParameters::default() };
     let mut guard = ActuatorGuard::new(&rig, STEP);
     let mut advance = |demand: &PlatformCoordinates, resting: bool, seconds: f64| {
-        let motion = demand.motion(rig.neutral_height);
+        let demand = guard.state(*demand);
         for _ in 0..(seconds / STEP) as usize {
-            guard.advance(demand, &motion, &safety, resting, STEP);
-            if resting && distance(guard.coordinates()) < 1e-6 {
+            guard.advance(&demand, &safety, resting, STEP);
+            if resting && distance(&guard.now.coordinates) < 1e-6 {
                 break;
             }
         }
-        distance(guard.coordinates())
+        distance(&guard.now.coordinates)
     };
     for _ in 0..6 {
         let at_rest = |position| Motion { position, ..Motion::default() };
@@ -91,7 +91,7 @@ fn a_platform_comes_home_from_any_corner_of_its_workspace() {
 }
 
 /// A guard at rest with a leg at the end of its certified stroke and sway at its limit.
-fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, Rig, SafetyParameters)> {
+fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     let mut numbers = Numbers(seed);
     for _ in 0..4 {
         numbers.next();
@@ -99,9 +99,9 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, Rig, SafetyParameters)> {
     let mut rig = small_rig(&mut numbers);
     let at_rest = |position| Motion { position, ..Motion::default() };
     let rest = PlatformCoordinates { linear: at_rest(numbers.vector(0.25)), angles: at_rest(numbers.vector(0.4)) };
-    let motion = rest.motion(rig.neutral_height);
     let geometry = Geometry::from(&rig);
-    let legs = inverse_kinematics(&geometry, &motion);
+    let now = PlatformState::new(rest, &geometry, rig.neutral_height);
+    let legs = now.legs;
     let shortest = legs.length.into_iter().fold(f64::INFINITY, f64::min);
     let neutral = leg_lengths(&geometry, &Pose::neutral(&rig)).into_iter().fold(f64::INFINITY, f64::min);
     rig.min_length = shortest - stroke_reserve(&rig, STEP);
@@ -109,38 +109,36 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, Rig, SafetyParameters)> {
     let mut safety = SafetyParameters::default();
     safety.position_limit.y = rest.linear.position.y.abs();
     let mut guard = ActuatorGuard::new(&rig, STEP);
-    guard.motion = motion;
-    guard.legs = legs;
+    guard.now = now;
     guard.plan = StopPlan::new(&rest, StopDurations::common(0.0));
     guard.limited = Some(Deviation {
         demand: PlatformCoordinates::default(),
-        coordinates: rest,
         leg_accelerations: [0.0; 6],
         resting: 0.0,
         homeward: None,
     });
-    (neutral - shortest > 0.017 && guard.machine.sees_home(&rest)).then_some((guard, rig, safety))
+    (neutral - shortest > 0.017 && guard.machine.sees_home(&rest)).then_some((guard, safety))
 }
 
 #[test]
 fn a_platform_leaves_a_corner_where_every_pursuit_of_neutral_is_refused() {
     let demand = PlatformCoordinates::default();
     let mut frozen = 0;
-    for (mut guard, rig, safety) in (0..20_000).filter_map(at_a_corner) {
-        let motion = demand.motion(rig.neutral_height);
-        let start = guard.coordinates().linear.position;
+    for (mut guard, safety) in (0..20_000).filter_map(at_a_corner) {
+        let demand = guard.state(demand);
+        let start = guard.now().coordinates.linear.position;
         let mut advance = |seconds: f64| {
             for _ in 0..(seconds / STEP) as usize {
-                guard.advance(&demand, &motion, &safety, true, STEP);
+                guard.advance(&demand, &safety, true, STEP);
             }
-            guard.coordinates().linear.position
+            guard.now().coordinates.linear.position
         };
         if advance(STEP) != start || advance(0.5 * PATIENCE) != start {
             continue;
         }
         frozen += 1;
         advance(60.0);
-        let left = distance(guard.coordinates());
+        let left = distance(&guard.now.coordinates);
         assert!(left < 1e-6, "{left} from neutral");
     }
     assert!(frozen > 0);

@@ -13,7 +13,7 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use super::bounds::JointBounds;
 use super::certificate;
-use super::machine::{Candidate, Machine, Speed, State};
+use super::machine::Machine;
 use super::*;
 use crate::interface::Rig;
 use crate::motion::Motion;
@@ -150,11 +150,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
             let start = PlatformCoordinates { linear: scaled(&linear), angles: scaled(&angles) };
             let end = coordinates_after(&start, step);
             let motion = |coordinates: &PlatformCoordinates| coordinates.motion(machine.neutral_height);
-            let (from, to) = (motion(&start), motion(&end));
-            let legs = inverse_kinematics(&machine.geometry, &to);
-            let state = State { coordinates: &start, motion: &from, speed: Speed::of(&start) };
-            let candidate = Candidate { coordinates: &end, motion: &to, legs: &legs };
-            let Some(plan) = machine.certify(state, candidate, &safety, step) else {
+            let Some(plan) = machine.certify(&machine.state(start), &machine.state(end), &safety, step) else {
                 refused.set(refused.get() + 1);
                 return Ok(());
             };
@@ -292,18 +288,15 @@ fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
     let joins = |surge: f64, most: f64| {
         let mut demand = PlatformCoordinates::default();
         demand.linear.position.x = surge;
-        let motion = demand.motion(rig.neutral_height);
-        let legs = inverse_kinematics(&guard.machine.geometry, &motion);
         let safety = SafetyParameters { acceleration_limit: Vector3::repeat(most), ..SafetyParameters::default() };
-        guard.has_caught_up(Candidate { coordinates: &demand, motion: &motion, legs: &legs }, &safety, step)
+        guard.has_caught_up(&guard.state(demand), &safety, step)
     };
     // Surge changes the leg that lies along it most by this much a metre.
-    let neutral = inverse_kinematics(&guard.machine.geometry, guard.motion()).length;
-    let mut moved = PlatformMotion::at_rest(Pose::neutral(&rig));
-    moved.position.x = 1e-6;
-    let leg = (0..6)
-        .map(|i| (inverse_kinematics(&guard.machine.geometry, &moved).length[i] - neutral[i]).abs() / 1e-6)
-        .fold(0.0, f64::max);
+    let neutral = guard.now.legs.length;
+    let mut moved = PlatformCoordinates::default();
+    moved.linear.position.x = 1e-6;
+    let moved = guard.state(moved).legs.length;
+    let leg = (0..6).map(|i| (moved[i] - neutral[i]).abs() / 1e-6).fold(0.0, f64::max);
     let of_legs = 0.01 * rig.acceleration_limit * step * step / leg;
     assert!(joins(0.999 * of_legs, 1e3) && !joins(1.001 * of_legs, 1e3));
     let of_axes = |most: f64| 0.01 * most * step * step;
@@ -320,9 +313,9 @@ fn reported_accelerations_of_the_legs_keep_their_limit() {
     for (acceleration, expected) in [(1.0, None), (-1.0, None), (9.0, Some(5.0)), (-9.0, Some(-5.0))] {
         let mut demand = PlatformCoordinates::default();
         demand.linear.acceleration.z = acceleration;
-        guard.advance(&demand, &demand.motion(rig.neutral_height), &SafetyParameters::default(), false, 0.001);
+        guard.advance(&guard.state(demand), &SafetyParameters::default(), false, 0.001);
         assert!(!guard.limited());
-        let exact = leg_accelerations(&guard.machine.geometry, &guard.motion);
+        let exact = leg_accelerations(&guard.machine.geometry, &guard.now.motion);
         assert!(exact.iter().all(|exact| exact.abs() > 5.0) == expected.is_some());
         assert_eq!(guard.leg_accelerations(), exact.map(|exact| expected.unwrap_or(exact)));
     }
@@ -363,7 +356,7 @@ fn the_rate_of_the_stroke_margin_is_its_derivative() {
     let (mut margins, mut rates) = (Vec::new(), Vec::new());
     for k in 1..=15_000 {
         let demand = at(f64::from(k) * step);
-        guard.advance(&demand, &demand.motion(rig.neutral_height), &SafetyParameters::default(), false, step);
+        guard.advance(&guard.state(demand), &SafetyParameters::default(), false, step);
         margins.push(guard.stroke_margin());
         rates.push(guard.stroke_margin_rate());
     }

@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use super::{case_count, search, vector};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
+use crate::platform::PlatformCoordinates;
 use crate::platform::guard::ActuatorGuard;
-use crate::platform::{PlatformCoordinates, PlatformMotion};
 
 /// Factor by which rounding may exceed a limit.
 const ROUNDING: f64 = 1.0 + 1e-9;
@@ -43,19 +43,17 @@ impl Oscillation {
 struct Ride {
     guard: ActuatorGuard,
     demand: Oscillation,
-    neutral_height: f64,
     step: f64,
 }
 
 impl Ride {
     fn advance(&mut self, count: usize, safety: &SafetyParameters) {
         let demand = self.demand.at((count + 1) as f64 * self.step);
-        let motion: PlatformMotion = demand.motion(self.neutral_height);
-        self.guard.advance(&demand, &motion, safety, false, self.step);
+        self.guard.advance(&self.guard.state(demand), safety, false, self.step);
     }
 
     fn speeds(&self) -> Vector3<f64> {
-        self.guard.coordinates().linear.velocity.abs()
+        self.guard.now().coordinates.linear.velocity.abs()
     }
 }
 
@@ -66,7 +64,7 @@ fn rides() -> impl Strategy<Value = Ride> {
         let [acceleration_limit, velocity_limit, step] = [a, v, step].map(|exponent| 10.0_f64.powf(exponent));
         let rig = Rig { acceleration_limit, velocity_limit, ..Rig::default() };
         let demand = Oscillation { amplitudes: [p, q], frequencies };
-        Ride { guard: ActuatorGuard::new(&rig, step), demand, neutral_height: rig.neutral_height, step }
+        Ride { guard: ActuatorGuard::new(&rig, step), demand, step }
     })
 }
 
