@@ -48,7 +48,7 @@ pub use nalgebra;
 pub use interface::{Input, Output, Parameters, Preview, Rig};
 pub use moris_interface::{MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
 pub use validate::{check, check_rig, warnings};
-pub use washout::Washout;
+pub use washout::{InputCourse, Washout};
 
 // The snippets of this page, as doc tests.
 #[cfg(doctest)]

@@ -62,6 +62,17 @@ pub struct Washout {
     before: PreviousStep,
 }
 
+/// The input's course over a step.
+#[derive(Clone, Copy, Debug)]
+pub enum InputCourse<'a> {
+    /// The same all the time (zero-order hold).
+    Held(&'a Input),
+    /// Linear from the last step's to this one, which engages or disengages from the start on.
+    Ramp(&'a Input),
+    /// Linear from one to the other (first-order hold). It is engaged if the first is.
+    Between(&'a Input, &'a Input),
+}
+
 /// An input, the head with its lean, and the cue there before its limits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct CuedInput {
@@ -189,87 +200,68 @@ impl Washout {
         }
     }
 
-    /// Advances by `step` seconds with this input, of which no slopes are known. As the parameter
-    /// `input.reconstruction` says, it is held (zero-order hold), or reached at the step's end
-    /// from the last step's.
+    /// Advances by `step` seconds with this input, of which no slopes are known.
     ///
     /// Any input is safe: components that are not a number count as at rest. A step shorter
     /// than [`SHORTEST_STEP`] does nothing. A step longer than [`MOST_INTERNAL_STEPS`] internal
     /// steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
-        self.step_observed(input, step, |_| ());
+        self.follow(self.reconstructed(input), step, |_| ());
     }
 
-    /// As [`Washout::step`]; `observe` receives the felt specific force after each internal step.
-    pub fn step_observed(&mut self, input: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
-        if step >= SHORTEST_STEP {
-            match self.parameters.conditioning.reconstruction {
-                Reconstruction::Hold => self.hold(input, step, observe),
-                Reconstruction::Ramp => self.ramp_to(input, step, observe),
-            }
-        }
-    }
-
-    /// A step with the input held.
-    fn hold(&mut self, input: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
-        let held = CuedInput::new(input.sanitized(), &self.parameters);
-        self.last = held;
-        self.substep(step, |washout, _, step| washout.internal_step(&held, step), observe);
-    }
-
-    /// A step in which the input goes linearly from the last one to `end`.
-    fn ramp_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
-        let end = end.sanitized();
-        self.last.input.engaged = end.engaged;
-        if let Some(law) = self.strategy.previewed() {
-            law.delay_preview(step);
-            self.scale.delay_preview(step);
-        }
-        self.step_to(&end, step, observe);
-    }
-
-    /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order
-    /// hold). It is engaged if `start` is.
+    /// Advances by `step` seconds while the input goes linearly from `start` to `end`.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        self.step_between_observed(start, end, step, |_| ());
+        self.follow(InputCourse::Between(start, end), step, |_| ());
     }
 
-    /// As [`Washout::step_between`]; `observe` receives the felt specific force after each internal
-    /// step.
-    pub fn step_between_observed(&mut self, start: &Input, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
-        if step >= SHORTEST_STEP {
-            self.last = CuedInput::new(start.sanitized(), &self.parameters);
-            self.step_to(&end.sanitized(), step, observe);
+    /// The course of an input of which no slopes are known, as the parameter
+    /// `input.reconstruction` says.
+    pub fn reconstructed<'a>(&self, input: &'a Input) -> InputCourse<'a> {
+        match self.parameters.conditioning.reconstruction {
+            Reconstruction::Hold => InputCourse::Held(input),
+            Reconstruction::Ramp => InputCourse::Ramp(input),
         }
     }
 
-    /// As [`Washout::step_between`], from the last sample.
-    fn step_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
-        let start = self.last.input;
-        let advance = |washout: &mut Self, fraction, step| {
-            let end = CuedInput::new(start.towards(end, fraction), &washout.parameters);
-            washout.internal_step(&end, step);
-            washout.last = end;
+    /// Advances by `step` seconds with the input on this course, in internal steps. `observe`
+    /// receives the felt specific force after each.
+    pub fn follow(&mut self, course: InputCourse, step: f64, mut observe: impl FnMut(&Vector3<f64>)) {
+        if step < SHORTEST_STEP || step.is_nan() {
+            return;
+        }
+        let end = match course {
+            InputCourse::Held(input) => {
+                self.last = CuedInput::new(input.sanitized(), &self.parameters);
+                None
+            }
+            InputCourse::Ramp(end) => {
+                let end = end.sanitized();
+                self.last.input.engaged = end.engaged;
+                if let Some(law) = self.strategy.previewed() {
+                    law.delay_preview(step);
+                    self.scale.delay_preview(step);
+                }
+                Some(end)
+            }
+            InputCourse::Between(start, end) => {
+                self.last = CuedInput::new(start.sanitized(), &self.parameters);
+                Some(end.sanitized())
+            }
         };
-        self.substep(step, advance, observe);
-    }
-
-    /// Divides a step into internal ones. `advance` does one of them, with the fraction
-    /// of the whole at which it ends and its length. `observe` receives the felt
-    /// specific force after each.
-    fn substep(
-        &mut self,
-        step: f64,
-        mut advance: impl FnMut(&mut Self, f64, f64),
-        mut observe: impl FnMut(&Vector3<f64>),
-    ) {
+        let start = self.last;
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited = ActiveLimits::default();
         let mut done = 0.0;
         while done < count {
             done += 1.0;
-            advance(self, done / count, internal_step);
+            if let Some(end) = &end {
+                let next = CuedInput::new(start.input.towards(end, done / count), &self.parameters);
+                self.internal_step(&next, internal_step);
+                self.last = next;
+            } else {
+                self.internal_step(&start, internal_step);
+            }
             observe(&self.felt.specific_force);
         }
     }

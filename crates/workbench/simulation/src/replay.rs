@@ -36,7 +36,7 @@
 
 use std::ops::Range;
 
-use moris_washout::{Input, Output, Washout};
+use moris_washout::{Input, InputCourse, Output, Washout};
 use nalgebra::Vector3;
 
 use crate::Manoeuvre;
@@ -140,11 +140,8 @@ impl<'a> Replay<'a> {
         step: f64,
         feel: impl FnMut(&Vector3<f64>),
     ) -> Output {
-        if self.slopes {
-            washout.step_between_observed(start, end, step, feel)
-        } else {
-            washout.step_observed(start, step, feel)
-        }
+        let course = if self.slopes { InputCourse::Between(start, end) } else { washout.reconstructed(start) };
+        washout.follow(course, step, feel);
         washout.output()
     }
 }

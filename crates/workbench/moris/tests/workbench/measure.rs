@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use moris_washout::interface::AngularVelocityFrame;
-use moris_washout::{Input, Parameters, Washout};
+use moris_washout::{Input, InputCourse, Parameters, Washout};
 
 const STEP: f64 = 0.01;
 const G: f64 = 9.80665;
@@ -121,7 +121,7 @@ fn comfort_is_that_of_the_felt_force_within_the_steps() {
     let mut washout = Washout::new(&parameters).unwrap().starting_with(&inputs[0]);
     let mut felt = vec![washout.output().felt_specific_force.x];
     for pair in inputs.windows(2) {
-        washout.step_between_observed(&pair[0], &pair[1], STEP, |force| felt.push(force.x));
+        washout.follow(InputCourse::Between(&pair[0], &pair[1]), STEP, |force| felt.push(force.x));
     }
     let desired: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
     let [shake, jolt, peak] = moris_measures::comfort::comfort(&desired, &felt, 0.0, STEP).values();
