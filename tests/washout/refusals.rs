@@ -158,6 +158,14 @@ fn weights_and_limits_without_a_regulator_are_refused_by_the_strategys_name() {
 }
 
 #[test]
+fn a_plan_whose_program_is_not_convex_is_refused_for_that_reason() {
+    let extreme = [("strategy", 4.0), ("safety.x.velocityLimit", 1e-7), ("predictive.weightVelocity", 1e4)];
+    let refusal = Washout::new(&parameters(&extreme)).unwrap_err();
+    assert_eq!(refusal.variable, "strategy");
+    assert!(refusal.reason.contains("not convex") && !refusal.reason.contains("Riccati"), "{refusal}");
+}
+
+#[test]
 fn limits_without_a_regulator_of_the_automatic_scale_are_refused_by_the_name_of_a_parameter() {
     let extreme = [
         ("scale.automatic", 2.0),

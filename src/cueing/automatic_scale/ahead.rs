@@ -8,6 +8,7 @@
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
+use crate::cueing::strategy::Unsolvable;
 use crate::cueing::strategy::predictive::preview::PreviewedCue;
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights, dynamics};
 use crate::interface::PREVIEW_SAMPLES;
@@ -41,8 +42,11 @@ pub struct Tracker {
 }
 
 impl Tracker {
-    /// The tracker of an axis. None if there is no regulator for its limits.
-    pub fn new(model: &AxisModel) -> Option<Self> {
+    /// The tracker of an axis.
+    ///
+    /// # Errors
+    /// There is no regulator for its limits.
+    pub fn new(model: &AxisModel) -> Result<Self, Unsolvable> {
         let Regulator { gains, cost } = Regulator::new(model, &WEIGHTS)?;
         let (a, b) = dynamics(model, &WEIGHTS);
         let closed: SMatrix<f64, 4, 4> = (a - b * gains).fixed_view::<4, 4>(0, 0).transpose();
@@ -64,8 +68,8 @@ impl Tracker {
         }
         // After the last point the reference fades.
         let fading = SMatrix::<f64, 4, 4>::identity() * WEIGHTS.slow_pole - closed;
-        forward[POINTS - 1] += to_input * fading.lu().solve(&costate)?;
-        Some(Tracker { feedback: gains.fixed_view::<2, 4>(0, 0).into(), forward: forward.map(Into::into) })
+        forward[POINTS - 1] += to_input * fading.lu().solve(&costate).ok_or(Unsolvable::RiccatiEquation)?;
+        Ok(Tracker { feedback: gains.fixed_view::<2, 4>(0, 0).into(), forward: forward.map(Into::into) })
     }
 
     /// Dropped force and tilt acceleration that the reference ahead asks for at a scale of 1.

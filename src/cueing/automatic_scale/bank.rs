@@ -211,17 +211,13 @@ impl Bank {
 
 /// The regulators' gains for surge and sway.
 fn gains(models: &[AxisModel; 2]) -> Result<[Gains; 2], Unsolvable> {
-    let gains = |axis: usize| {
-        Regulator::new(&weighed(&models[axis]), &WEIGHTS)
-            .map(|regulator| regulator.gains)
-            .ok_or(Unsolvable::AutomaticScale)
-    };
+    let gains = |axis: usize| Regulator::new(&weighed(&models[axis]), &WEIGHTS).map(|regulator| regulator.gains);
     Ok([gains(0)?, gains(1)?])
 }
 
 /// The trackers for surge and sway.
 fn trackers(models: &[AxisModel; 2]) -> Result<[Tracker; 2], Unsolvable> {
-    let tracker = |axis: usize| Tracker::new(&weighed(&models[axis])).ok_or(Unsolvable::AutomaticScale);
+    let tracker = |axis: usize| Tracker::new(&weighed(&models[axis]));
     Ok([tracker(0)?, tracker(1)?])
 }
 

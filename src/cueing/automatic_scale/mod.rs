@@ -16,6 +16,7 @@ mod ahead;
 mod bank;
 mod platform;
 
+use moris_interface::ParameterError;
 use serde::{Deserialize, Serialize};
 
 use self::bank::Bank;
@@ -48,7 +49,7 @@ impl FittingScale {
     ///
     /// # Errors
     /// There is no regulator for the platform's limits.
-    pub fn new(parameters: &Parameters) -> Result<Self, Unsolvable> {
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let bank = bank(parameters)?;
         Ok(FittingScale { factor: if bank.is_some() { START } else { 1.0 }, rate: 0.0, bank })
     }
@@ -58,10 +59,10 @@ impl FittingScale {
     ///
     /// # Errors
     /// There is no regulator for the platform's limits. Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters, nothing_cued: bool) -> Result<(), Unsolvable> {
+    pub fn retune(&mut self, parameters: &Parameters, nothing_cued: bool) -> Result<(), ParameterError> {
         let is_automatic = parameters.automatic_scale.automatic == AutomaticScale::On;
         match &mut self.bank {
-            Some(bank) if is_automatic => bank.retune(parameters)?,
+            Some(bank) if is_automatic => bank.retune(parameters).map_err(Unsolvable::of_automatic_scale)?,
             None if !is_automatic => {}
             _ if nothing_cued => *self = Self::new(parameters)?,
             bank => *bank = self::bank(parameters)?,
@@ -125,9 +126,9 @@ impl FittingScale {
 }
 
 /// The bank that the parameters ask for, at rest.
-fn bank(parameters: &Parameters) -> Result<Option<Bank>, Unsolvable> {
+fn bank(parameters: &Parameters) -> Result<Option<Bank>, ParameterError> {
     match parameters.automatic_scale.automatic {
         AutomaticScale::Off => Ok(None),
-        AutomaticScale::On => Bank::new(parameters).map(Some),
+        AutomaticScale::On => Bank::new(parameters).map(Some).map_err(Unsolvable::of_automatic_scale),
     }
 }

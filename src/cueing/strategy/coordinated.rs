@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Circumstances, Decision, PlanStatus, Previewed, Situation, Unsolvable};
+use super::law::{AxisState, Circumstances, Decision, Situation, Unsolvable};
 use super::laws::AnyLaw;
 use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
@@ -34,7 +34,7 @@ use crate::platform::reach::horizontal_reach;
 /// Travel and tilt of surge and sway, and the law that decides on them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coordinated {
-    law: AnyLaw,
+    pub law: AnyLaw,
     /// The tilts q of surge and sway.
     tilt: [Motion; 2],
     /// True if a limit stops either tilt.
@@ -90,21 +90,6 @@ impl Coordinated {
         let [surge, sway] = self.tilt;
         let pitch = Motion { position: -surge.position, velocity: -surge.velocity, acceleration: -surge.acceleration };
         [sway, pitch]
-    }
-
-    /// The plan that is carried out, of a law that plans.
-    pub fn plan(&self) -> Option<PlanStatus> {
-        self.law.plan()
-    }
-
-    /// The law that makes use of a preview, if this one does.
-    pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
-        self.law.previewed()
-    }
-
-    /// The largest heave that is left to the heave channel \[m\].
-    pub fn largest_heave(&self) -> f64 {
-        self.law.largest_heave()
     }
 
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
@@ -448,7 +433,7 @@ mod tests {
 
     #[test]
     fn only_the_predictive_strategy_bounds_heave() {
-        let largest = |strategy| coordinated(&parameters(strategy)).largest_heave();
+        let largest = |strategy| coordinated(&parameters(strategy)).law.largest_heave();
         assert_eq!(largest(StrategyKind::Predictive), 0.1);
         assert_eq!([StrategyKind::Adaptive, StrategyKind::Optimal].map(largest), [f64::INFINITY; 2]);
     }

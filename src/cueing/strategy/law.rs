@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::predictive::preview::PreviewedCue;
 use super::regulator::AxisModel;
-use crate::interface::Parameters;
+use crate::interface::{Parameters, StrategyKind};
 use crate::motion::Motion;
 use crate::platform::{ActuatorGuard, LocationFrame};
 use moris_interface::ParameterError;
@@ -60,12 +60,14 @@ pub struct Situation<'a> {
 }
 
 /// Control law for the dropped force and the tilt of surge and sway.
-pub trait Law: Sized {
+pub trait Law {
     /// At rest.
     ///
     /// # Errors
     /// The weights cannot be used.
-    fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable>;
+    fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable>
+    where
+        Self: Sized;
 
     /// Takes other parameters, and continues from its state.
     ///
@@ -113,33 +115,39 @@ pub struct PlanStatus {
     pub kept: bool,
 }
 
-/// The error for a regulator whose Riccati equation has no numerical solution. All of its weights
-/// and limits enter the equation; none of them can be named as the cause.
+/// The reason why weights and limits cannot be used. All of them enter the computation; none can be
+/// named as the cause.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Unsolvable {
-    /// The regulator of a strategy, by the strategy's name.
-    Strategy(&'static str),
-    /// The regulator of the automatic scale, whose weights are fixed.
-    AutomaticScale,
+    /// The regulator's Riccati equation has no numerical solution.
+    RiccatiEquation,
+    /// The plan's quadratic program is not convex in numbers.
+    Program,
 }
 
-impl From<Unsolvable> for ParameterError {
-    fn from(error: Unsolvable) -> Self {
-        let (variable, reason) = match error {
-            Unsolvable::Strategy(name) => (
-                "strategy",
-                format!(
-                    "is {name}, and with the weights and poles {name}.* and the limits safety.* and tilt.* the Riccati \
-                     equation has no numerical solution; choose them nearer to their start values"
-                ),
-            ),
-            Unsolvable::AutomaticScale => (
-                "scale.automatic",
-                "is on, and with the limits safety.* and tilt.* the Riccati equation has no numerical solution; choose \
-                 them nearer to their start values"
-                    .to_owned(),
-            ),
+impl Unsolvable {
+    /// The refusal of a strategy with its weights.
+    pub fn of_strategy(self, strategy: StrategyKind) -> ParameterError {
+        let name = strategy.name();
+        self.refusal("strategy", name, &format!("the weights and poles {name}.* and "))
+    }
+
+    /// The refusal of the automatic scale, whose weights are fixed.
+    pub fn of_automatic_scale(self) -> ParameterError {
+        self.refusal("scale.automatic", "on", "")
+    }
+
+    fn refusal(self, variable: &str, value: &str, weights: &str) -> ParameterError {
+        let reason = match self {
+            Unsolvable::RiccatiEquation => "the Riccati equation has no numerical solution",
+            Unsolvable::Program => "the plan's quadratic program is not convex in numbers",
         };
-        ParameterError { variable: variable.to_owned(), reason }
+        ParameterError {
+            variable: variable.to_owned(),
+            reason: format!(
+                "is {value}, and with {weights}the limits safety.* and tilt.* {reason}; choose them nearer to their start \
+                 values"
+            ),
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! The list of the laws, one for each strategy but the classical.
 
+use std::ops::{Deref, DerefMut};
+
 use serde::{Deserialize, Serialize};
 
 use super::adaptive::Adaptive;
-use super::law::{Decision, Law, PlanStatus, Previewed, Situation, Unsolvable};
+use super::law::{Law, Unsolvable};
 use super::optimal::Optimal;
 use super::predictive::Predictive;
 use super::regulator::AxisModel;
@@ -31,39 +33,22 @@ macro_rules! laws {
                     $(StrategyKind::$item => Some(AnyLaw::$item(Law::at_rest(models, parameters)?))),+
                 })
             }
+        }
 
-            /// As [`Law::set_parameters`].
-            pub fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        impl Deref for AnyLaw {
+            type Target = dyn Law;
+
+            fn deref(&self) -> &Self::Target {
                 match self {
-                    $(AnyLaw::$item(law) => law.set_parameters(models, parameters)),+
+                    $(AnyLaw::$item(law) => law),+
                 }
             }
+        }
 
-            /// As [`Law::decisions`].
-            pub fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
+        impl DerefMut for AnyLaw {
+            fn deref_mut(&mut self) -> &mut Self::Target {
                 match self {
-                    $(AnyLaw::$item(law) => law.decisions(situation, step)),+
-                }
-            }
-
-            /// As [`Law::largest_heave`].
-            pub fn largest_heave(&self) -> f64 {
-                match self {
-                    $(AnyLaw::$item(law) => law.largest_heave()),+
-                }
-            }
-
-            /// As [`Law::plan`].
-            pub fn plan(&self) -> Option<PlanStatus> {
-                match self {
-                    $(AnyLaw::$item(law) => law.plan()),+
-                }
-            }
-
-            /// As [`Law::previewed`].
-            pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
-                match self {
-                    $(AnyLaw::$item(law) => law.previewed()),+
+                    $(AnyLaw::$item(law) => law),+
                 }
             }
         }

@@ -16,6 +16,7 @@
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
+use super::law::Unsolvable;
 use super::regulator::{AxisModel, Problem, Regulator, Weights};
 
 /// The disturbance that a regulator withstands.
@@ -34,17 +35,20 @@ const MOST_BRACKETS: usize = 40;
 const BISECTIONS: usize = 21;
 
 impl Disturbance {
-    /// The regulator of an axis that is least for the worst disturbance. None if there is none.
-    pub fn regulator(&self, model: &AxisModel, weights: &Weights) -> Option<Regulator> {
+    /// The regulator of an axis that is least for the worst disturbance.
+    ///
+    /// # Errors
+    /// There is none in numbers.
+    pub fn regulator(&self, model: &AxisModel, weights: &Weights) -> Result<Regulator, Unsolvable> {
         let problem = Problem::new(model, weights);
-        let least = self.least_gamma(&problem)?;
+        let least = self.least_gamma(&problem).ok_or(Unsolvable::RiccatiEquation)?;
         let gamma = self.attenuation * least;
         problem.regulator(&(self.square() / (gamma * gamma)))
     }
 
     /// The least gamma at which the worst disturbance costs a bounded amount.
     fn least_gamma(&self, problem: &Problem) -> Option<f64> {
-        let bounded = |inverse_square: f64| problem.cost(&(inverse_square * self.square())).is_some();
+        let bounded = |inverse_square: f64| problem.cost(&(inverse_square * self.square())).is_ok();
         let mut most = 1.0;
         if bounded(most) {
             most = (0..MOST_BRACKETS).map(|k| BRACKET.powi(k as i32 + 1)).find(|&trial| !bounded(trial))?;
@@ -179,6 +183,6 @@ mod tests {
     #[test]
     fn without_a_solution_there_is_no_regulator() {
         let weights = Weights { position: f64::NAN, ..weights() };
-        assert!(DISTURBANCE.regulator(&MODEL, &weights).is_none());
+        assert_eq!(DISTURBANCE.regulator(&MODEL, &weights), Err(Unsolvable::RiccatiEquation));
     }
 }

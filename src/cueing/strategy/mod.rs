@@ -23,6 +23,7 @@ pub mod regulator;
 pub mod robust;
 pub mod smooth_tilt;
 
+use moris_interface::ParameterError;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -48,24 +49,27 @@ impl Strategy {
     ///
     /// # Errors
     /// Its weights cannot be used.
-    pub fn new(parameters: &Parameters) -> Result<Self, Unsolvable> {
-        Ok(match Coordinated::new(parameters)? {
-            Some(coordinated) => Strategy::Coordinated(coordinated),
-            None => Strategy::Classical(Classical::new(parameters)),
-        })
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        match Coordinated::new(parameters) {
+            Ok(Some(coordinated)) => Ok(Strategy::Coordinated(coordinated)),
+            Ok(None) => Ok(Strategy::Classical(Classical::new(parameters))),
+            Err(reason) => Err(reason.of_strategy(parameters.structure.strategy)),
+        }
     }
 
     /// Takes other parameters.
     ///
     /// # Errors
     /// Its weights cannot be used. Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         match self {
             Strategy::Classical(classical) => {
                 classical.retune(parameters);
                 Ok(())
             }
-            Strategy::Coordinated(coordinated) => coordinated.retune(parameters),
+            Strategy::Coordinated(coordinated) => {
+                coordinated.retune(parameters).map_err(|reason| reason.of_strategy(parameters.structure.strategy))
+            }
         }
     }
 
@@ -143,7 +147,7 @@ impl Strategy {
     pub fn plan(&self) -> Option<PlanStatus> {
         match self {
             Strategy::Classical(_) => None,
-            Strategy::Coordinated(coordinated) => coordinated.plan(),
+            Strategy::Coordinated(coordinated) => coordinated.law.plan(),
         }
     }
 
@@ -151,7 +155,7 @@ impl Strategy {
     pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
         match self {
             Strategy::Classical(_) => None,
-            Strategy::Coordinated(coordinated) => coordinated.previewed(),
+            Strategy::Coordinated(coordinated) => coordinated.law.previewed(),
         }
     }
 
@@ -159,7 +163,7 @@ impl Strategy {
     pub fn largest_heave(&self) -> f64 {
         match self {
             Strategy::Classical(_) => f64::INFINITY,
-            Strategy::Coordinated(coordinated) => coordinated.largest_heave(),
+            Strategy::Coordinated(coordinated) => coordinated.law.largest_heave(),
         }
     }
 

@@ -41,12 +41,11 @@ impl From<&OptimalParameters> for Tuning {
 
 impl Law for Optimal {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
-        Optimal::new(models, &(&parameters.optimal).into()).ok_or(Unsolvable::Strategy("optimal"))
+        Optimal::new(models, &(&parameters.optimal).into())
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-        let retuned = self.retune(models, &(&parameters.optimal).into());
-        retuned.then_some(()).ok_or(Unsolvable::Strategy("optimal"))
+        self.retune(models, &(&parameters.optimal).into())
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
@@ -68,24 +67,28 @@ pub(in crate::cueing) fn weighed(model: &AxisModel) -> AxisModel {
 }
 
 impl Optimal {
-    /// At rest. None if the weights cannot be used.
-    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
+    /// At rest.
+    ///
+    /// # Errors
+    /// The weights cannot be used.
+    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Result<Self, Unsolvable> {
         let regulator = |axis: usize| match &tuning.disturbance {
             None => Regulator::new(&weighed(&models[axis]), &tuning.weights),
             Some(disturbance) => disturbance.regulator(&weighed(&models[axis]), &tuning.weights),
         };
         let regulators = [regulator(0)?, regulator(1)?];
-        Some(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2] })
+        Ok(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2] })
     }
 
-    /// Takes other parameters. False, and nothing changes, if they cannot be used.
-    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> bool {
-        if (models, tuning) == (&self.models, &self.tuning) {
-            return true;
+    /// Takes other parameters.
+    ///
+    /// # Errors
+    /// The weights cannot be used. Nothing has changed then.
+    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> Result<(), Unsolvable> {
+        if (models, tuning) != (&self.models, &self.tuning) {
+            *self = Optimal { slow: self.slow, ..Optimal::new(models, tuning)? };
         }
-        let Some(tuned) = Optimal::new(models, tuning) else { return false };
-        *self = Optimal { slow: self.slow, ..tuned };
-        true
+        Ok(())
     }
 
     /// Decision for a step of `step` seconds that begins in these states, with these
@@ -151,15 +154,16 @@ mod tests {
     fn retuning_keeps_the_slow_part_and_without_a_regulator_everything() {
         let mut optimal = after(6, [1.5, -0.7]);
         let before = optimal;
-        assert!(optimal.retune(&[MODEL; 2], &tuning()));
+        optimal.retune(&[MODEL; 2], &tuning()).unwrap();
         assert_eq!(optimal, before);
         let other = Tuning { split_time: 0.3, ..tuning() };
-        assert!(optimal.retune(&[MODEL; 2], &other));
+        optimal.retune(&[MODEL; 2], &other).unwrap();
         assert_eq!(optimal, Optimal { slow: before.slow, ..Optimal::new(&[MODEL; 2], &other).unwrap() });
         assert_ne!(optimal.slow, [0.0; 2]);
         let kept = optimal;
         let unusable = Weights { position: f64::NAN, ..other.weights };
-        assert!(!optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other }));
+        let refused = optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other });
+        assert_eq!(refused, Err(Unsolvable::RiccatiEquation));
         assert_eq!(optimal, kept);
     }
 }

@@ -4,6 +4,7 @@
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
+use super::law::Unsolvable;
 use super::smooth_tilt::TiltLimits;
 use crate::interface::{OptimalParameters, PredictiveParameters, RobustParameters};
 use crate::riccati;
@@ -112,20 +113,26 @@ impl Problem {
         Problem { a, b, q, to_input, scale, input_scale }
     }
 
-    /// The cost to come of the regulator against a disturbance D D'/gamma^2, in scaled states. None
-    /// if the Riccati equation has no solution in numbers, or none without a disturbance that pays.
-    pub fn cost(&self, disturbance: &SMatrix<f64, 6, 6>) -> Option<SMatrix<f64, 6, 6>> {
-        let cost = riccati::solve::<6, 12>(&self.a, &(self.b * self.to_input - disturbance), &self.q)?;
-        // Rounding alone makes the least eigenvalue of a semidefinite matrix negative.
-        (cost.symmetric_eigenvalues().min() >= -1e-9 * cost.amax()).then_some(cost)
+    /// The cost to come of the regulator against a disturbance D D'/gamma^2, in scaled states.
+    ///
+    /// # Errors
+    /// The Riccati equation has no solution in numbers, or none without a disturbance that pays.
+    pub fn cost(&self, disturbance: &SMatrix<f64, 6, 6>) -> Result<SMatrix<f64, 6, 6>, Unsolvable> {
+        riccati::solve::<6, 12>(&self.a, &(self.b * self.to_input - disturbance), &self.q)
+            // Rounding alone makes the least eigenvalue of a semidefinite matrix negative.
+            .filter(|cost| cost.symmetric_eigenvalues().min() >= -1e-9 * cost.amax())
+            .ok_or(Unsolvable::RiccatiEquation)
     }
 
     /// The regulator against a disturbance D D'/gamma^2.
-    pub fn regulator(&self, disturbance: &SMatrix<f64, 6, 6>) -> Option<Regulator> {
+    ///
+    /// # Errors
+    /// As [`Problem::cost`].
+    pub fn regulator(&self, disturbance: &SMatrix<f64, 6, 6>) -> Result<Regulator, Unsolvable> {
         let Problem { scale, input_scale, .. } = self;
         let cost = self.cost(disturbance)?;
         let gains = self.to_input * cost;
-        Some(Regulator {
+        Ok(Regulator {
             gains: SMatrix::from_fn(|i, j| gains[(i, j)] * input_scale[i] / scale[j]),
             cost: SMatrix::from_fn(|i, j| cost[(i, j)] / (scale[i] * scale[j])),
         })
@@ -133,9 +140,11 @@ impl Problem {
 }
 
 impl Regulator {
-    /// The regulator that is least in the mean for these weights. None if the Riccati equation has
-    /// no solution in numbers.
-    pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
+    /// The regulator that is least in the mean for these weights.
+    ///
+    /// # Errors
+    /// The Riccati equation has no solution in numbers.
+    pub fn new(model: &AxisModel, weights: &Weights) -> Result<Self, Unsolvable> {
         Problem::new(model, weights).regulator(&SMatrix::zeros())
     }
 
@@ -253,6 +262,6 @@ pub(in crate::cueing) mod tests {
             slow_pole: 0.016,
             fast_pole: 4.4,
         };
-        assert_eq!(Regulator::new(&model, &weights), None);
+        assert_eq!(Regulator::new(&model, &weights), Err(Unsolvable::RiccatiEquation));
     }
 }

@@ -18,13 +18,11 @@ pub struct Robust(Optimal);
 
 impl Law for Robust {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
-        let optimal = Optimal::new(models, &(&parameters.robust).into());
-        optimal.map(Robust).ok_or(Unsolvable::Strategy("robust"))
+        Optimal::new(models, &(&parameters.robust).into()).map(Robust)
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-        let retuned = self.0.retune(models, &(&parameters.robust).into());
-        retuned.then_some(()).ok_or(Unsolvable::Strategy("robust"))
+        self.0.retune(models, &(&parameters.robust).into())
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {

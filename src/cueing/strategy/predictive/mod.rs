@@ -104,13 +104,11 @@ impl From<&PredictiveParameters> for Tuning {
 
 impl Law for Box<Predictive> {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
-        let predictive = Predictive::new(models, &(&parameters.predictive).into());
-        predictive.map(Box::new).ok_or(Unsolvable::Strategy("predictive"))
+        Predictive::new(models, &(&parameters.predictive).into()).map(Box::new)
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-        let retuned = self.retune(models, &(&parameters.predictive).into());
-        retuned.then_some(()).ok_or(Unsolvable::Strategy("predictive"))
+        self.retune(models, &(&parameters.predictive).into())
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
@@ -161,8 +159,11 @@ impl Previewed for Predictive {
 }
 
 impl Predictive {
-    /// At rest. None if the weights cannot be used.
-    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
+    /// At rest.
+    ///
+    /// # Errors
+    /// The weights cannot be used.
+    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Result<Self, Unsolvable> {
         let tables = Box::new(Tables::default());
         let programs = Programs::new(models, &tuning.weights)?;
         let plan = Plan {
@@ -173,7 +174,7 @@ impl Predictive {
             iterations: 0,
             kept: false,
         };
-        Some(Predictive {
+        Ok(Predictive {
             models: *models,
             tuning: *tuning,
             forecasters: [0, 1].map(|_| Box::new(Forecaster::new(&tables))),
@@ -192,20 +193,20 @@ impl Predictive {
         })
     }
 
-    /// Changes the parameters. The plan stays; the next one is made with them. False, and nothing
-    /// changes, if they cannot be used.
-    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> bool {
+    /// Changes the parameters. The plan stays; the next one is made with them.
+    ///
+    /// # Errors
+    /// The weights cannot be used. Nothing has changed then.
+    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> Result<(), Unsolvable> {
         if (models, tuning) == (&self.models, &self.tuning) {
-            return true;
+            return Ok(());
         }
-        if !self.programs.retune(models, &tuning.weights) {
-            return false;
-        }
+        self.programs.retune(models, &tuning.weights)?;
         program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
         (self.models, self.tuning) = (*models, *tuning);
         self.solver.abandon();
         self.due = true;
-        true
+        Ok(())
     }
 
     /// The plan that is being carried out.

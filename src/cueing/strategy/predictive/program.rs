@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use super::dual_active_set::Rows;
 use super::expected::Forecast;
 use super::horizon::{BLOCKS, Horizon, reserved};
-use crate::cueing::strategy::AxisState;
+use crate::cueing::strategy::law::{AxisState, Unsolvable};
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 
 /// Variables of an axis: dropped forces at the nodes \[m/s2\], then tilt accelerations of the
@@ -84,22 +84,27 @@ pub struct Programs {
 }
 
 impl Programs {
-    /// Both programs. None if there is no regulator for these weights.
-    pub fn new(models: &[AxisModel; 2], weights: &Weights) -> Option<Self> {
+    /// Both programs.
+    ///
+    /// # Errors
+    /// There is no regulator for these weights, or the program is not convex.
+    pub fn new(models: &[AxisModel; 2], weights: &Weights) -> Result<Self, Unsolvable> {
         let program = |horizon| Program::new(models, weights, horizon);
-        Some(Programs { near: program(Horizon::Near)?, far: program(Horizon::Far)? })
+        Ok(Programs { near: program(Horizon::Near)?, far: program(Horizon::Far)? })
     }
 
-    /// Replaces both by those for other models or weights. False, and nothing changes, if there is
-    /// no regulator for them.
-    pub fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) -> bool {
+    /// Replaces both by those for other models or weights.
+    ///
+    /// # Errors
+    /// As [`Programs::new`]. Nothing has changed then.
+    pub fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) -> Result<(), Unsolvable> {
         // In place of the old ones, because a change of parameters allocates nothing.
         let axis = |horizon, axis: usize| AxisProgram::new(&models[axis], weights, horizon);
-        let axes = |horizon| Some([axis(horizon, 0)?, axis(horizon, 1)?]);
-        let (Some(near), Some(far)) = (axes(Horizon::Near), axes(Horizon::Far)) else { return false };
+        let axes = |horizon| Ok([axis(horizon, 0)?, axis(horizon, 1)?]);
+        let (near, far) = (axes(Horizon::Near)?, axes(Horizon::Far)?);
         self.near.replace(&near);
         self.far.replace(&far);
-        true
+        Ok(())
     }
 
     /// The program over a horizon.
@@ -122,12 +127,15 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program of both axes. None if there is no regulator for these weights.
-    pub fn new(models: &[AxisModel; 2], weights: &Weights, horizon: Horizon) -> Option<Self> {
+    /// The program of both axes.
+    ///
+    /// # Errors
+    /// As [`Programs::new`].
+    pub fn new(models: &[AxisModel; 2], weights: &Weights, horizon: Horizon) -> Result<Self, Unsolvable> {
         let axis = |axis: usize| AxisProgram::new(&models[axis], weights, horizon).map(Box::new);
         let mut program = Program { horizon, axes: [axis(0)?, axis(1)?], factor: Box::new(SMatrix::zeros()) };
         program.join_factors();
-        Some(program)
+        Ok(program)
     }
 
     fn replace(&mut self, axes: &[AxisProgram; 2]) {
@@ -169,8 +177,11 @@ pub struct AxisProgram {
 }
 
 impl AxisProgram {
-    /// The program of an axis. None if there is no regulator for these weights.
-    pub fn new(model: &AxisModel, weights: &Weights, horizon: Horizon) -> Option<Self> {
+    /// The program of an axis.
+    ///
+    /// # Errors
+    /// As [`Programs::new`].
+    pub fn new(model: &AxisModel, weights: &Weights, horizon: Horizon) -> Result<Self, Unsolvable> {
         let weights = &over_horizon(weights, horizon);
         let regulator = Regulator::new(model, weights)?;
         let from_data = responses(model, horizon, |data: &Data| (*data, AxisControls::zeros()));
@@ -211,9 +222,11 @@ impl AxisProgram {
         let end = from_controls.fixed_rows::<4>(4 * (BLOCKS - 1)).tr_mul(&end_to_end);
         gradient.fixed_columns_mut::<2>(DATA - 2).copy_from(&end);
         let mut inverse = SMatrix::<f64, AXIS_CONTROLS, AXIS_CONTROLS>::identity();
-        let solved = hessian.cholesky()?.l_dirty().solve_lower_triangular_mut(&mut inverse);
+        let cholesky = hessian.cholesky().ok_or(Unsolvable::Program)?;
+        let solved = cholesky.l_dirty().solve_lower_triangular_mut(&mut inverse);
         let factor = inverse.transpose();
-        solved.then_some(AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian, factor })
+        let program = AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian, factor };
+        solved.then_some(program).ok_or(Unsolvable::Program)
     }
 
     /// The nodes without any control.
@@ -592,13 +605,14 @@ mod tests {
         let other = Weights { position: 2.0, ..WEIGHTS };
         let models = [MODELS[1], MODELS[0]];
         let mut programs = Programs::new(&MODELS, &WEIGHTS).unwrap();
-        assert!(programs.retune(&models, &other));
+        programs.retune(&models, &other).unwrap();
         assert_eq!(programs, Programs::new(&models, &other).unwrap());
         for horizon in [Horizon::Near, Horizon::Far] {
             assert_eq!(programs.over(horizon).horizon, horizon);
         }
         let before = programs.clone();
-        assert!(!programs.retune(&models, &Weights { position: f64::NAN, ..WEIGHTS }));
+        let refused = programs.retune(&models, &Weights { position: f64::NAN, ..WEIGHTS });
+        assert_eq!(refused, Err(Unsolvable::RiccatiEquation));
         assert_eq!(programs, before);
     }
 }

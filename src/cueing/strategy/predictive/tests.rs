@@ -180,7 +180,7 @@ fn a_plan_in_the_making_is_abandoned_when_the_parameters_change() {
     }
     let models = [AxisModel { position_limit: 0.2, ..MODEL }; 2];
     let tuning = predictive.tuning;
-    assert!(predictive.retune(&models, &tuning));
+    predictive.retune(&models, &tuning).unwrap();
     assert_eq!(predictive.solver.status(), Status::Failed, "its rows are no more those that it was begun with");
     passed(&mut predictive, 1, 6.0);
     assert!(predictive.begun < 0.0015 && !predictive.due, "a new one is begun at once");
@@ -194,15 +194,15 @@ fn retuning_is_construction_and_what_cannot_be_used_changes_nothing() {
         passed(&mut predictive, 1, 3.0);
     }
     let (before, tuning) = (predictive.clone(), predictive.tuning);
-    assert!(predictive.retune(&[MODEL; 2], &tuning));
+    predictive.retune(&[MODEL; 2], &tuning).unwrap();
     assert_eq!(predictive, before);
     let unusable = Tuning { weights: Weights { position: f64::NAN, ..tuning.weights }, ..tuning };
-    assert!(!predictive.retune(&[MODEL; 2], &unusable));
+    assert_eq!(predictive.retune(&[MODEL; 2], &unusable), Err(Unsolvable::RiccatiEquation));
     assert_eq!(predictive, before);
 
     let models = [AxisModel { position_limit: 0.2, ..MODEL }, MODEL];
     let other = Tuning { weights: Weights { position: 2.0, ..tuning.weights }, ..tuning };
-    assert!(predictive.retune(&models, &other));
+    predictive.retune(&models, &other).unwrap();
     let made = Predictive::new(&models, &other).unwrap();
     assert_eq!((&predictive.programs, predictive.models, predictive.tuning), (&made.programs, models, other));
     let normals = |predictive: &Predictive| predictive.rows.normals[..2 * AXIS_ROWS].to_vec();
