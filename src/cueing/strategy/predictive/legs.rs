@@ -115,8 +115,8 @@ pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2], horizon: Horizon
     let ends = horizon.ends();
     std::array::from_fn(|node| {
         let heave = surroundings.heave_after(ends[node]);
-        let position = [0, 1].map(|axis: usize| plan[axis][4 * node]);
-        let tilt = [0, 1].map(|axis: usize| plan[axis][4 * node + 2]);
+        let states = plan.each_ref().map(|axis| axis.at(node));
+        let (position, tilt) = (states.map(|axis| axis.position), states.map(|axis| axis.tilt));
         legs_near(surroundings, &surroundings.angles_after(ends[node]), position, tilt, heave)
     })
 }
@@ -147,6 +147,8 @@ fn legs_near(
 
 #[cfg(test)]
 pub(super) mod tests {
+    use nalgebra::SVector;
+
     use super::*;
     use crate::interface::Rig;
 
@@ -239,15 +241,15 @@ pub(super) mod tests {
             frequencies: Vector3::new(0.9, 0.6, 1.0),
             ..surroundings(&geometry)
         };
-        let plan = [0.1, -0.07].map(|start| Nodes::from_fn(|k, _| start * (1.0 + 0.1 * k as f64)));
+        let plan = [0.1, -0.07].map(|start| Nodes(SVector::from_fn(|k, _| start * (1.0 + 0.1 * k as f64))));
         for horizon in [Horizon::Near, Horizon::Far] {
             let rows = leg_rows(&surroundings, &plan, horizon);
             for (node, end) in horizon.ends().into_iter().enumerate() {
                 // Critically damped at 0.4 times 5 rad/s.
                 let heave = (0.05 + (-0.2 + 2.0 * 0.05) * end) * (-2.0 * end).exp();
                 let angles = surroundings.angles_after(end);
-                let state = |k: usize| [plan[0][4 * node + k], plan[1][4 * node + k]];
-                let (position, tilt) = (state(0), state(2));
+                let states = plan.map(|axis| axis.at(node));
+                let (position, tilt) = (states.map(|axis| axis.position), states.map(|axis| axis.tilt));
                 let pose = Pose {
                     position: Vector3::new(position[0], position[1], rig.neutral_height + heave),
                     orientation: Orientation::new(RollPitchYaw::new(angles.x + tilt[1], angles.y - tilt[0], angles.z)),

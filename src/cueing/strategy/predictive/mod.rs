@@ -168,7 +168,7 @@ impl Predictive {
         let programs = Programs::new(models, &tuning.weights)?;
         let plan = Plan {
             controls: [AxisControls::zeros(); 2],
-            nodes: [Nodes::zeros(); 2],
+            nodes: [Nodes::at_rest(); 2],
             horizon: Horizon::Near,
             age: 0.0,
             iterations: 0,
@@ -185,7 +185,7 @@ impl Predictive {
             solver: Box::new(DualActiveSet::new()),
             due: true,
             horizon: Horizon::Near,
-            free: [Nodes::zeros(); 2],
+            free: [Nodes::at_rest(); 2],
             begun: 0.0,
             plan,
             dropped_forces: [0.0; 2],
@@ -320,14 +320,17 @@ impl Predictive {
                 let stroke = surroundings.stroke[end];
                 stroke + part * (planned[end] - stroke)
             });
+            let states = self.free.each_ref().map(|axis| axis.at(node));
+            let responses = program.axes.each_ref().map(|axis| axis.responses(node));
             for (leg, row) in legs.iter().enumerate() {
                 let mut free = row.offset;
                 let number = 2 * AXIS_ROWS + 6 * node + leg;
                 let Some(normal) = self.rows.normals.get_mut(number) else { continue };
-                for (axis, program) in program.axes.iter().enumerate() {
+                for (axis, [to_position, to_tilt]) in responses.iter().enumerate() {
                     let (by_position, by_tilt) = (row.by_position[axis], row.by_tilt[axis]);
-                    free += by_position * self.free[axis][4 * node] + by_tilt * self.free[axis][4 * node + 2];
-                    let controls = by_position * program.response(node, 0) + by_tilt * program.response(node, 2);
+                    let AxisState { position, tilt, .. } = states[axis];
+                    free += by_position * position + by_tilt * tilt;
+                    let controls = by_position * to_position + by_tilt * to_tilt;
                     normal.fixed_rows_mut::<AXIS_CONTROLS>(axis * AXIS_CONTROLS).copy_from(&(scale * controls));
                 }
                 self.rows.lower[number] = scale * (min - free);

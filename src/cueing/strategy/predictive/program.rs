@@ -41,8 +41,24 @@ pub const LEG_ROWS: usize = 6 * BLOCKS;
 /// Rows: those of surge, of sway, and of the actuators.
 pub const ROWS: usize = 2 * AXIS_ROWS + LEG_ROWS;
 
-/// Position, velocity, tilt and tilt rate at each node, node by node.
-pub type Nodes = SVector<f64, { 4 * BLOCKS }>;
+/// States of an axis at the nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Nodes(pub(super) SVector<f64, { 4 * BLOCKS }>);
+
+impl Nodes {
+    /// At rest at neutral.
+    pub fn at_rest() -> Self {
+        Nodes(SVector::zeros())
+    }
+
+    /// The state at a node. Its tilt acceleration is that of the controls, and zero here.
+    #[inline(always)]
+    pub fn at(&self, node: usize) -> AxisState {
+        let [position, velocity, tilt, tilt_rate] = self.0.fixed_rows::<4>(4 * node).into_owned().into();
+        AxisState { position, velocity, tilt, tilt_rate, tilt_acceleration: 0.0 }
+    }
+}
+
 /// The start's four, its dropped force and tilt acceleration, the reference's means, and its slow
 /// and fast part at the end.
 pub type Data = SVector<f64, DATA>;
@@ -231,12 +247,12 @@ impl AxisProgram {
 
     /// The nodes without any control.
     pub fn free_nodes(&self, data: &Data) -> Nodes {
-        self.from_data * data
+        Nodes(self.from_data * data)
     }
 
     /// The nodes under these controls.
     pub fn nodes(&self, free: &Nodes, controls: &AxisControls) -> Nodes {
-        free + self.from_controls * controls
+        Nodes(free.0 + self.from_controls * controls)
     }
 
     /// The gradient of the cost without any control.
@@ -244,9 +260,9 @@ impl AxisProgram {
         self.gradient * data
     }
 
-    /// Effect of one unit of each control on a state (0: position, 2: tilt) of a node.
-    pub fn response(&self, node: usize, state: usize) -> AxisControls {
-        self.from_controls.row(4 * node + state).transpose()
+    /// Effects of one unit of each control on position and tilt of a node.
+    pub fn responses(&self, node: usize) -> [AxisControls; 2] {
+        [0, 2].map(|state| self.from_controls.row(4 * node + state).transpose())
     }
 
     /// Matrix of the cost's quadratic part.
@@ -260,7 +276,7 @@ impl AxisProgram {
         for control in 0..AXIS_CONTROLS {
             let mut controls = AxisControls::zeros();
             controls[control] = 1.0;
-            let nodes = self.from_controls.column(control).into_owned();
+            let nodes = Nodes(self.from_controls.column(control).into_owned());
             normals.set_row(control, &self.rows(&nodes, &controls).transpose());
         }
         normals
@@ -274,10 +290,11 @@ impl AxisProgram {
         let tilt_limits = self.model.tilt_limits();
         let mut rows = SVector::zeros();
         for node in 0..BLOCKS {
-            rows[4 * node] = position(ends[node]) * nodes[4 * node];
-            rows[4 * node + 1] = nodes[4 * node + 1] / (VELOCITY_FRACTION * velocity_limit);
+            let state = nodes.at(node);
+            rows[4 * node] = position(ends[node]) * state.position;
+            rows[4 * node + 1] = state.velocity / (VELOCITY_FRACTION * velocity_limit);
             let alpha = self.model.acceleration_limit * controls[BLOCKS + node];
-            let [tilt, tilt_rate] = tilt_limits.approached(nodes[4 * node + 2], nodes[4 * node + 3], alpha);
+            let [tilt, tilt_rate] = tilt_limits.approached(state.tilt, state.tilt_rate, alpha);
             rows[4 * node + 2] = tilt / angle_limit;
             rows[4 * node + 3] = tilt_rate / (RATE_FRACTION * rate_limit);
             rows[4 * BLOCKS + node] = controls[BLOCKS + node];
@@ -287,10 +304,10 @@ impl AxisProgram {
                 rows[5 * BLOCKS + node] = position(middle) * self.middle(nodes, node + 1, alpha);
             }
         }
-        let end = nodes.fixed_rows::<4>(4 * (BLOCKS - 1));
+        let end = nodes.at(BLOCKS - 1);
         let tilt_stopping_time = 0.5 * rate_limit / acceleration_limit;
-        rows[AXIS_ROWS - 2] = position(ends[BLOCKS - 1]) * (end[0] + STOPPING_TIME * end[1]);
-        rows[AXIS_ROWS - 1] = (end[2] + tilt_stopping_time * end[3]) / angle_limit;
+        rows[AXIS_ROWS - 2] = position(ends[BLOCKS - 1]) * (end.position + STOPPING_TIME * end.velocity);
+        rows[AXIS_ROWS - 1] = (end.tilt + tilt_stopping_time * end.tilt_rate) / angle_limit;
         rows
     }
 }
@@ -302,8 +319,8 @@ impl AxisProgram {
     /// order less. The ramp's part of that is left out.
     pub fn middle(&self, nodes: &Nodes, block: usize, alpha: f64) -> f64 {
         let t = self.horizon.durations()[block];
-        let [before, after] = [4 * (block - 1), 4 * block];
-        let cubic = 0.5 * (nodes[before] + nodes[after]) + 0.125 * t * (nodes[before + 1] - nodes[after + 1]);
+        let (before, after) = (nodes.at(block - 1), nodes.at(block));
+        let cubic = 0.5 * (before.position + after.position) + 0.125 * t * (before.velocity - after.velocity);
         cubic - CHORD * self.model.gravity * alpha * t.powi(4) / 384.0
     }
 }
@@ -347,14 +364,14 @@ fn responses<const K: usize>(
         let mut unit = SVector::<f64, K>::zeros();
         unit[k] = 1.0;
         let (data, controls) = split(&unit);
-        responses.set_column(k, &rolled_out(model, horizon, &data, &controls));
+        responses.set_column(k, &rolled_out(model, horizon, &data, &controls).0);
     }
     responses
 }
 
 /// The nodes that follow from a start, a reference and controls.
 fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisControls) -> Nodes {
-    let mut nodes = Nodes::zeros();
+    let mut nodes = Nodes::at_rest();
     let [mut x, mut v, mut q, mut w] = [data[0], data[1], data[2], data[3]];
     let gravity = CHORD * model.gravity;
     let (mut dropped, mut alpha) = (data[DROPPED], model.acceleration_limit * data[TILTING]);
@@ -374,7 +391,7 @@ fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisC
         v += t * mean + dropped_once + model.head_height * turned - gravity * once;
         (q, w) = (q + t * w + turned_twice, w + turned);
         (dropped, alpha) = (next_dropped, next_alpha);
-        nodes.fixed_rows_mut::<4>(4 * block).copy_from(&Vector4::new(x, v, q, w));
+        nodes.0.fixed_rows_mut::<4>(4 * block).copy_from(&Vector4::new(x, v, q, w));
     }
     nodes
 }
@@ -483,7 +500,7 @@ mod tests {
         let (mut dropped_before, mut tilting_before) =
             (DROPPED_BEFORE, state.tilt_acceleration / model.acceleration_limit);
         for (block, duration) in axis.horizon.durations().into_iter().enumerate() {
-            let after = nodes.as_slice()[4 * block..4 * block + 4].to_vec();
+            let after = nodes.0.as_slice()[4 * block..4 * block + 4].to_vec();
             let (dropped, tilting) = (controls[block], controls[BLOCKS + block]);
             // Simpson's rule is exact for the square of a line.
             let middle = 0.5 * (dropped_before + dropped);
@@ -545,7 +562,7 @@ mod tests {
             let controls = AxisControls::from_fn(|k, _| 0.01 * k as f64);
             // Each node 10 % farther than the one before.
             let state = |node: usize| [0.1, 0.2, -0.03, 0.004].map(|start| start * 1.1_f64.powi(node as i32));
-            let nodes = Nodes::from_fn(|k, _| state(k / 4)[k % 4]);
+            let nodes = Nodes(SVector::from_fn(|k, _| state(k / 4)[k % 4]));
             let rows = program.rows(&nodes, &controls);
             let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, {expected}");
             for ((node, at_node), in_middle) in (0..BLOCKS).zip(at_nodes).zip(in_middles) {
@@ -592,9 +609,10 @@ mod tests {
                     let expected = if inside { expected[number - k * AXIS_ROWS] } else { 0.0 };
                     assert!((normal.dot(&all) - expected).abs() < 1e-12, "row {number} of axis {k}");
                 }
-                for (node, state) in [(0, 0), (3, 2), (BLOCKS - 1, 0)] {
-                    let change = axis.nodes(&Nodes::zeros(), &controls)[4 * node + state];
-                    assert!((axis.response(node, state).dot(&controls) - change).abs() < 1e-12);
+                for node in [0, 3, BLOCKS - 1] {
+                    let change = axis.nodes(&Nodes::at_rest(), &controls).at(node);
+                    let found = axis.responses(node).map(|response| response.dot(&controls));
+                    assert!((found[0] - change.position).abs() < 1e-12 && (found[1] - change.tilt).abs() < 1e-12);
                 }
             }
         }

@@ -281,7 +281,7 @@ fn begun(predictive: &mut Predictive, reference: f64, time_to_stop: f64) {
 #[test]
 fn a_foreseen_stop_ends_the_reference_of_surge_where_no_preview_contains_it() {
     // Velocities in surge and sway at the far horizon's end, without any control.
-    let ends = |predictive: &Predictive| predictive.free.map(|nodes| nodes[4 * BLOCKS - 3]);
+    let ends = |predictive: &Predictive| predictive.free.map(|nodes| nodes.at(BLOCKS - 1).velocity);
     let mut plain = predictive();
     begun(&mut plain, 2.0, 1.5);
     let [surge, sway] = ends(&plain);
@@ -318,8 +318,8 @@ fn the_plan_keeps_the_actuators_within_their_stroke() {
     let mut farthest = 0.0_f64;
     for (node, legs) in leg_rows(&narrow, &predictive.plan.nodes, Horizon::Near).iter().enumerate() {
         for leg in legs {
-            let [position, tilt] = [0, 2].map(|state| predictive.plan.nodes.map(|nodes| nodes[4 * node + state]));
-            let length = length(leg, position, tilt);
+            let states = predictive.plan.nodes.map(|nodes| nodes.at(node));
+            let length = length(leg, states.map(|axis| axis.position), states.map(|axis| axis.tilt));
             farthest = farthest.max((length - middle).abs());
             assert!((length - middle).abs() < half + 1e-3, "node {node}: {length} m");
         }
@@ -451,9 +451,8 @@ fn condensed_nodes_are_those_of_the_block_equations() {
             w += step * alpha;
         }
         (dropped_before, alpha_before) = (controls[block], alpha_after);
-        let expected = [x, v, q, w];
-        for (k, expected) in expected.iter().enumerate() {
-            let found = nodes[4 * block + k];
+        let AxisState { position, velocity, tilt, tilt_rate, .. } = nodes.at(block);
+        for (k, (found, expected)) in [position, velocity, tilt, tilt_rate].into_iter().zip([x, v, q, w]).enumerate() {
             assert!((found - expected).abs() < 1e-8, "block {block}, state {k}: {found}, {expected}");
         }
     }
