@@ -19,6 +19,8 @@
 //! # Ok::<(), moris_washout::ParameterError>(())
 //! ```
 
+use std::ops::RangeInclusive;
+
 use moris_interface::units::{ANGULAR_FREQUENCY, M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
 use moris_interface::{enumeration, interface, interface_tree};
 use nalgebra::Vector3;
@@ -28,6 +30,21 @@ pub use crate::motion::orientation::RollPitchYaw;
 
 /// Standard gravity \[m/s2\].
 pub const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// Usual break frequencies \[rad/s\].
+const FREQUENCIES: RangeInclusive<f64> = 0.05..=20.0;
+/// Usual damping ratios.
+const DAMPINGS: RangeInclusive<f64> = 0.3..=2.0;
+/// Usual scales; one above 1 would exceed the vehicle's motion.
+const SCALES: RangeInclusive<f64> = 0.01..=1.0;
+/// Usual weights of a strategy's cost, and rates at which gains follow its gradient.
+const WEIGHTS: RangeInclusive<f64> = 1e-5..=1e3;
+/// Usual gains of the adaptive strategy: a fraction of the force as travel, and a tilt rate for it.
+const GAINS: RangeInclusive<f64> = 1e-3..=2.0;
+/// Usual time constants that split the force \[s\].
+const SPLIT_TIMES: RangeInclusive<f64> = 0.01..=2.0;
+/// Heading of the parameters that only one strategy has.
+const OF_STRATEGY: &str = "The strategy's weights";
 
 interface! {
     /// Inputs from the vehicle model at every communication point.
@@ -226,6 +243,26 @@ enumeration! {
 }
 
 enumeration! {
+    /// Group of parameters that are tuned together.
+    pub enum TuningGroup {
+        /// The splitter's break frequencies and dampings, twelve in all
+        "splitter" Splitter,
+        /// The angular channel's, twelve in all
+        "angular" Angular,
+        /// The scales of specific force and angular velocity, six in all
+        "scale" Scale,
+        /// The low-passes on the input and on its rates, for recordings with strong vibration
+        "cutoff" Cutoff,
+        /// Tilt's limits of rate (to 3 deg/s), acceleration and angle
+        "tilt" Tilt,
+        /// Weights, gains and poles of the strategy in use; the classical one has none
+        "strategy" Strategy,
+        /// The orders of the splitter's and the angular channel's high-passes, 2 to 4
+        "order" Order,
+    }
+}
+
+enumeration! {
     /// Forecast of the specific force in the predictive strategy.
     pub enum ForecastKind {
         /// By a mixture of experts, one of which is fitted to the past input.
@@ -252,33 +289,33 @@ enumeration! {
 
 interface! {
     /// Block (1): the high-pass of each axis of the base frame, and the low-pass beside it.
-    pub struct SplitterParameters: Parameter, Tunable {
+    pub struct SplitterParameters: Parameter, Tunable, group("splitter"), partly_used_if(&["x", "y"], "strategy", &["classical"]) {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.8, 0.8, 5.0);
+        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.8, 0.8, 5.0), usual(FREQUENCIES), heading("Break frequencies"), main(4);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.3, 1.2, 1.0);
+        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.3, 1.2, 1.0), usual(DAMPINGS);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.55, 0.35, 0.3);
+        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.55, 0.35, 0.3), usual(FREQUENCIES), heading("Break frequencies"), main(5), used_if("splitter.order", &["3", "4"]);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
-        "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
+        "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0), usual(DAMPINGS), used_if("splitter.order", &["4"]);
         /// Break frequency of the low-pass filter when splitter.lowPass is independent.
-        "splitter.@.lowPassOmega" low_pass_omega: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(5.0, 5.0, 5.0);
+        "splitter.@.lowPassOmega" low_pass_omega: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(5.0, 5.0, 5.0), used_if("splitter.lowPass", &["independent"]);
         /// Damping ratio of the low-pass filter when splitter.lowPass is independent.
-        "splitter.@.lowPassZeta" low_pass_zeta: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
+        "splitter.@.lowPassZeta" low_pass_zeta: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0), used_if("splitter.lowPass", &["independent"]);
     }
 }
 
 interface! {
     /// Block (6): the high-pass of each angle.
-    pub struct AngularParameters: Parameter, Tunable {
+    pub struct AngularParameters: Parameter, Tunable, group("angular") {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0);
+        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0), usual(FREQUENCIES), heading("Break frequencies"), main(6);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(DAMPINGS);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "angular.@.omega2" omega2: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.omega2" omega2: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(FREQUENCIES), heading("Break frequencies"), used_if("angular.order", &["3", "4"]);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
-        "angular.@.zeta2" zeta2: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.zeta2" zeta2: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(DAMPINGS), used_if("angular.order", &["4"]);
     }
 }
 
@@ -286,15 +323,15 @@ interface! {
     /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
         /// Scale of the specific force after gravity removal.
-        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
+        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(SCALES), group("scale"), heading("Scales"), main(2);
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
-        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9);
+        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(SCALES), group("scale"), heading("Scales"), main(3);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(4.5, 5.0, 8.0);
         /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), limited like the specific force.
         "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] { 1e-3 ..= 1e6 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
-        "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
+        "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0, usual(5.0 ..= 200.0), group("cutoff");
         /// Method of removing gravity from the specific force.
         "gravityRemoval" gravity_removal: GravityRemoval = GravityRemoval::HeadVertical;
         /// Tilt-induced accelerations that are compensated.
@@ -302,7 +339,7 @@ interface! {
         /// Axes of vehicle.angularVelocity.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Break frequency of a second-order low-pass on the angular rates alone; 0 is off.
-        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 22.0;
+        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 22.0, usual(5.0 ..= 200.0), group("cutoff");
         /// Reconstruction of inputs within a step without input derivatives.
         "input.reconstruction" reconstruction: Reconstruction = Reconstruction::Ramp;
     }
@@ -310,13 +347,13 @@ interface! {
 
 interface! {
     /// Block (2): tilt coordination's limits, for roll and pitch each.
-    pub struct TiltParameters: Parameter, Tunable {
+    pub struct TiltParameters: Parameter, Tunable, group("tilt") {
         /// Largest rate of tilt coordination (3 deg/s: riders hardly perceive it).
-        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_36;
+        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_36, usual(0.02 ..= 0.053), heading("Tilt limits"), main(7);
         /// Largest acceleration of tilt coordination.
-        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.4;
+        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.4, usual(0.05 ..= 0.5), heading("Tilt limits");
         /// Largest angle of tilt coordination.
-        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.257;
+        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.257, usual(0.1 ..= 0.38), heading("Tilt limits"), main(8);
         /// Law by which the classical strategy's tilt follows its target.
         "tilt.tracking" tracking: TiltTracking = TiltTracking::Smooth;
     }
@@ -325,9 +362,9 @@ interface! {
 interface! {
     /// Block (3): the safety units, one for each axis of the base frame, about
     /// the neutral position.
-    pub struct SafetyParameters: Parameter, Tunable {
+    pub struct SafetyParameters: Parameter, Tunable, heading("Rig") {
         /// Largest displacement of the platform from neutral.
-        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.37, 0.37, 0.33);
+        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.37, 0.37, 0.33), main(9);
         /// Largest velocity of the platform.
         "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
         /// Largest acceleration of the platform, for braking too.
@@ -351,13 +388,13 @@ interface! {
         /// Automatic scale: a factor on surge, sway and rates, as large as the rig can give them with the right sign and shape.
         "scale.automatic" automatic: AutomaticScale = AutomaticScale::Off;
         /// Largest shape error for which the automatic scale does not fall: RMS of the felt force less the cue, relative to the cue.
-        "automaticScale.error" error: f64 { 0.05 ..= 2.0 } = 0.62;
+        "automaticScale.error" error: f64 { 0.05 ..= 2.0 } = 0.62, used_if("scale.automatic", &["on"]);
         /// Time over which the automatic scale remembers the ride.
-        "automaticScale.memory" memory: f64 [S] { 1.0 ..= 1e4 } = 25.0;
+        "automaticScale.memory" memory: f64 [S] { 1.0 ..= 1e4 } = 25.0, used_if("scale.automatic", &["on"]);
         /// Time constant with which the automatic scale falls.
-        "automaticScale.fallTime" fall_time: f64 [S] { 0.1 ..= 1e4 } = 0.6;
+        "automaticScale.fallTime" fall_time: f64 [S] { 0.1 ..= 1e4 } = 0.6, used_if("scale.automatic", &["on"]);
         /// Time constant with which the automatic scale rises.
-        "automaticScale.riseTime" rise_time: f64 [S] { 0.1 ..= 1e4 } = 5.2;
+        "automaticScale.riseTime" rise_time: f64 [S] { 0.1 ..= 1e4 } = 5.2, used_if("scale.automatic", &["on"]);
     }
 }
 
@@ -367,25 +404,25 @@ interface! {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Order of the splitter's high-pass filters.
-        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 3;
+        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 3, group("order");
         /// Source of the low-frequency force.
         "splitter.lowPass" low_pass: LowPassKind = LowPassKind::Complementary;
         /// Order of the angular channel's high-pass filters.
-        "angular.order" angular_order: i32 { 2 ..= 4 } = 2;
+        "angular.order" angular_order: i32 { 2 ..= 4 } = 2, group("order");
         /// Height of the rider's head above the platform (the paper's h).
-        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2;
+        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2, main(10);
         /// Length of the torso from the seat, its lean axis, to the head (the paper's b).
         "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// The point at which the vehicle's motion is given, compensated for and evaluated.
         "washoutLocation" washout_location: WashoutLocation = WashoutLocation::Head;
         /// The washout location in the platform frame when washoutLocation is custom.
-        "washoutPoint.@" washout_point: Vector3<f64> [M] { -10.0 ..= 10.0 } = Vector3::new(0.0, 0.0, 1.2);
+        "washoutPoint.@" washout_point: Vector3<f64> [M] { -10.0 ..= 10.0 } = Vector3::new(0.0, 0.0, 1.2), used_if("washoutLocation", &["custom"]);
         /// Longest internal step; a longer communication step is divided.
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
         /// Preaction: tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
         /// Strategy that divides the cue between surge, sway and tilt. On recordings the mean error falls in the order classical, adaptive, optimal, robust, predictive. A step of predictive takes 3 us in the mean, of the others 0.3 to 0.5 us.
-        "strategy" strategy: StrategyKind = StrategyKind::Predictive;
+        "strategy" strategy: StrategyKind = StrategyKind::Predictive, heading("Strategy"), main(1);
     }
 }
 
@@ -393,15 +430,15 @@ interface! {
     /// The Stewart platform: joints and actuator limits.
     pub struct Rig: Parameter, Fixed {
         /// Height of the platform frame's origin above the base frame's at neutral; negative for a platform that hangs.
-        "rig.neutralHeight" neutral_height: f64 [M] { -100.0 ..= 100.0 } = 1.091;
+        "rig.neutralHeight" neutral_height: f64 [M] { -100.0 ..= 100.0 } = 1.091, heading("Rig");
         /// Shortest length of an actuator.
-        "actuator.minLength" min_length: f64 [M] { 1e-3 ..= 100.0 } = 1.0;
+        "actuator.minLength" min_length: f64 [M] { 1e-3 ..= 100.0 } = 1.0, heading("Rig");
         /// Longest length of an actuator.
-        "actuator.maxLength" max_length: f64 [M] { 1e-3 ..= 100.0 } = 1.6;
+        "actuator.maxLength" max_length: f64 [M] { 1e-3 ..= 100.0 } = 1.6, heading("Rig");
         /// Largest speed of an actuator.
-        "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] { 1e-3 ..= 100.0 } = 1.0;
+        "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] { 1e-3 ..= 100.0 } = 1.0, heading("Rig");
         /// Largest acceleration of an actuator.
-        "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] { 1e-3 ..= 1e4 } = 15.0;
+        "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] { 1e-3 ..= 1e4 } = 15.0, heading("Rig");
         /// Joint of the actuator on the base, in the base frame.
         "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
         /// Joint of the actuator on the platform, in the platform frame.
@@ -411,97 +448,97 @@ interface! {
 
 interface! {
     /// The adaptive strategy, for surge and sway each.
-    pub struct AdaptiveParameters: Parameter, Tunable {
+    pub struct AdaptiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["adaptive"]), heading(OF_STRATEGY) {
         /// Break frequency of the adaptive strategy's high-pass from force to travel.
-        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8;
+        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8, usual(FREQUENCIES);
         /// Damping ratio of the adaptive strategy's high-pass from force to travel.
-        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.1;
+        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.1, usual(DAMPINGS);
         /// Rate at which the gain from force to travel follows the gradient of the cost.
-        "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18;
+        "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18, usual(WEIGHTS);
         /// Rate at which the gain from force to tilt rate follows the gradient of the cost.
-        "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16;
+        "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16, usual(WEIGHTS);
         /// Gain from force to travel to which the adaptation is pulled.
-        "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986;
+        "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986, usual(GAINS);
         /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
-        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.35;
+        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.35, usual(GAINS);
         /// Weight of travel; the error of the felt force has the weight 1.
-        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 8.0;
+        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 8.0, usual(WEIGHTS);
         /// Weight of the travel's velocity.
-        "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13;
+        "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13, usual(WEIGHTS);
         /// Weight of the tilt rate.
-        "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63;
+        "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63, usual(WEIGHTS);
         /// Weight of the distance of the gain from force to travel from its nominal value.
-        "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115;
+        "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115, usual(WEIGHTS);
         /// Weight of the distance of the gain from force to tilt rate from its nominal value.
-        "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349;
+        "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349, usual(WEIGHTS);
     }
 }
 
 interface! {
     /// The optimal strategy, for surge and sway each.
-    pub struct OptimalParameters: Parameter, Tunable {
+    pub struct OptimalParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["optimal"]), heading(OF_STRATEGY) {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209;
+        "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209, usual(WEIGHTS);
         /// Weight of the travel's velocity at its limit.
-        "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105;
+        "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105, usual(WEIGHTS);
         /// Weight of the tilt rate at its limit.
-        "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033;
+        "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033, usual(WEIGHTS);
         /// Weight of the tilt acceleration at its limit.
-        "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242;
+        "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242, usual(WEIGHTS);
         /// Expected rate of decay of the slow part of the force.
-        "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345;
+        "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345, usual(FREQUENCIES);
         /// Expected rate of decay of the fast part of the force.
-        "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71;
+        "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71, usual(FREQUENCIES);
         /// Time constant that splits the force into its slow and its fast part.
-        "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117;
+        "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117, usual(SPLIT_TIMES);
     }
 }
 
 interface! {
     /// The robust strategy, for surge and sway each.
-    pub struct RobustParameters: Parameter, Tunable {
+    pub struct RobustParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["robust"]), heading(OF_STRATEGY) {
         /// Bound on the cost of a disturbance, relative to the least possible; near 1 the worst is weighed most.
-        "robust.attenuation" attenuation: f64 { 1.001 ..= 1e3 } = 1.08;
+        "robust.attenuation" attenuation: f64 { 1.001 ..= 1e3 } = 1.08, usual(1.01 ..= 10.0);
         /// Disturbance of the force's fast part relative to that of its slow part.
-        "robust.fastDisturbance" fast_disturbance: f64 { 1e-3 ..= 1e6 } = 121.0;
+        "robust.fastDisturbance" fast_disturbance: f64 { 1e-3 ..= 1e6 } = 121.0, usual(1.0 ..= 1e4);
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "robust.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.02;
+        "robust.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.02, usual(WEIGHTS);
         /// Weight of the travel's velocity at its limit.
-        "robust.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0048;
+        "robust.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0048, usual(WEIGHTS);
         /// Weight of the tilt rate at its limit.
-        "robust.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0007;
+        "robust.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0007, usual(WEIGHTS);
         /// Weight of the tilt acceleration at its limit.
-        "robust.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0072;
+        "robust.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0072, usual(WEIGHTS);
         /// Expected rate of decay of the slow part of the force.
-        "robust.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.115;
+        "robust.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.115, usual(FREQUENCIES);
         /// Expected rate of decay of the fast part of the force.
-        "robust.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 25.5;
+        "robust.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 25.5, usual(0.05 ..= 100.0);
         /// Time constant that splits the force into its slow and its fast part.
-        "robust.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.245;
+        "robust.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.245, usual(SPLIT_TIMES);
     }
 }
 
 interface! {
     /// The predictive strategy, for surge and sway together.
-    pub struct PredictiveParameters: Parameter, Tunable {
+    pub struct PredictiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["predictive"]) {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4e-3;
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4e-3, usual(WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the travel's velocity at its limit.
-        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.6;
+        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.6, usual(WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the tilt rate at its limit.
-        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3;
+        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3, usual(WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the tilt acceleration at its limit.
-        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4;
+        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4, usual(WEIGHTS), heading(OF_STRATEGY);
         /// Expected rate of decay of the slow part of the force beyond the plan.
-        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2;
+        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2, usual(FREQUENCIES), heading(OF_STRATEGY);
         /// Expected rate of decay of the fast part of the force beyond the plan.
-        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2;
+        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2, usual(FREQUENCIES), heading(OF_STRATEGY);
         /// Forecast of the specific force.
         "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
         /// Time constant with which the learned forecast forgets.
-        "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 160.0;
+        "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 160.0, used_if("predictive.forecast", &["learned"]);
         /// Time constant over which the learned forecast's experts are compared.
-        "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 14.0;
+        "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 14.0, used_if("predictive.forecast", &["learned"]);
         /// Reserve of an actuator's stroke that a plan keeps at either end.
         "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
     }

@@ -18,18 +18,6 @@ impl Model for Washout {
         text: "Washout filter of the MORIS motorcycle simulator with the kinematics of its Stewart platform: from the specific force and angular velocity of a vehicle's rider to the motion of a platform and its six actuators.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &[
-            "strategy",
-            "scale.specificForce.@",
-            "scale.angularVelocity.@",
-            "splitter.@.omega1",
-            "splitter.@.omega2",
-            "angular.@.omega1",
-            "tilt.rateLimit",
-            "tilt.angleLimit",
-            "safety.@.positionLimit",
-            "head.height",
-        ],
         stop_time: 60.0,
         step_size: 0.001,
     };

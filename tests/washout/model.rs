@@ -1,8 +1,8 @@
 //! The washout as a model: what a host of the model calls is the washout itself.
 
-use moris_interface::{MOST_INTERNAL_STEPS, Model};
-use moris_washout::interface::Inputs;
-use moris_washout::{Input, Preview, Washout, presets};
+use moris_interface::{Group, MOST_INTERNAL_STEPS, Model};
+use moris_washout::interface::{Inputs, TuningGroup};
+use moris_washout::{Input, Parameters, Preview, Washout, presets};
 
 use crate::common::random::Random;
 
@@ -52,4 +52,16 @@ fn the_longest_step_is_the_most_internal_steps() {
     parameters.structure.max_step = 0.004;
     let model = <Washout as Model>::new(&parameters, &Inputs::default()).unwrap();
     assert_eq!(model.longest_step(), MOST_INTERNAL_STEPS * 0.004);
+}
+
+#[test]
+fn each_row_that_is_tuned_is_in_a_group_and_has_a_usual_range_above_zero() {
+    let is_of = |group: &str| TuningGroup::ALL.iter().any(|known| known.name() == group);
+    assert!(Parameters::ROWS.iter().filter_map(|row| row.group).all(is_of));
+    for group in TuningGroup::ALL {
+        let in_group = || Parameters::ROWS.iter().filter(|row| row.group == Some(group.name()));
+        let ranges = in_group().filter_map(|row| row.usual);
+        assert!(*group == TuningGroup::Order || ranges.clone().count() > 0, "{group:?}");
+        assert!(in_group().count() > 0 && ranges.into_iter().all(|(least, _)| least > 0.0), "{group:?}");
+    }
 }

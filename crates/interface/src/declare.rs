@@ -10,7 +10,9 @@
 /// - the unit in brackets, for reals only;
 /// - the range in braces. It includes both ends, and all checks use it;
 /// - the start value, a constant expression. The compiler evaluates it, so that no machine's
-///   arithmetic changes it.
+///   arithmetic changes it;
+/// - the tail, separated by commas: methods of [`Row`](crate::Row) such as `usual` and `used_if`,
+///   which say what the row is for. After the struct's variability they hold for all of its rows.
 ///
 /// The doc comment is the variable's description everywhere. Write one sentence without markup.
 ///
@@ -24,25 +26,39 @@
 ///         /// Damping ratio.
 ///         Tunable "spring.damping" damping: f64 { 0.0 ..= 2.0 } = 0.7;
 ///         /// Number of coils.
-///         "spring.coils" coils: i32 { 1 ..= 100 } = 7;
+///         "spring.coils" coils: i32 { 1 ..= 100 } = 7, usual(3.0 ..= 20.0), heading("Shape");
 ///     }
 /// }
 /// assert_eq!(Spring::ROWS[2].variable_name(0), "spring.coils");
 /// assert_eq!(Spring::ROWS[2].variability, Variability::Fixed);
+/// assert_eq!((Spring::ROWS[2].usual, Spring::ROWS[2].heading), (Some((3.0, 20.0)), Some("Shape")));
 /// assert_eq!(Spring::ROWS[1].variability, Variability::Tunable);
 /// assert_eq!(Spring::default().length, 0.3);
 /// let stretched = Spring { length: 11.0, ..Spring::default() };
 /// let error = stretched.check_ranges().unwrap_err();
 /// assert_eq!(error.to_string(), "spring.length: is 11, but must be from 0.01 to 10");
 /// ```
+///
+/// A usual range beyond the row's range does not compile:
+///
+/// ```compile_fail
+/// moris_interface::interface! {
+///     /// Parameters of a spring.
+///     pub struct Spring: Parameter, Fixed {
+///         /// Damping ratio.
+///         "spring.damping" damping: f64 { 0.0 ..= 2.0 } = 0.7, usual(0.3 ..= 3.0);
+///     }
+/// }
+/// ```
 #[macro_export]
 macro_rules! interface {
     (
         $(#[$attribute:meta])*
-        pub struct $group:ident: $causality:ident, $variability:ident {
+        pub struct $group:ident: $causality:ident, $variability:ident $(, $of_all:ident ( $($of_all_value:tt)* ))* {
             $(
                 $(#[doc = $text:literal])+
-                $($own_variability:ident)? $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $range:expr })? = $start:expr;
+                $($own_variability:ident)? $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $range:expr })? = $start:expr
+                    $(, $tail:ident ( $($tail_value:tt)* ))*;
             )+
         }
     ) => {
@@ -60,8 +76,8 @@ macro_rules! interface {
         }
 
         impl $crate::Group for $group {
-            const ROWS: &'static [$crate::Row] = &[
-                $( $crate::Row::new(
+            const ROWS: &'static [$crate::Row] = &{
+                let mut rows = [$( $crate::Row::new(
                     $name,
                     $crate::Causality::$causality,
                     $crate::interface!(@variability $variability $($own_variability)?),
@@ -70,8 +86,15 @@ macro_rules! interface {
                     <$type as $crate::Field>::COMPONENTS,
                     $crate::interface!(@range $($range)?),
                     concat!($($text),+),
-                ), )+
-            ];
+                )$(.$tail($($tail_value)*))*, )+];
+                let mut n = 0;
+                #[allow(clippy::self_assignment)] // where the struct has no tail
+                while n < rows.len() {
+                    rows[n] = rows[n]$(.$of_all($($of_all_value)*))*;
+                    n += 1;
+                }
+                rows
+            };
             const SLOTS: &'static [$crate::Slot] =
                 &$crate::slot_table::<{ $crate::slot_count(<$group as $crate::Group>::ROWS) }>(Self::ROWS);
             const START: Self = $group { $( $field: $start, )+ };
@@ -242,6 +265,11 @@ macro_rules! enumeration {
             /// The item's name.
             pub const fn name(self) -> &'static str {
                 match self { $( $name::$item => $item_name, )+ }
+            }
+
+            /// The item's description.
+            pub const fn text(self) -> &'static str {
+                match self { $( $name::$item => concat!($($item_text),+).trim_ascii(), )+ }
             }
         }
 

@@ -32,7 +32,9 @@ pub use guid::{guid, guid_of};
 pub use layout::Layout;
 pub use log_categories::{LOG_CATEGORIES, LOG_CATEGORIES_OF_FMI3, LogCategory};
 pub use model::{Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, Time, refuse};
-pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable};
+pub use row::{
+    Causality, Condition, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable,
+};
 pub use shown::shown;
 pub use slot_model::SlotModel;
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table, slots_of};

@@ -16,8 +16,6 @@ pub struct Identity {
     /// The rows of time, inputs, outputs and parameters, in this order, and their slots.
     pub rows: &'static [Row],
     pub slots: &'static [Slot],
-    /// Names of the rows of the parameters that matter most, which descriptions list first.
-    pub main_parameters: &'static [&'static str],
     /// The default experiment's stop time and step \[s\].
     pub stop_time: f64,
     pub step_size: f64,
@@ -48,8 +46,7 @@ impl Identity {
     pub fn listed_slots(&self) -> Vec<usize> {
         let rank = |&slot: &usize| {
             let row = self.row(slot);
-            let place = self.main_parameters.iter().position(|&name| name == row.name);
-            (row.causality == Causality::Parameter, place.unwrap_or(self.main_parameters.len()))
+            (row.causality == Causality::Parameter, row.main.unwrap_or(u8::MAX))
         };
         let mut slots: Vec<usize> = (0..self.slots.len()).collect();
         slots.sort_by_key(rank);
@@ -128,7 +125,6 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 ///         text: "A gain.",
 ///         rows: Variables::ROWS,
 ///         slots: Variables::SLOTS,
-///         main_parameters: &["gain"],
 ///         stop_time: 1.0,
 ///         step_size: 0.01,
 ///     };

@@ -1,5 +1,7 @@
 //! A row of the interface: one field of a struct, one or several scalar variables.
 
+use std::ops::RangeInclusive;
+
 use crate::shown::shown;
 use crate::{Field, ParameterError, Unit};
 
@@ -98,6 +100,26 @@ pub struct Row {
     /// the nearer one. For other variables such values are rejected.
     pub range: Option<(f64, f64)>,
     text: &'static str,
+    /// The smallest and the largest value of practice: the ends of sliders and of searches.
+    pub usual: Option<(f64, f64)>,
+    /// Name of the group of rows that a search changes together.
+    pub group: Option<&'static str>,
+    /// Heading below which people find the row. Rows without one are found by name.
+    pub heading: Option<&'static str>,
+    /// Place among the parameters that matter most, from 1. Descriptions list them first.
+    pub main: Option<u8>,
+    conditions: [Option<Condition>; 2],
+}
+
+/// A condition without which a row has no effect: another variable has one of these values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// Name of the other variable.
+    pub variable: &'static str,
+    /// Items of its enumeration, or whole numbers.
+    pub values: &'static [&'static str],
+    /// Components of the row that depend on it.
+    components: &'static [&'static str],
 }
 
 impl Row {
@@ -118,7 +140,79 @@ impl Row {
             (Kind::Boolean | Kind::Integer | Kind::Enumeration(_), Variability::Continuous) => Variability::Discrete,
             (_, variability) => variability,
         };
-        Row { name, causality, variability, kind, count, components, range, text }
+        let (usual, group, heading, main, conditions) = (None, None, None, None, [None; 2]);
+        Row {
+            name,
+            causality,
+            variability,
+            kind,
+            count,
+            components,
+            range,
+            text,
+            usual,
+            group,
+            heading,
+            main,
+            conditions,
+        }
+    }
+
+    /// The row with this usual range.
+    ///
+    /// # Panics
+    /// The range exceeds the row's. In a constant this is a compile error.
+    pub const fn usual(mut self, range: RangeInclusive<f64>) -> Self {
+        let (least, greatest) = self.bounds();
+        assert!(least <= *range.start() && *range.start() < *range.end() && *range.end() <= greatest);
+        self.usual = Some((*range.start(), *range.end()));
+        self
+    }
+
+    /// The row as one of a group that a search changes together.
+    pub const fn group(mut self, name: &'static str) -> Self {
+        self.group = Some(name);
+        self
+    }
+
+    /// The row below a heading.
+    pub const fn heading(mut self, heading: &'static str) -> Self {
+        self.heading = Some(heading);
+        self
+    }
+
+    /// The row at this place among the parameters that matter most.
+    pub const fn main(mut self, place: u8) -> Self {
+        self.main = Some(place);
+        self
+    }
+
+    /// The row with a condition of its effect: `variable` has one of `values`.
+    pub const fn used_if(self, variable: &'static str, values: &'static [&'static str]) -> Self {
+        let components = self.components;
+        self.partly_used_if(components, variable, values)
+    }
+
+    /// The row with a condition of the effect of some of its components.
+    ///
+    /// # Panics
+    /// The row has two conditions already.
+    pub const fn partly_used_if(
+        mut self,
+        components: &'static [&'static str],
+        variable: &'static str,
+        values: &'static [&'static str],
+    ) -> Self {
+        assert!(self.conditions[1].is_none());
+        self.conditions = [Some(Condition { variable, values, components }), self.conditions[0]];
+        self
+    }
+
+    /// The conditions without which the row's scalar variable number `element` has no effect; those
+    /// of its struct first.
+    pub fn conditions(&self, element: usize) -> impl Iterator<Item = &Condition> {
+        let component = self.components[element % self.components.len()];
+        self.conditions.iter().flatten().filter(move |condition| condition.components.contains(&component))
     }
 
     /// The smallest and the largest value; those of the type where the row has no range. They never
@@ -206,19 +300,20 @@ pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
     panic!("no row has this name")
 }
 
-/// The rows, with those of these names made tunable. For a model that reuses another model's struct
-/// but can change more of its parameters in flight.
+/// The rows, with those of these names made tunable and [main](Row::main) at these places. For a
+/// model that reuses another model's struct but can change more of its parameters in flight.
 ///
 /// # Panics
 /// If no row has one of the names. In a constant this is a compile error.
-pub const fn with_tunable<const N: usize>(mut rows: [Row; N], names: &[&str]) -> [Row; N] {
+pub const fn with_tunable<const N: usize>(mut rows: [Row; N], names: &[(&str, u8)]) -> [Row; N] {
     let mut n = 0;
     while n < names.len() {
         let mut r = 0;
-        while !is_same(rows[r].name.as_bytes(), names[n].as_bytes()) {
+        while !is_same(rows[r].name.as_bytes(), names[n].0.as_bytes()) {
             r += 1;
         }
         rows[r].variability = Variability::Tunable;
+        rows[r].main = Some(names[n].1);
         n += 1;
     }
     rows

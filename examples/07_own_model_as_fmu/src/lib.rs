@@ -50,7 +50,6 @@ impl Model for LowPass {
         text: "A first-order low-pass.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &[],
         stop_time: 3.0,
         step_size: 0.01,
     };

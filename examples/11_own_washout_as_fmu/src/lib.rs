@@ -99,7 +99,6 @@ impl Model for ReidNahon {
         text: "The classical washout of Reid and Nahon.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &[],
         stop_time: 40.0,
         step_size: 0.01,
     };

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::document::{child, elements, type_definitions, variables};
 use crate::small_model::Small;
-use moris_interface::{Causality, Kind, Model, SlotModel};
+use moris_interface::{Causality, Identity, Kind, Model, SlotModel};
 use moris_model_description::{fmi2::describe, to_xml};
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
@@ -128,15 +128,39 @@ fn what_matters_comes_first<M: Model>() {
     assert!(rows.iter().rev().take(joints).all(|name| name.starts_with("rig.")), "{rows:?}");
     rows.dedup();
     assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len(), "a row's variables are apart");
-    assert!(rows.starts_with(identity.main_parameters), "{rows:?}");
+    assert!(rows.starts_with(&main_parameters(&identity)), "{rows:?}");
     let slots: Vec<usize> = variables.iter().map(|&node| slot_of(node)).collect();
     assert!(slots.windows(2).all(|two| two[1] == two[0] + 1 || identity.slots[two[1]].element == 0));
 }
 
+/// Names of the rows that matter most, by their places, which are 1, 2, 3 ...
+fn main_parameters(identity: &Identity) -> Vec<&'static str> {
+    let mut main: Vec<_> = identity.rows.iter().filter_map(|row| Some((row.main?, row.name))).collect();
+    main.sort_unstable();
+    assert!(main.iter().zip(1..).all(|((place, _), expected)| *place == expected), "{main:?}");
+    main.into_iter().map(|(_, name)| name).collect()
+}
+
 #[test]
 fn every_model_of_ours_has_ten_parameters_that_matter_most() {
-    let counts = [Washout::IDENTITY, Motorcycle::IDENTITY, StewartPlatform::IDENTITY].map(|i| i.main_parameters.len());
-    assert_eq!(counts, [10; 3]);
+    let models = [Washout::IDENTITY, Motorcycle::IDENTITY, StewartPlatform::IDENTITY];
+    assert_eq!(models.map(|identity| main_parameters(&identity).len()), [10; 3]);
+}
+
+/// A row that has an effect only with some values of another names a row and values of that.
+#[test]
+fn conditions_are_of_variables_and_values_that_exist() {
+    for identity in [Washout::IDENTITY, Motorcycle::IDENTITY, StewartPlatform::IDENTITY] {
+        let all = identity.rows.iter().flat_map(|row| (0..row.slots()).flat_map(|element| row.conditions(element)));
+        for condition in all {
+            let other = identity.rows.iter().find(|other| other.name == condition.variable).expect(condition.variable);
+            let exists = |value: &&str| match other.kind {
+                Kind::Enumeration(enumeration) => enumeration.items.iter().any(|item| item.name == *value),
+                _ => value.parse::<i32>().is_ok_and(|value| other.accepts(value.into())),
+            };
+            assert!(condition.values.iter().all(exists) && !condition.values.is_empty(), "{condition:?}");
+        }
+    }
 }
 
 /// FMI 2.0, 2.2.9, without quoted names and derivatives, which we do not use.

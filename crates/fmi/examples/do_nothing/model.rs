@@ -50,7 +50,6 @@ impl Model for DoNothing {
         text: "A model that does nothing.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &[],
         stop_time: 1.0,
         step_size: 0.001,
     };

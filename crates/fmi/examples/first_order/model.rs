@@ -135,7 +135,6 @@ impl Model for FirstOrder {
         text: "A first-order lag.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &[],
         stop_time: 2.0,
         step_size: 0.1,
     };

@@ -125,7 +125,6 @@ impl Model for Lags {
         text: "Three first-order lags.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &[],
         stop_time: 2.0,
         step_size: 0.1,
     };

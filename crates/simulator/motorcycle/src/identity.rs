@@ -12,18 +12,6 @@ pub const IDENTITY: Identity = Identity {
     text: "Motorcycle and rider: from throttle, brake, lean and wind to the motion of the rider's head, as the washout takes it in.",
     rows: Variables::ROWS,
     slots: Variables::SLOTS,
-    main_parameters: &[
-        "initial.speed",
-        "drive.power",
-        "drive.forceLimit",
-        "brake.forceLimit",
-        "brake.frontShare",
-        "aero.dragArea",
-        "tyre.friction",
-        "rider.leanLimit",
-        "rider.torqueWeight",
-        "frame.mass",
-    ],
     stop_time: 60.0,
     step_size: 0.001,
 };

@@ -166,7 +166,7 @@ interface! {
         /// Height of the rear frame's centre of mass, rider included.
         "frame.centre.height" frame_height: f64 [M] { 1e-3 ..= 10.0 } = 0.669;
         /// Mass of the rear frame with engine and rider.
-        "frame.mass" frame_mass: f64 [KG] { 1e-3 ..= 1e4 } = 221.0;
+        "frame.mass" frame_mass: f64 [KG] { 1e-3 ..= 1e4 } = 221.0, main(10);
         /// Moment of inertia of the rear frame about its centre of mass, about the axis forward.
         "frame.inertia.xx" frame_xx: f64 [KG_M2] { 1e-6 ..= 1e5 } = 29.7;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis to the left: of pitch.
@@ -218,7 +218,7 @@ interface! {
         /// Relaxation length of the rear tyre.
         "tyre.rear.relaxationLength" rear_relaxation: f64 [M] { 1e-4 ..= 10.0 } = 0.144;
         /// Friction of the tyres on the road: the largest force along the road divided by the load.
-        Tunable "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2;
+        Tunable "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2, main(7);
         /// Rolling resistance divided by the load.
         Tunable "tyre.rollingResistance" rolling_resistance: f64 { 0.0 ..= 1.0 } = 0.018;
     }
@@ -228,23 +228,23 @@ interface! {
     /// Drive, brakes and air.
     pub struct Longitudinal: Parameter, Tunable {
         /// Largest power at the rear wheel.
-        "drive.power" power: f64 [W] { 1.0 ..= 1e7 } = 85e3;
+        "drive.power" power: f64 [W] { 1.0 ..= 1e7 } = 85e3, main(2);
         /// Largest force at the rear wheel, in the lowest gear.
-        "drive.forceLimit" drive_force: f64 [N] { 1.0 ..= 1e6 } = 3500.0;
+        "drive.forceLimit" drive_force: f64 [N] { 1.0 ..= 1e6 } = 3500.0, main(3);
         /// Drag of the engine at the rear wheel with the throttle closed.
         "drive.engineBraking" engine_braking: f64 [N] { 0.0 ..= 1e5 } = 150.0;
         /// Time constant with which the drive follows the throttle.
         "drive.timeConstant" drive_time: f64 [S] { 1e-3 ..= 100.0 } = 0.15;
         /// Force of both brakes together when fully applied.
-        "brake.forceLimit" brake_force: f64 [N] { 0.0 ..= 1e6 } = 3000.0;
+        "brake.forceLimit" brake_force: f64 [N] { 0.0 ..= 1e6 } = 3000.0, main(4);
         /// Fraction of the front brake in brake.forceLimit.
-        "brake.frontShare" brake_front_share: f64 { 0.0 ..= 1.0 } = 0.7;
+        "brake.frontShare" brake_front_share: f64 { 0.0 ..= 1.0 } = 0.7, main(5);
         /// Time constant with which the brakes follow the lever.
         "brake.timeConstant" brake_time: f64 [S] { 1e-3 ..= 100.0 } = 0.1;
         /// Fraction of the weight that drive and brakes leave on either wheel.
         "wheelLift.reserve" lift_reserve: f64 { 0.0 ..= 0.3 } = 0.05;
         /// Drag coefficient times frontal area.
-        "aero.dragArea" drag_area: f64 [M2] { 1e-6 ..= 100.0 } = 0.467;
+        "aero.dragArea" drag_area: f64 [M2] { 1e-6 ..= 100.0 } = 0.467, main(6);
         /// Density of the air.
         "aero.density" air_density: f64 [KG_PER_M3] { 1e-6 ..= 100.0 } = 1.2;
         /// Height of the point at which drag and wind act.
@@ -270,13 +270,13 @@ interface! {
     /// The rider: limits, lean control, torso and head.
     pub struct Rider: Parameter, Fixed {
         /// Largest reference roll angle of the rider.
-        Tunable "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8;
+        Tunable "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8, main(8);
         /// Natural frequency of the rider's reference filter for a commanded roll angle.
         Tunable "rider.leanFrequency" lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 4.0;
         /// Largest roll rate of the rider's reference.
         Tunable "rider.leanRateLimit" lean_rate_limit: f64 [RAD_PER_S] { 1e-3 ..= 10.0 } = 0.8;
         /// Weight of the steering torque in the rider's quadratic cost: this torque costs as much as a lean error of 0.1 rad. Small values give firm control.
-        Tunable "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0;
+        Tunable "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0, main(9);
         /// Lean of the rider's torso as a fraction of the reference roll angle.
         Tunable "rider.bodyLeanShare" body_lean_share: f64 { -1.0 ..= 1.0 } = 0.1;
         /// Natural frequency of the rider's torso lean.
@@ -308,7 +308,7 @@ interface! {
         /// Axes of vehicle.angularVelocity, as in the washout.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Initial speed.
-        "initial.speed" initial_speed: f64 [M_PER_S] { 0.0 ..= LARGEST_SPEED } = 0.0;
+        "initial.speed" initial_speed: f64 [M_PER_S] { 0.0 ..= LARGEST_SPEED } = 0.0, main(1);
         /// Initial heading.
         "initial.heading" initial_heading: f64 [RAD] { -1e6 ..= 1e6 } = 0.0;
         /// Longest internal step; a longer communication step is divided.

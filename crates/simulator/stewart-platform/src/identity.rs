@@ -10,7 +10,7 @@ variables!(Input, Output, Parameters);
 /// which plans by them, and tunable here.
 static ROWS: [Row; Variables::ROWS.len()] = with_tunable(
     *Variables::ROWS.first_chunk().expect("an array has as many rows as itself"),
-    &["actuator.velocityLimit", "actuator.accelerationLimit"],
+    &[("actuator.velocityLimit", 8), ("actuator.accelerationLimit", 9)],
 );
 
 /// The parameters' rows.
@@ -24,18 +24,6 @@ pub const IDENTITY: Identity = Identity {
     text: "Stewart platform with the dynamics of its actuators and of its body: from commanded actuator lengths to the real ones, the forces they carry, and what the rider feels on the real motion.",
     rows: &ROWS,
     slots: Variables::SLOTS,
-    main_parameters: &[
-        "platform.mass",
-        "rider.mass",
-        "payload.mass",
-        "actuator.bandwidth",
-        "actuator.damping",
-        "actuator.deadTime",
-        "actuator.forceLimit",
-        "actuator.velocityLimit",
-        "actuator.accelerationLimit",
-        "head.height",
-    ],
     stop_time: 60.0,
     step_size: 0.001,
 };

@@ -110,13 +110,13 @@ interface! {
     /// Response of the actuators; their limits of stroke, speed and acceleration are the rig's.
     pub struct Actuators: Parameter, Tunable {
         /// Undamped natural frequency of an actuator's response to its command; at the default damping the response is -3 dB there.
-        "actuator.bandwidth" bandwidth: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 1e3 } = 62.831_853_071_795_86;
+        "actuator.bandwidth" bandwidth: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 1e3 } = 62.831_853_071_795_86, main(4);
         /// Damping ratio of an actuator's response.
-        "actuator.damping" damping: f64 { 0.05 ..= 10.0 } = std::f64::consts::FRAC_1_SQRT_2;
+        "actuator.damping" damping: f64 { 0.05 ..= 10.0 } = std::f64::consts::FRAC_1_SQRT_2, main(5);
         /// Dead time between a command and the drive's response.
-        "actuator.deadTime" dead_time: f64 [S] { 0.0 ..= 10.0 } = 0.004;
+        "actuator.deadTime" dead_time: f64 [S] { 0.0 ..= 10.0 } = 0.004, main(6);
         /// Largest force of an actuator's drive, in both directions.
-        "actuator.forceLimit" force_limit: f64 [N] { 1e-3 ..= 1e9 } = 4000.0;
+        "actuator.forceLimit" force_limit: f64 [N] { 1e-3 ..= 1e9 } = 4000.0, main(7);
     }
 }
 
@@ -125,19 +125,19 @@ interface! {
     /// actuators are massless.
     pub struct Masses: Parameter, Tunable {
         /// Mass of the platform with the motorcycle's mock-up.
-        "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0;
+        "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0, main(1);
         /// Centre of mass of the platform with the mock-up, in the platform frame.
         "platform.centreOfMass.@" platform_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.26);
         /// Matrix of inertia of the platform with the mock-up about its centre of mass.
         "platform.inertia.@" platform_inertia: Inertia [KG_M2] { -1e8 ..= 1e8 } = Inertia::diagonal(49.0, 89.0, 89.0);
         /// Mass of the rider; 0 without a rider.
-        "rider.mass" rider_mass: f64 [KG] { 0.0 ..= 1e6 } = 80.0;
+        "rider.mass" rider_mass: f64 [KG] { 0.0 ..= 1e6 } = 80.0, main(2);
         /// Centre of mass of the upright rider, in the platform frame.
         "rider.centreOfMass.@" rider_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.70);
         /// Matrix of inertia of the upright rider about the rider's centre of mass.
         "rider.inertia.@" rider_inertia: Inertia [KG_M2] { -1e8 ..= 1e8 } = Inertia::diagonal(6.0, 7.0, 3.0);
         /// Mass of a payload, as a point mass; 0 without one.
-        "payload.mass" payload_mass: f64 [KG] { 0.0 ..= 1e6 } = 0.0;
+        "payload.mass" payload_mass: f64 [KG] { 0.0 ..= 1e6 } = 0.0, main(3);
         /// Position of the payload in the platform frame.
         "payload.centreOfMass.@" payload_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.0);
     }
@@ -149,7 +149,7 @@ interface! {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Height of the rider's head above the platform.
-        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2;
+        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2, main(10);
         /// Length of the torso from the seat, its lean axis, to the head.
         "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// Longest internal step; a longer communication step is divided.

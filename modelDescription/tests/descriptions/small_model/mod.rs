@@ -49,7 +49,7 @@ interface! {
     /// Fixed parameters.
     pub struct Fixed: Parameter, Fixed {
         /// Number.
-        "many" many: i32 { 1 ..= 9 } = 3;
+        "many" many: i32 { 1 ..= 9 } = 3, main(1);
         /// True if it is stiff.
         "stiff" stiff: bool = false;
     }
@@ -79,7 +79,6 @@ impl Model for Small {
         text: "A model for tests.",
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
-        main_parameters: &["many"],
         stop_time: 2.5,
         step_size: 0.01,
     };
