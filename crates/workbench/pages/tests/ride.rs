@@ -1,5 +1,6 @@
 //! The ride, natively: what a player's commands do.
 
+use moris_interface::Group;
 use moris_motorcycle::{Model, Output};
 use moris_pages::ride::page::{Page, html};
 use moris_pages::ride::{HALF_WIDTH, Lap, Ride, RiderCommand, STEP, Stage};
@@ -246,4 +247,15 @@ fn the_page_holds_all_that_it_needs() {
         assert!(!page.contains(outside), "the page holds {outside}");
     }
     assert_eq!(page.matches("</script>").count(), 3);
+}
+
+#[test]
+fn the_panel_shows_parameters_that_exist() {
+    let script = include_str!("../page/ride/panel.js");
+    let (_, list) = script.split_once("const PROMINENT = [").unwrap();
+    let names: Vec<&str> = list.split_once(']').unwrap().0.split('"').skip(1).step_by(2).collect();
+    let rows = Parameters::ROWS;
+    let known = rows.iter().flat_map(|row| (0..row.slots()).map(|element| row.variable_name(element)));
+    let known: Vec<String> = known.collect();
+    assert!(names.len() > 3 && names.iter().all(|name| known.iter().any(|known| known == name)), "{names:?}");
 }

@@ -2,6 +2,7 @@
 
 import { element } from "../shared/dom.js";
 import { ParameterControl } from "../shared/parameter.js";
+import { chosen, isElsewhere } from "../shared/words.js";
 
 const COMMAND_KEYS = { s: "start", e: "engage", d: "disengage", p: "park", c: "clear", escape: "stop" };
 /** Headings of parameters that stand first. */
@@ -43,17 +44,16 @@ export class Sliders {
   }
 
   get strategy() {
-    const slot = this.slots.get("strategy");
-    return this.data.parameters[slot].items[this.values[slot] - 1];
+    return chosen(this.data.parameters, this.values).get("strategy").value;
   }
 
   /** Builds the controls for the strategy: those of others have no effect. */
   show() {
-    const { items } = this.data.parameters[this.slots.get("strategy")];
     const groups = new Map();
-    this.data.parameters.forEach(({ name, group }, slot) => {
-      const [first] = name.split(".");
-      if (!group || items.includes(first) && first !== this.strategy) return;
+    const strategy = chosen(this.data.parameters, this.values).get("strategy");
+    this.data.parameters.forEach((parameter, slot) => {
+      const { group } = parameter;
+      if (!group || isElsewhere(parameter, strategy)) return;
       groups.set(group, [...groups.get(group) || [], slot]);
     });
     this.controls = new Map([...groups.values()].flat().map((slot) => {

@@ -2,7 +2,7 @@
 
 import { fixed } from "../shared/format.js";
 import { element } from "../shared/dom.js";
-import { idleReason, plainWords, searched } from "../shared/words.js";
+import { chosen, idleReason, isElsewhere, plainWords, searched } from "../shared/words.js";
 import { ParameterControl } from "../shared/parameter.js";
 import { report } from "./data.js";
 import { panelButton, Variants } from "./variants.js";
@@ -42,9 +42,13 @@ export class Tuning {
     this.build();
   }
 
+  /** What is chosen now, by name. */
+  get chosen() {
+    return chosen(this.parameters, this.values);
+  }
+
   get strategy() {
-    const slot = this.slots.get("strategy");
-    return this.parameters[slot].items[this.values[slot] - 1];
+    return this.chosen.get("strategy").value;
   }
 
   build() {
@@ -94,22 +98,6 @@ export class Tuning {
     this.message.textContent = text;
   }
 
-  /** Why a parameter has no effect now; nothing if it has one. */
-  idleReason(name) {
-    const strategies = this.parameters[this.slots.get("strategy")].items;
-    return idleReason(name, strategies, (other) => {
-      const slot = this.slots.get(other);
-      const { kind, items } = this.parameters[slot];
-      return kind === "enumeration" ? items[this.values[slot] - 1] : this.values[slot];
-    });
-  }
-
-  /** True for parameters of other strategies, which are shown only when they are searched for. */
-  isElsewhere(name) {
-    const [first] = name.split(".");
-    return this.parameters[this.slots.get("strategy")].items.includes(first) && first !== this.strategy;
-  }
-
   control(slot) {
     const parameter = this.parameters[slot];
     if (!this.controls.has(slot)) {
@@ -127,9 +115,11 @@ export class Tuning {
   }
 
   buildControls() {
-    const headings = new Map([["Strategy", []], ["Scales", []], ["Break frequencies", []], ["Tilt limits", []]]);
-    this.parameters.forEach(({ name, group }, slot) => {
-      if (!group || this.isElsewhere(name)) return;
+    const headings = new Map([["Strategy", []], ["Scales", []]]);
+    const strategy = this.chosen.get("strategy");
+    this.parameters.forEach((parameter, slot) => {
+      const { group } = parameter;
+      if (!group || isElsewhere(parameter, strategy)) return;
       if (!headings.has(group)) headings.set(group, []);
       headings.get(group).push(slot);
     });
@@ -157,7 +147,8 @@ export class Tuning {
     const isOther = (slot) => this.parameters[slot].is_free && !grouped.has(slot) && fits(slot);
     // First those that have an effect, and of these the ones that are called so.
     const isCalled = (slot) => words.every((word) => plainWords(this.parameters[slot]).toLowerCase().includes(word));
-    const rank = (slot) => 2 * Number(Boolean(this.idleReason(this.parameters[slot].name))) + Number(!isCalled(slot));
+    const now = this.chosen;
+    const rank = (slot) => 2 * Number(Boolean(idleReason(this.parameters[slot], now))) + Number(!isCalled(slot));
     const others = words.length === 0 ? [] : [...this.parameters.keys()].filter(isOther).sort((a, b) => rank(a) - rank(b));
     const more = others.length - MOST_FOUND;
     const isFound = others.length > 0 || [...grouped].some(fits);
@@ -168,7 +159,8 @@ export class Tuning {
   }
 
   showIdle() {
-    for (const [slot, control] of this.controls) control.showIdle(this.idleReason(this.parameters[slot].name));
+    const now = this.chosen;
+    for (const [slot, control] of this.controls) control.showIdle(idleReason(this.parameters[slot], now));
   }
 
   /** The fitting scale of the recording; nothing where a parameter differs that is no scale. */

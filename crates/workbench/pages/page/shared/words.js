@@ -75,19 +75,21 @@ export function searched(parameter) {
   return [parameter.name, plainWords(parameter), parameter.text, words].join(" ").toLowerCase();
 }
 
-/** Why a parameter has no effect now, of a strategy or of what is chosen elsewhere; nothing if it has one. */
-export function idleReason(name, strategies, valueOf) {
-  const [first, second, last = ""] = name.split(".");
-  const strategy = valueOf("strategy");
-  if (strategies.includes(first) && first !== strategy) return `no effect with strategy ${strategy}`;
-  if (first === "splitter" && "xy".includes(second) && last && strategy !== "classical") return `no effect with strategy ${strategy}`;
-  if (last.startsWith("lowPass") && valueOf("splitter.lowPass") !== "independent") return "no effect unless splitter.lowPass is independent";
-  if (/^(splitter|angular)\..*\.(omega|zeta)2$/.test(name)) {
-    const [order, least] = [valueOf(`${first}.order`), last === "omega2" ? 3 : 4];
-    if (order < least) return `no effect while ${first}.order is ${order}`;
-  }
-  if (first === "washoutPoint" && valueOf("washoutLocation") !== "custom") return "no effect unless washoutLocation is custom";
-  if (first === "automaticScale" && !valueOf("scale.automatic")) return "no effect without scale.automatic";
-  if (/^predictive\.(memory|selection)$/.test(name) && valueOf("predictive.forecast") !== "learned") return "no effect unless predictive.forecast is learned";
-  return "";
+/** The items and values of parameters by name, as they are chosen in `values`. */
+export const chosen = (parameters, values) => new Map(parameters.map(({ name, items }, slot) => [name, { items, value: items[values[slot] - 1] ?? values[slot] }]));
+
+/** True for parameters of another strategy than the chosen one: their names begin with it. */
+export function isElsewhere({ name }, strategy) {
+  const [first] = name.split(".");
+  return strategy.items.includes(first) && first !== strategy.value;
+}
+
+/** Why a parameter has no effect now, given what is chosen; nothing if it has one. */
+export function idleReason({ used_if: conditions }, given) {
+  const unmet = conditions.find(([other, values]) => !values.includes(String(given.get(other).value)));
+  if (!unmet) return "";
+  const [other, values] = unmet;
+  const { items, value } = given.get(other);
+  if (other === "strategy") return `no effect with strategy ${value}`;
+  return items.length > 0 ? `no effect unless ${other} is ${values.join(" or ")}` : `no effect while ${other} is ${value}`;
 }

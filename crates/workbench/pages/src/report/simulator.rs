@@ -53,6 +53,8 @@ pub struct Parameter {
     pub slider: [f64; 2],
     /// Heading below which it stands; none for one that only a search shows.
     pub group: Option<String>,
+    /// Names of other parameters, each with its items or numbers that give this one an effect.
+    pub used_if: Vec<(String, Vec<&'static str>)>,
     /// False for what belongs to the rig or the recording.
     pub is_free: bool,
     /// The first run's value.
