@@ -8,12 +8,13 @@ use std::time::Duration;
 use moris_analysis::tune::cost::{Aim, Cost, Objective};
 use moris_analysis::tune::folds;
 use moris_analysis::tune::search::{Budget, Evaluate, evaluate_here};
-use moris_analysis::tune::space::{Group, Space};
+use moris_analysis::tune::space::{Space, group_named};
 use moris_analysis::tune::summary::{self, Verdict};
 use moris_analysis::tune::tested::{Tested, tune_tested};
 use moris_analysis::tune::tuner::{NoFeasibleParameters, Tuner};
 use moris_setup::{NamedValues, Setup, all, overlaid};
 use moris_washout::Parameters;
+use moris_washout::interface::TuningGroup;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -39,7 +40,7 @@ pub struct PyTuning {
     before: Setup,
     objectives: Vec<Objective>,
     held_out: usize,
-    groups: Vec<Group>,
+    groups: Vec<TuningGroup>,
 }
 
 /// A cost as it is sent between machines: error of each channel, total error, fraction of the time
@@ -248,9 +249,10 @@ fn look(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult
     }
 }
 
-fn group(name: &str) -> PyResult<Group> {
-    Group::named(name).ok_or_else(|| {
-        let names = Group::ALL.map(Group::name).join(", ");
+fn group(name: &str) -> PyResult<TuningGroup> {
+    group_named(name).ok_or_else(|| {
+        let names: Vec<_> = TuningGroup::ALL.iter().map(|group| group.name()).collect();
+        let names = names.join(", ");
         PyValueError::new_err(format!("there is no group {name}; there are {names}"))
     })
 }

@@ -1,54 +1,14 @@
-//! Search variables: logarithms of break frequencies, dampings and scales, and orders.
+//! Search variables: orders, and logarithms of the parameters whose rows have a group and a usual
+//! range.
 
 use cmaes::DVector;
-use moris_interface::slots_of;
+use moris_interface::{Group as _, Kind, Reader, Row, slots_of};
 use moris_washout::Parameters;
-use moris_washout::interface::StrategyKind;
-use moris_washout::motion::orientation::RollPitchYaw;
-use moris_washout::nalgebra::Vector3;
+use moris_washout::interface::TuningGroup;
 
-/// A group of parameters that may be tuned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
-pub enum Group {
-    /// The splitter's break frequencies and dampings, twelve in all
-    Splitter,
-    /// The angular channel's, twelve in all
-    Angular,
-    /// The scales of specific force and angular velocity, six in all
-    Scale,
-    /// The low-passes on the input and on its rates, for recordings with strong vibration
-    Cutoff,
-    /// Tilt's limits of rate (to 3 deg/s), acceleration and angle
-    Tilt,
-    /// Weights, gains and poles of the strategy in use; the classical one has none
-    Strategy,
-    /// The orders of the splitter's and the angular channel's high-passes, 2 to 4
-    Order,
-}
-
-impl Group {
-    /// All groups, in the order in which they are listed.
-    pub const ALL: [Group; 7] =
-        [Group::Splitter, Group::Angular, Group::Scale, Group::Cutoff, Group::Tilt, Group::Strategy, Group::Order];
-
-    /// The group's name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Group::Splitter => "splitter",
-            Group::Angular => "angular",
-            Group::Scale => "scale",
-            Group::Cutoff => "cutoff",
-            Group::Tilt => "tilt",
-            Group::Strategy => "strategy",
-            Group::Order => "order",
-        }
-    }
-
-    /// The group of this name, in letters of any case.
-    pub fn named(name: &str) -> Option<Group> {
-        Group::ALL.into_iter().find(|group| group.name().eq_ignore_ascii_case(name))
-    }
+/// The group of this name, in letters of any case.
+pub fn group_named(name: &str) -> Option<TuningGroup> {
+    TuningGroup::ALL.iter().copied().find(|group| group.name().eq_ignore_ascii_case(name))
 }
 
 /// The orders that may be tuned: of the splitter's high-passes and of the angular channel's.
@@ -66,50 +26,58 @@ pub fn with_orders(parameters: &Parameters, orders: Orders) -> Parameters {
     parameters
 }
 
-/// Usual break frequencies \[rad/s\].
-const FREQUENCIES: Range = Range { role: Role::Frequency, min: 0.05, max: 20.0 };
-/// Usual damping ratios.
-const DAMPINGS: Range = Range { role: Role::Other, min: 0.3, max: 2.0 };
-/// Usual frequencies of the input's low-passes \[rad/s\].
-const CUTOFFS: Range = Range { role: Role::Cutoff, min: 5.0, max: 200.0 };
-/// Usual scales; one above 1 would exceed the vehicle's motion.
-const SCALES: Range = Range { role: Role::Scale, min: 0.01, max: 1.0 };
-
-/// Weights of a strategy's cost, and rates at which gains follow its gradient.
-const WEIGHTS: Range = Range { role: Role::Other, min: 1e-5, max: 1e3 };
-/// Gains of the adaptive strategy: a fraction of the force as travel, and a tilt rate for it.
-const GAINS: Range = Range { role: Role::Other, min: 1e-3, max: 2.0 };
-const ATTENUATIONS: Range = Range { role: Role::Other, min: 1.01, max: 10.0 };
-const FAST_POLES: Range = Range { role: Role::Other, min: 0.05, max: 100.0 };
-const DISTURBANCES: Range = Range { role: Role::Other, min: 1.0, max: 1e4 };
-const SPLIT_TIMES: Range = Range { role: Role::Other, min: 0.01, max: 2.0 };
-
-/// Tilt that riders hardly perceive, but not too slow to be of use.
-const TILT_RATES: Range = Range { role: Role::Other, min: 0.02, max: 0.053 };
-const TILT_ACCELERATIONS: Range = Range { role: Role::Other, min: 0.05, max: 0.5 };
-const TILT_ANGLES: Range = Range { role: Role::Other, min: 0.1, max: 0.38 };
-
-/// Use that the search makes of a parameter, whatever its range.
-#[derive(Clone, Copy, PartialEq)]
-enum Role {
-    Frequency,
-    Cutoff,
-    Scale,
-    Other,
+/// A tuned parameter.
+#[derive(Clone, Copy, Debug)]
+struct Tuned {
+    slot: usize,
+    row: &'static Row,
+    /// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch
+    /// and yaw. None for a parameter that acts on all.
+    channel: Option<usize>,
+    /// The usual range.
+    range: (f64, f64),
 }
 
-/// Range of a parameter that makes sense for a washout, with the parameter's role.
-#[derive(Clone, Copy)]
-struct Range {
-    role: Role,
-    min: f64,
-    max: f64,
+impl Tuned {
+    fn is_in(&self, group: TuningGroup) -> bool {
+        self.row.group == Some(group.name())
+    }
+
+    /// True for a frequency of one channel.
+    fn is_frequency(&self) -> bool {
+        matches!(self.row.kind, Kind::Real(unit) if unit.quantity == "AngularFrequency") && self.channel.is_some()
+    }
+
+    /// Initial value in place of 0, which has no logarithm. A scale starts at its least value, a
+    /// low-pass that is off at its highest frequency.
+    fn instead_of_none(&self) -> f64 {
+        if self.is_in(TuningGroup::Cutoff) { self.range.1 } else { self.range.0 }
+    }
 }
 
-/// Initial value for a parameter that is 0, which has no logarithm. A scale starts at its least
-/// value, a low-pass that is off at its highest frequency.
-fn instead_of_none(range: Range) -> f64 {
-    if range.role == Role::Cutoff { range.max } else { range.min }
+/// The parameters of these groups that have an effect with this strategy. Splitter and scales come
+/// first: the order decides what a seed finds.
+fn tuned(parameters: &Parameters, groups: &[TuningGroup]) -> Vec<Tuned> {
+    let strategy = parameters.structure.strategy.name();
+    let has_effect = |row: &Row, element| {
+        row.conditions(element).all(|needed| needed.variable != "strategy" || needed.values.contains(&strategy))
+    };
+    let mut tuned: Vec<Tuned> = Parameters::SLOTS
+        .iter()
+        .enumerate()
+        .map(|(slot, at)| (slot, &Parameters::ROWS[usize::from(at.row)], usize::from(at.element)))
+        .filter(|&(_, row, element)| has_effect(row, element))
+        .filter_map(|(slot, row, element)| Some(Tuned { slot, row, channel: channel(row, element), range: row.usual? }))
+        .filter(|tuned| groups.iter().any(|group| tuned.is_in(*group)))
+        .collect();
+    tuned.sort_by_key(|tuned| !(tuned.is_in(TuningGroup::Splitter) || tuned.is_in(TuningGroup::Scale)));
+    tuned
+}
+
+/// The channel that a row's scalar acts on.
+fn channel(row: &Row, element: usize) -> Option<usize> {
+    let is_of_rates = row.name.starts_with("angular.") || row.name.starts_with("scale.angularVelocity.");
+    (row.slots() == 3).then_some(if is_of_rates { 3 + element } else { element })
 }
 
 /// The parameters that are tuned, as a box of logarithms about those that the search starts from.
@@ -119,7 +87,8 @@ fn instead_of_none(range: Range) -> f64 {
 #[derive(Clone, Debug)]
 pub struct Space {
     start: Parameters,
-    groups: Vec<Group>,
+    tuned: Vec<Tuned>,
+    has_orders: bool,
     lower: DVector<f64>,
     upper: DVector<f64>,
 }
@@ -127,17 +96,26 @@ pub struct Space {
 impl Space {
     /// The space about these parameters. If a parameter is outside its usual range, the
     /// range is extended to it.
-    pub fn new(start: &Parameters, groups: &[Group]) -> Self {
-        let mut start = *start;
+    pub fn new(start: &Parameters, groups: &[TuningGroup]) -> Self {
+        let tuned = tuned(start, groups);
+        let mut slots = slots_of(start);
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        for Tuned { value, range, .. } in tuned(&mut start, groups) {
+        for one in &tuned {
+            let (value, (least, greatest)) = (&mut slots[one.slot], one.range);
             if *value <= 0.0 {
-                *value = instead_of_none(range);
+                *value = one.instead_of_none();
             }
-            lower.push((range.min.min(*value) / *value).ln());
-            upper.push((range.max.max(*value) / *value).ln());
+            lower.push((least.min(*value) / *value).ln());
+            upper.push((greatest.max(*value) / *value).ln());
         }
-        Space { start, groups: groups.to_vec(), lower: lower.into(), upper: upper.into() }
+        let has_orders = groups.contains(&TuningGroup::Order);
+        Space {
+            start: Parameters::read(&mut Reader::new(&slots)),
+            tuned,
+            has_orders,
+            lower: lower.into(),
+            upper: upper.into(),
+        }
     }
 
     /// Number of tuned parameters.
@@ -154,14 +132,13 @@ impl Space {
 
     /// True if scales are tuned.
     pub fn has_scales(&self) -> bool {
-        self.groups.contains(&Group::Scale)
+        self.tuned.iter().any(|tuned| tuned.is_in(TuningGroup::Scale))
     }
 
     /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
     pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
-        let logarithm = |range: Range| if range.role == Role::Scale { factor.ln() } else { 0.0 };
-        let logarithms =
-            tuned(&mut self.start.clone(), &self.groups).iter().map(|tuned| logarithm(tuned.range)).collect();
+        let logarithm = |tuned: &Tuned| if tuned.is_in(TuningGroup::Scale) { factor.ln() } else { 0.0 };
+        let logarithms = self.tuned.iter().map(logarithm).collect();
         self.clamped(&DVector::from_vec(logarithms)).0
     }
 
@@ -169,10 +146,11 @@ impl Space {
     /// times these factors, as far as the box goes.
     pub fn with_channel(&self, point: &DVector<f64>, channel: usize, frequency: f64, scale: f64) -> DVector<f64> {
         let mut moved = point.clone();
-        for (coordinate, tuned) in moved.iter_mut().zip(tuned(&mut self.start.clone(), &self.groups)) {
-            if tuned.channel == Some(channel) && tuned.range.role == Role::Frequency {
+        for (coordinate, tuned) in moved.iter_mut().zip(&self.tuned).filter(|(_, tuned)| tuned.channel == Some(channel))
+        {
+            if tuned.is_frequency() {
                 *coordinate = frequency.ln();
-            } else if tuned.channel == Some(channel) && tuned.range.role == Role::Scale {
+            } else if tuned.is_in(TuningGroup::Scale) {
                 *coordinate = scale.ln();
             }
         }
@@ -183,10 +161,10 @@ impl Space {
     /// sway. They are those of the start times these factors, as far as the box goes.
     pub fn with_all_channels(&self, point: &DVector<f64>, frequency: f64, scale: f64) -> DVector<f64> {
         let mut moved = point.clone();
-        for (coordinate, tuned) in moved.iter_mut().zip(tuned(&mut self.start.clone(), &self.groups)) {
-            match (tuned.range.role, tuned.channel) {
-                (Role::Scale, Some(0 | 1 | 3..)) => *coordinate = scale.ln(),
-                (Role::Frequency, Some(0 | 1)) => *coordinate = frequency.ln(),
+        for (coordinate, tuned) in moved.iter_mut().zip(&self.tuned) {
+            match tuned.channel {
+                Some(0 | 1 | 3..) if tuned.is_in(TuningGroup::Scale) => *coordinate = scale.ln(),
+                Some(0 | 1) if tuned.is_frequency() => *coordinate = frequency.ln(),
                 _ => {}
             }
         }
@@ -196,7 +174,7 @@ impl Space {
     /// The spaces in which the order number `k` of [`Orders`] has its other values; none unless
     /// orders are tuned.
     pub fn with_other_order(&self, k: usize) -> Vec<Space> {
-        if !self.groups.contains(&Group::Order) {
+        if !self.has_orders {
             return Vec::new();
         }
         let own = orders(&self.start);
@@ -211,143 +189,35 @@ impl Space {
     /// The parameters at this fraction of the distance from the start to parameters found in this
     /// space, in logarithms. A parameter found to be 0 is 0, and the orders are those found.
     pub fn towards(&self, found: &Parameters, fraction: f64) -> Parameters {
-        let mut found = *found;
-        let mut parameters = with_orders(&self.start, orders(&found));
-        let ends = tuned(&mut found, &self.groups);
-        for (Tuned { value, .. }, end) in tuned(&mut parameters, &self.groups).into_iter().zip(ends) {
-            let end = *end.value;
-            *value = if end > 0.0 { *value * (end / *value).powf(fraction) } else { end };
-        }
-        parameters
+        let (ends, start) = (slots_of(found), with_orders(&self.start, orders(found)));
+        self.changed(&start, |k, value| {
+            let end = ends[self.tuned[k].slot];
+            if end > 0.0 { value * (end / value).powf(fraction) } else { end }
+        })
     }
 
     /// The parameters at a point.
     pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
-        let mut parameters = self.start;
-        for (tuned, logarithm) in tuned(&mut parameters, &self.groups).into_iter().zip(point) {
-            *tuned.value *= logarithm.exp();
+        self.changed(&self.start, |k, value| value * point[k].exp())
+    }
+
+    /// Parameters with other tuned values. `value` receives the number of each and its value.
+    fn changed(&self, parameters: &Parameters, value: impl Fn(usize, f64) -> f64) -> Parameters {
+        let mut slots = slots_of(parameters);
+        for (k, tuned) in self.tuned.iter().enumerate() {
+            slots[tuned.slot] = value(k, slots[tuned.slot]);
         }
-        parameters
+        Parameters::read(&mut Reader::new(&slots))
     }
-}
-
-/// Slots of the parameters in these groups that may be tuned, each with the range that makes sense
-/// for a washout. Of the strategies, it is the one in use.
-pub fn ranges(parameters: &Parameters, groups: &[Group]) -> Vec<(usize, [f64; 2])> {
-    let range_of_slot = |index: usize| {
-        let mut marked = *parameters;
-        let Tuned { value, range, .. } = tuned(&mut marked, groups).swap_remove(index);
-        *value = f64::NAN;
-        Some((slots_of(&marked).iter().position(|value| value.is_nan())?, [range.min, range.max]))
-    };
-    (0..tuned(&mut parameters.clone(), groups).len()).filter_map(range_of_slot).collect()
-}
-
-/// A tuned parameter.
-struct Tuned<'a> {
-    value: &'a mut f64,
-    range: Range,
-    /// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch
-    /// and yaw. None for a parameter that acts on all.
-    channel: Option<usize>,
-}
-
-/// Every tuned parameter, always in the same order.
-fn tuned<'a>(parameters: &'a mut Parameters, groups: &[Group]) -> Vec<Tuned<'a>> {
-    let Parameters { structure, splitter, angular, conditioning, tilt, adaptive, optimal, robust, predictive, .. } =
-        parameters;
-    let mut tuned = Vec::new();
-    let mut vector = |values: &'a mut Vector3<f64>, range, channels: std::ops::Range<usize>| {
-        let tuned_part = |(value, channel)| Tuned { value, range, channel: Some(channel) };
-        let first = channels.start % 3;
-        tuned.extend(values.iter_mut().skip(first).zip(channels).map(tuned_part));
-    };
-    if groups.contains(&Group::Splitter) {
-        // The other strategies divide surge and sway without the splitter.
-        let first = if structure.strategy == StrategyKind::Classical { 0 } else { 2 };
-        vector(&mut splitter.omega1, FREQUENCIES, first..3);
-        vector(&mut splitter.zeta1, DAMPINGS, first..3);
-        vector(&mut splitter.omega2, FREQUENCIES, first..3);
-        vector(&mut splitter.zeta2, DAMPINGS, first..3);
-    }
-    if groups.contains(&Group::Scale) {
-        vector(&mut conditioning.force_scale, SCALES, 0..3);
-        vector(&mut conditioning.rate_scale, SCALES, 3..6);
-    }
-    let mut angles = |RollPitchYaw { roll, pitch, yaw }: &'a mut RollPitchYaw, range| {
-        let tuned_part = |(axis, value)| Tuned { value, range, channel: Some(3 + axis) };
-        tuned.extend([roll, pitch, yaw].into_iter().enumerate().map(tuned_part));
-    };
-    if groups.contains(&Group::Angular) {
-        angles(&mut angular.omega1, FREQUENCIES);
-        angles(&mut angular.zeta1, DAMPINGS);
-        angles(&mut angular.omega2, FREQUENCIES);
-        angles(&mut angular.zeta2, DAMPINGS);
-    }
-    let mut of_all = |value, range| tuned.push(Tuned { value, range, channel: None });
-    if groups.contains(&Group::Cutoff) {
-        of_all(&mut conditioning.cutoff, CUTOFFS);
-        of_all(&mut conditioning.rate_cutoff, CUTOFFS);
-    }
-    if groups.contains(&Group::Tilt) {
-        of_all(&mut tilt.rate_limit, TILT_RATES);
-        of_all(&mut tilt.acceleration_limit, TILT_ACCELERATIONS);
-        of_all(&mut tilt.angle_limit, TILT_ANGLES);
-    }
-    if groups.contains(&Group::Strategy) {
-        match structure.strategy {
-            StrategyKind::Classical => {}
-            StrategyKind::Adaptive => {
-                of_all(&mut adaptive.omega, FREQUENCIES);
-                of_all(&mut adaptive.zeta, DAMPINGS);
-                of_all(&mut adaptive.gain1, WEIGHTS);
-                of_all(&mut adaptive.gain2, WEIGHTS);
-                of_all(&mut adaptive.nominal1, GAINS);
-                of_all(&mut adaptive.nominal2, GAINS);
-                of_all(&mut adaptive.weight_position, WEIGHTS);
-                of_all(&mut adaptive.weight_velocity, WEIGHTS);
-                of_all(&mut adaptive.weight_tilt_rate, WEIGHTS);
-                of_all(&mut adaptive.pull1, WEIGHTS);
-                of_all(&mut adaptive.pull2, WEIGHTS);
-            }
-            StrategyKind::Optimal => {
-                of_all(&mut optimal.weight_position, WEIGHTS);
-                of_all(&mut optimal.weight_velocity, WEIGHTS);
-                of_all(&mut optimal.weight_tilt_rate, WEIGHTS);
-                of_all(&mut optimal.weight_tilt_acceleration, WEIGHTS);
-                of_all(&mut optimal.slow_pole, FREQUENCIES);
-                of_all(&mut optimal.fast_pole, FREQUENCIES);
-                of_all(&mut optimal.split_time, SPLIT_TIMES);
-            }
-            StrategyKind::Robust => {
-                of_all(&mut robust.attenuation, ATTENUATIONS);
-                of_all(&mut robust.fast_disturbance, DISTURBANCES);
-                of_all(&mut robust.weight_position, WEIGHTS);
-                of_all(&mut robust.weight_velocity, WEIGHTS);
-                of_all(&mut robust.weight_tilt_rate, WEIGHTS);
-                of_all(&mut robust.weight_tilt_acceleration, WEIGHTS);
-                of_all(&mut robust.slow_pole, FREQUENCIES);
-                of_all(&mut robust.fast_pole, FAST_POLES);
-                of_all(&mut robust.split_time, SPLIT_TIMES);
-            }
-            StrategyKind::Predictive => {
-                of_all(&mut predictive.weight_position, WEIGHTS);
-                of_all(&mut predictive.weight_velocity, WEIGHTS);
-                of_all(&mut predictive.weight_tilt_rate, WEIGHTS);
-                of_all(&mut predictive.weight_tilt_acceleration, WEIGHTS);
-                of_all(&mut predictive.slow_pole, FREQUENCIES);
-                of_all(&mut predictive.fast_pole, FREQUENCIES);
-            }
-        }
-    }
-    tuned
 }
 
 #[cfg(test)]
 mod tests {
+    use moris_washout::interface::StrategyKind;
+
     use super::*;
 
-    const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+    const DEFAULT: [TuningGroup; 3] = [TuningGroup::Splitter, TuningGroup::Angular, TuningGroup::Scale];
 
     /// The default with the strategy that every group has a part in.
     fn classical() -> Parameters {
@@ -358,9 +228,9 @@ mod tests {
 
     #[test]
     fn a_strategy_without_a_splitter_tunes_that_of_heave_alone() {
-        let of = |start: &Parameters| Space::new(start, &[Group::Splitter]).dimension();
+        let of = |start: &Parameters| Space::new(start, &[TuningGroup::Splitter]).dimension();
         assert_eq!((of(&classical()), of(&Parameters::default())), (12, 4));
-        let space = Space::new(&Parameters::default(), &[Group::Splitter]);
+        let space = Space::new(&Parameters::default(), &[TuningGroup::Splitter]);
         let moved = space.parameters(&DVector::from_element(4, 0.1)).splitter;
         let start = Parameters::default().splitter;
         assert!(moved.omega1.z > start.omega1.z && moved.zeta2.z > start.zeta2.z);
@@ -380,22 +250,10 @@ mod tests {
         assert_eq!((moved.splitter.omega1.z, moved.angular), (start.splitter.omega1.z, start.angular));
     }
 
-    #[cfg(feature = "clap")]
     #[test]
-    fn a_group_has_the_name_of_the_option() {
-        for group in <Group as clap::ValueEnum>::value_variants() {
-            let option = clap::ValueEnum::to_possible_value(group).unwrap();
-            assert_eq!((group.name(), Group::named(&group.name().to_uppercase())), (option.get_name(), Some(*group)));
-        }
-        assert_eq!(Group::ALL, <Group as clap::ValueEnum>::value_variants());
-        assert_eq!(Group::named("gains"), None);
-    }
-
-    #[test]
-    fn roles_do_not_depend_on_ranges() {
-        // With equal ranges a scale still starts low, and a low-pass that is off starts high.
-        let scale = Range { role: Role::Scale, ..CUTOFFS };
-        assert_eq!([instead_of_none(scale), instead_of_none(CUTOFFS)], [CUTOFFS.min, CUTOFFS.max]);
+    fn a_groups_name_may_have_capitals_and_others_are_none() {
+        assert_eq!(group_named("Splitter"), Some(TuningGroup::Splitter));
+        assert_eq!(group_named("gains"), None);
     }
 
     #[test]
@@ -428,15 +286,19 @@ mod tests {
     }
 
     #[test]
-    fn ranges_are_those_of_their_parameters() {
-        let start = classical();
-        let names: Vec<(String, f64)> = moris_setup::all(&start);
-        let found = ranges(&start, &[Group::Scale, Group::Tilt]);
-        let named: Vec<(&str, [f64; 2])> =
-            found.iter().map(|(slot, range)| (names[*slot].0.as_str(), *range)).collect();
-        assert_eq!(named.len(), 9);
-        assert_eq!(named[4], ("scale.angularVelocity.y", [SCALES.min, SCALES.max]));
-        assert_eq!(named[8], ("tilt.angleLimit", [TILT_ANGLES.min, TILT_ANGLES.max]));
+    fn each_channel_has_its_frequencies_and_its_scale() {
+        let of = |channel| {
+            let of_channel = |tuned: &&Tuned| tuned.channel == Some(channel);
+            let names = |tuned: &Tuned| Parameters::ROWS[usize::from(Parameters::SLOTS[tuned.slot].row)].name;
+            tuned(&classical(), TuningGroup::ALL).iter().filter(of_channel).map(names).collect::<Vec<_>>()
+        };
+        let [filter, scale] = [["omega1", "zeta1", "omega2", "zeta2"], ["specificForce", "angularVelocity", "", ""]];
+        let splitter =
+            [&filter.map(|name| format!("splitter.@.{name}"))[..], &[format!("scale.{}.@", scale[0])]].concat();
+        assert_eq!([of(0), of(1), of(2)], [(); 3].map(|()| splitter.clone()));
+        let angular =
+            [&[format!("scale.{}.@", scale[1])], &filter.map(|name| format!("angular.@.{name}"))[..]].concat();
+        assert_eq!([of(3), of(4), of(5)], [(); 3].map(|()| angular.clone()));
     }
 
     #[test]
@@ -461,7 +323,7 @@ mod tests {
     fn orders_have_their_other_values_where_they_are_tuned() {
         let start = classical();
         assert!((0..2).all(|k| Space::new(&start, &DEFAULT).with_other_order(k).is_empty()));
-        let space = Space::new(&start, &[Group::Order, Group::Splitter]);
+        let space = Space::new(&start, &[TuningGroup::Order, TuningGroup::Splitter]);
         let others = |k: usize| {
             let others = space.with_other_order(k);
             others.iter().map(|other| orders(&other.parameters(&DVector::zeros(12)))).collect::<Vec<Orders>>()
@@ -480,7 +342,7 @@ mod tests {
         ] {
             let mut start = classical();
             start.structure.strategy = strategy;
-            let space = Space::new(&start, &[Group::Strategy]);
+            let space = Space::new(&start, &[TuningGroup::Strategy]);
             assert_eq!(space.dimension(), count);
             for sign in [-1.0, 1.0] {
                 let (edge, _) = space.clamped(&DVector::from_element(count, 100.0 * sign));
@@ -538,7 +400,7 @@ mod tests {
     fn a_scale_of_nothing_is_begun_at_next_to_nothing_and_a_low_pass_that_is_off_far_up() {
         let mut start = classical();
         start.conditioning.rate_scale.x = 0.0;
-        let space = Space::new(&start, &[Group::Scale, Group::Cutoff]);
+        let space = Space::new(&start, &[TuningGroup::Scale, TuningGroup::Cutoff]);
         assert_eq!(space.dimension(), 8);
         let conditioning = space.parameters(&DVector::zeros(8)).conditioning;
         assert_eq!((conditioning.rate_scale.x, conditioning.cutoff), (0.01, 200.0));

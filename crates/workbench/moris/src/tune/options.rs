@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use moris_washout::interface::StrategyKind;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use moris_washout::interface::{StrategyKind, TuningGroup};
 
 use super::cost::{Aim, Channels};
-use super::space::Group;
+use super::space::group_named;
 use crate::option_values::{number_in, numbers};
 use crate::recording::ConventionOptions;
 use crate::setup_options::SetupOptions;
@@ -64,8 +64,8 @@ pub struct Options {
     pub votes: Option<PathBuf>,
 
     /// Parameters to tune, separated by commas
-    #[arg(long, value_name = "GROUPS", value_delimiter = ',', default_values = ["splitter", "angular", "scale", "strategy"])]
-    pub tune: Vec<Group>,
+    #[arg(long, value_name = "GROUPS", value_delimiter = ',', value_parser = groups(), default_values = ["splitter", "angular", "scale", "strategy"])]
+    pub tune: Vec<TuningGroup>,
 
     /// Weights of the sensed errors of specific force x, y, z and angular velocity x, y, z. The
     /// first two weigh the shapes of surge and sway, too
@@ -132,6 +132,13 @@ fn choices() -> impl TypedValueParser<Value = Choice> {
     let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
     PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()).chain(["all"]))
         .map(move |name| named(name).map_or(Choice::All, Choice::One))
+}
+
+/// The groups of parameters by name.
+fn groups() -> impl TypedValueParser<Value = TuningGroup> {
+    let named = |name: String| group_named(&name).expect("only names of groups are accepted");
+    PossibleValuesParser::new(TuningGroup::ALL.iter().map(|group| PossibleValue::new(group.name()).help(group.text())))
+        .map(named)
 }
 
 fn weights(text: &str) -> Result<Channels<f64>, String> {

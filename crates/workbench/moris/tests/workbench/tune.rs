@@ -10,10 +10,10 @@ use moris::recording::Recording;
 use moris::simulate::Simulation;
 use moris::tune::cost::{Aim, Cost, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
-use moris::tune::space::{Group, Space};
+use moris::tune::space::Space;
 use moris_setup::Setup;
 use moris_simulation::Manoeuvre;
-use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::interface::{AngularVelocityFrame, TuningGroup};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, Parameters, presets};
 
@@ -25,7 +25,7 @@ fn classical() -> Parameters {
 const STEP: f64 = 0.01;
 const EQUAL: [f64; 6] = [1.0; 6];
 const NO_RESERVE: f64 = 0.0;
-const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+const DEFAULT: [TuningGroup; 3] = [TuningGroup::Splitter, TuningGroup::Angular, TuningGroup::Scale];
 
 fn recording(name: &str, duration: f64, input: impl Fn(f64, &mut Input)) -> Recording {
     let sampled = |time| {
@@ -222,7 +222,7 @@ fn comfort_is_bounded_by_the_greater_of_bound_and_start() {
 fn parameters_beyond_the_bounds_of_comfort_never_win() {
     let objective = objective(weaving(), NO_RESERVE);
     let start = classical();
-    let space = Space::new(&start, &[Group::Splitter]);
+    let space = Space::new(&start, &[TuningGroup::Splitter]);
     let budget = Budget { evaluations: 150, seed: 1 };
     let bound = 1.2 * start.splitter.omega1.x;
     // The error falls with the frequency.
@@ -288,7 +288,7 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
 fn the_search_takes_the_order_that_serves_best() {
     let objective = objective(weaving(), NO_RESERVE).with_aim(Aim::Error);
     let budget = Budget { evaluations: 120, seed: 1 };
-    let best = |order: i32, groups: &[Group]| {
+    let best = |order: i32, groups: &[TuningGroup]| {
         let mut start = classical();
         start.structure.splitter_order = order;
         // Short of travel, at high break frequencies.
@@ -299,9 +299,9 @@ fn the_search_takes_the_order_that_serves_best() {
         let space = Space::new(&start, groups);
         search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].clone()
     };
-    let errors = [2, 3, 4].map(|order| best(order, &[Group::Scale]).error);
+    let errors = [2, 3, 4].map(|order| best(order, &[TuningGroup::Scale]).error);
     assert!(errors[0] > errors[1] + 0.005 && errors[1] > errors[2] + 0.005, "{errors:?}");
-    let free = best(2, &[Group::Scale, Group::Order]);
+    let free = best(2, &[TuningGroup::Scale, TuningGroup::Order]);
     assert_eq!(free.parameters.structure.splitter_order, 4);
     assert!((free.error - errors[2]).abs() < 0.005, "{} {errors:?}", free.error);
 }
@@ -309,7 +309,7 @@ fn the_search_takes_the_order_that_serves_best() {
 #[test]
 fn groups_without_a_number_to_search_are_an_error_with_a_remedy() {
     let objective = objective(weaving(), NO_RESERVE);
-    for group in [Group::Order, Group::Strategy] {
+    for group in [TuningGroup::Order, TuningGroup::Strategy] {
         let space = Space::new(&classical(), &[group]);
         let budget = Budget { evaluations: 10, seed: 1 };
         let error = search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap_err();
