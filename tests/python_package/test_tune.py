@@ -1,6 +1,7 @@
 """Tuning: the workbench's result, early stops, and the same on Dask."""
 
 import os
+import re
 import signal
 import subprocess
 
@@ -118,6 +119,15 @@ def test_an_error_of_the_callers_function_ends_the_search(recordings):
 
     with pytest.raises(RuntimeError, match="enough"):
         moris.tune(recordings[:1], strategy="classical", evaluations=5000, stop=stop)
+
+
+def test_every_group_has_parameters_and_is_in_the_documentation():
+    variables = moris.variables("parameter").values()
+    groups = {variable.group for variable in variables if variable.group}
+    (named,) = re.findall(r"parameters that may change: ([^.]*)\.", moris.tune.__doc__)
+    assert set(re.findall(r'"(\w+)"', named)) == groups
+    assert moris.variables()["tilt.rateLimit"].usual == (0.02, 0.053)
+    assert all(each.min <= each.usual[0] < each.usual[1] <= each.max for each in variables if each.usual)
 
 
 def test_limits_that_no_parameters_keep_are_told(recordings):

@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::variables::Variables;
 
 /// A variable as Python gets it: name, causality, kind, unit, least and greatest value, start
-/// value, items, description, name of the vector that it is an element of.
+/// value, items, description, name of the vector that it is an element of, usual range, name of the
+/// group with which it is tuned.
 type Variable<'py> = (
     String,
     &'static str,
@@ -21,6 +22,8 @@ type Variable<'py> = (
     Vec<&'static str>,
     &'static str,
     String,
+    Option<(f64, f64)>,
+    Option<&'static str>,
 );
 
 /// Inputs, outputs and parameters, each a tuple.
@@ -46,7 +49,8 @@ fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>>
             };
             let name = variables.names[slot].clone();
             let (kind, unit, items) = kind(row);
-            rows.push((name, causality(row), kind, unit, least, greatest, start, items, row.text(), row.array_name()));
+            let (of, usual, group) = (row.array_name(), row.usual, row.group);
+            rows.push((name, causality(row), kind, unit, least, greatest, start, items, row.text(), of, usual, group));
         }
     }
     Ok(rows)

@@ -29,6 +29,10 @@ class Variable(NamedTuple):
     description: str
     vector: str
     """Name of the vector that it is an element of, its own for none: `platform.position` for `platform.position.x`."""
+    usual: tuple[float, float] | None
+    """Range of practice; None where there is none."""
+    group: str | None
+    """Group with which `tune` changes it; None for what is not tuned."""
 
 
 VARIABLES = {row[0]: Variable._make([*row[:7], tuple(row[7]), *row[8:]]) for row in _moris.variable_rows()}
