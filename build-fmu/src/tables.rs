@@ -3,8 +3,9 @@
 //!
 //! A table stands between the lines `<!-- table: NAME -->` and `<!-- end of table -->`.
 
-use moris_interface::{Causality, Kind, Row};
+use moris_interface::{Causality, Kind, Row, shown};
 use moris_setup::SETS;
+use moris_washout::interface::TuningGroup;
 use moris_washout::presets;
 
 use crate::model::{MODELS, MOTORCYCLE, WASHOUT};
@@ -23,6 +24,7 @@ pub const TABLES: &[Table] = &[
     Table { page: "docs/parameter-sets.md", name: "parameter sets", text: |_| parameter_sets() },
     Table { page: "docs/fmu.md", name: "enumerations", text: |_| enumerations() },
     Table { page: "docs/motorcycle.md", name: "path.course", text: items },
+    Table { page: "docs/tuning-by-search.md", name: "tuned parameters", text: |_| tuned() },
     Table { page: "docs/strategies/adaptive.md", name: "adaptive", text: parameters },
     Table { page: "docs/strategies/optimal.md", name: "optimal", text: parameters },
     Table { page: "docs/strategies/robust.md", name: "robust", text: parameters },
@@ -115,6 +117,29 @@ fn parameters(group: &str) -> String {
             _ => format!("{start} {}", unit(row)),
         };
         text += &line(&[&format!("`{}`", row.name), value.trim(), row.text().trim_end_matches('.')]);
+    }
+    text
+}
+
+/// The washout's parameters that may be tuned, by group and usual range.
+fn tuned() -> String {
+    let mut text = line(&["`--tune`", "parameters", "range"]) + &line(&["---"; 3]);
+    for group in TuningGroup::ALL {
+        let mut ranges: Vec<(String, Vec<String>)> = Vec::new();
+        for (row, _) in rows(&WASHOUT).filter(|(row, _)| row.group == Some(group.name())) {
+            let Some((least, greatest)) = row.usual.or(row.range.filter(|_| row.kind == Kind::Integer)) else {
+                continue;
+            };
+            let range = format!("{} to {} {}", shown(least), shown(greatest), unit(row));
+            let name = format!("`{}`", row.name);
+            match ranges.iter_mut().find(|(known, _)| *known == range) {
+                Some((_, names)) => names.push(name),
+                None => ranges.push((range, vec![name])),
+            }
+        }
+        for (range, names) in ranges {
+            text += &line(&[&format!("`{}`", group.name()), &names.join(", "), range.trim()]);
+        }
     }
     text
 }
