@@ -839,6 +839,10 @@ def parameters_are_named_and_found_in_plain_words(browser):
         settled(page)
         idle = page.locator(".parameter.idle:has([id='parameter-splitter.x.omega1'])")
         assert "no effect with strategy predictive" in idle.inner_text()
+        page.get_by_label("Find a parameter").fill("automaticScale.error")
+        idle = page.locator(".parameter.idle:has([id='parameter-automaticScale.error'])")
+        assert "no effect unless scale.automatic is on" in idle.inner_text()
+        page.get_by_label("Find a parameter").fill("")
         long = page.evaluate("[...document.querySelectorAll('#tuning .parameter input[type=number], #tuning .end')].map((one) => one.value ?? one.textContent)")
         too_long = [text for text in long if sum(c.isdigit() for c in text.lstrip("0.-\u2212").split("e")[0]) > 4]
         assert not too_long, too_long

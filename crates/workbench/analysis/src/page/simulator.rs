@@ -103,3 +103,25 @@ fn parameter(row: &Row, element: usize, [start, base]: [f64; 2], half_stroke: f6
         name,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_has_the_slider_the_heading_and_the_conditions_of_its_row() {
+        let parameters = parameters(&Parameters::default(), &Parameters::default());
+        let of = |name: &str| parameters.iter().find(|parameter| parameter.name == name).unwrap();
+        let conditions = |name| {
+            let used_if = &of(name).used_if;
+            used_if.iter().map(|(other, values)| format!("{other} {}", values.join(" "))).collect::<Vec<_>>()
+        };
+        assert_eq!((of("splitter.z.zeta1").slider, &of("splitter.z.zeta1").group), ([0.3, 2.0], &None));
+        assert_eq!(of("optimal.splitTime").group.as_deref(), Some("The strategy's weights"));
+        assert_eq!((of("actuator.minLength").slider, of("safety.x.velocityLimit").slider), ([0.7, 1.3], [0.2, 2.0]));
+        assert_eq!(of("softLimit.pace").slider, [0.0, 50.0]);
+        assert_eq!(conditions("splitter.x.omega2"), ["strategy classical", "splitter.order 3 4"]);
+        assert_eq!(conditions("splitter.z.omega2"), ["splitter.order 3 4"]);
+        assert_eq!(conditions("predictive.memory"), ["strategy predictive", "predictive.forecast learned"]);
+    }
+}
