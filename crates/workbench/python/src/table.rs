@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use crate::variables::Variables;
 
 /// A variable as Python gets it: name, causality, kind, unit, least and greatest value, start
-/// value, items, description, name of the vector that it is an element of, usual range, name of the
-/// group with which it is tuned.
+/// value, items, description. After them come its vector's name, the usual range, and the name of
+/// the group with which it is tuned.
 type Variable<'py> = (
     String,
     &'static str,
