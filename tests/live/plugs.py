@@ -3,8 +3,8 @@
     python3 tests/live/plugs.py [SECONDS] [--picture FILE]
 
 Without a time the plugs follow each other at once; with one they are spread over it, as in a ride. Says what happened, and draws
-it. Fails if a leg leaves its stroke or its speed, or if an event has not the effect that docs/live.md names. The picture in
-docs/live.md is that of 150 s.
+it. Fails if a leg leaves its stroke or its speed, if the frames let a rider feel a jolt, or if an event has not the effect that
+docs/live.md names. The picture in docs/live.md is that of 150 s.
 """
 
 import argparse
@@ -18,11 +18,13 @@ from collections import Counter
 from pathlib import Path
 
 from drawing import draw
-from rig import Browser, Controller, Live, Vehicle
+from felt import jolts
+from rig import INTERVAL, STEP, Browser, Controller, Live, Vehicle
 
 from fuzz import packet
 
 SHORT = 0.3  # s between the plugs without a time
+MOST = 1.0  # largest change of the felt force within 20 ms; the vehicle's own force changes by less than 0.1 [m/s2]
 
 
 class Ride:
@@ -46,6 +48,20 @@ class Ride:
             while not self.disk.is_set():
                 recording.read1(65536)
 
+    def mark(self, name):
+        self.plugs.append((self.controller.rows[-1][0], name))
+
+    def judge(self):
+        """The largest jolt after each plug, from the frames alone."""
+        rows, arrivals = list(self.controller.rows), list(self.controller.arrivals)
+        found = jolts([at for at, _ in rows], [numbers for _, numbers in rows], arrivals, INTERVAL)
+        marks = [(0.0, "the way up"), *self.plugs, (float("inf"), "")]
+        for (begin, name), (end, _) in zip(marks, marks[1:]):
+            jolt, at = max(((jolt, at) for jolt, at in found if begin < at <= end), default=(0.0, begin))
+            print(f"  felt jolt {jolt:.2f} m/s2 at {at:.2f} s: {name}")
+        jolt, at = max(found)
+        assert jolt <= MOST, f"the felt force changes by {jolt:.2f} m/s2 within 20 ms at {at:.2f} s"
+
     def runs_again(self, since):
         """Waits for the cue; in a long ride until it is whole."""
         self.live.wait_for(" s  engaging", since)
@@ -56,14 +72,15 @@ class Ride:
         """Does something, waits for what it is said to cause, and holds until the next."""
         since, frames = len(self.live.said), self.controller.frames
         at = time.monotonic() - self.begin
-        self.plugs.append((self.controller.rows[-1][0], name))
+        self.mark(name)
         act()
         for effect in effects:
             self.live.wait_for(effect, since)
         time.sleep(self.hold)
         said = Counter(text.split(" s  ", 1)[-1] for text in self.live.said[since:])
         said = "; ".join(text + (f" ({count} times)" if count > 1 else "") for text, count in said.items()) or "nothing is said"
-        print(f"{at:6.1f} s  {name:42} {said}; {self.controller.frames - frames} frames", flush=True)
+        seen = f"{self.controller.frames - frames} frames; last {self.controller.last_word()}"
+        print(f"{at:6.1f} s  {name:42} {said}; {seen}", flush=True)
         assert not self.controller.faults, self.controller.faults[:5]
         assert self.live.process.poll() is None
 
@@ -110,6 +127,15 @@ class Ride:
             self.vehicle.holds = True
             time.sleep(seconds)
             self.vehicle.holds = False
+            time.sleep(1.0)
+
+        return act
+
+    def stopped(self, seconds):
+        def act():
+            self.live.interrupt(signal.SIGSTOP)
+            time.sleep(seconds)
+            self.live.interrupt(signal.SIGCONT)
             time.sleep(1.0)
 
         return act
@@ -165,6 +191,7 @@ def ride(seconds, picture):
         one.pull("the source's clock leaps by 1000 s", jump, *glide)
         one.pull("a teleport: the roll jumps by 1 rad", one.broken(fields(7, "1"), 0.5), *glide)
         one.pull("garbage on the source's port", one.garbage, "dropped: ")
+        one.pull("the program is stopped for 0.5 s", one.stopped(0.5), "the computer was late by")
         one.pull("a line of commands that is no UTF-8", lambda: one.live.write(b"\xff\xfe\n"), "commands: ")
         one.pull("a second vehicle on the same port", one.second_vehicle, "telemetry comes from")
         one.pull("30 idle connections to the page", one.idle_connections)
@@ -178,7 +205,7 @@ def ride(seconds, picture):
         one.pull("the recording's disk is full", one.full_disk, "the recording has ended")
         one.pull("the source is away for 2 s", one.silent(2.0), " s  frozen", "telemetry: stale", " s  disengaging")
         since = len(one.live.said)
-        one.plugs.append((one.controller.rows[-1][0], "Ctrl-C"))
+        one.mark("Ctrl-C")
         one.live.interrupt()
         one.live.wait_for(" s  parking", since)
         if not seconds:
@@ -193,6 +220,9 @@ def ride(seconds, picture):
         one.vehicle.ended.set()
         one.controller.ended.set()
         print(f"Ctrl-C: {', '.join(one.controller.words)}; the recording's error is the exit status\n{printed}")
+        one.judge()
+        worst = f"{1e3 * one.controller.gap:.0f} ms between two; {one.controller.step / STEP * 1.2:.2f} times the legs' speed"
+        print(f"{one.controller.frames} frames, at most {worst}")
         if picture:
             Path(picture).write_text(draw(one.controller.rows, one.live.states, one.plugs))
 
@@ -290,6 +320,7 @@ def killed():
     time.sleep(0.2)
     frames = controller.frames
     time.sleep(0.3)
+    left = controller.last_word()
     assert frames > 0 and controller.frames == frames and "stop" not in controller.words
     again = Live(controller)
     again.wait_for("--settled is not believed")
@@ -304,7 +335,7 @@ def killed():
     status, _ = again.end()
     controller.ended.set()
     assert status == 0 and not controller.faults, (status, controller.faults[:5])
-    print(f"kill -9: {frames} frames, and no more; the next session asks where the legs are, and starts slowly")
+    print(f"kill -9: {frames} frames, and no more, the last {left}; the next session asks where the legs are, and starts slowly")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import json
 import os
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -24,7 +25,8 @@ FASTEST = 1.05
 # The time between frames of the form csv [s], and the largest change of a leg from frame to frame [m].
 INTERVAL = 0.01
 STEP = 1.2 * 1.0 * INTERVAL
-
+# Linux's option for the time at which a packet arrived, however late it is read.
+TIMESTAMP = 35 if sys.platform == "linux" else None
 
 # Where locks of controllers lie: those of earlier runs would say how the last session of a port has ended.
 LOCKS = tempfile.TemporaryDirectory()
@@ -44,9 +46,13 @@ class Controller:
         self.frames = 0
         self.keeps = keeps
         self.rows = []
+        self.arrivals = []
         self.words = []
+        self.word = "nothing"
         self.last = None
         self.step = 0.0
+        self.gap = 0.0
+        self.speed = 0.0
         self.faults = []
         self.is_open = True
         self.ended = threading.Event()
@@ -61,17 +67,23 @@ class Controller:
             with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
                 taken.bind(("127.0.0.1", self.port))
                 taken.settimeout(0.2)
+                if TIMESTAMP:
+                    taken.setsockopt(socket.SOL_SOCKET, TIMESTAMP, 1)
                 while self.is_open and not self.ended.is_set():
                     try:
-                        self.take(taken.recv(2000).decode())
+                        frame, stamps, _, _ = taken.recvmsg(2000, 64)
                     except TimeoutError:
                         continue
+                    seconds, nanos = struct.unpack("ll", stamps[0][2]) if stamps else (time.time(), 0)
+                    self.take(frame.decode(), seconds + 1e-9 * nanos)
 
-    def take(self, frame):
+    def take(self, frame, arrival):
         if "," not in frame:
-            self.words.append(frame.strip())
+            self.word = frame.strip()
+            self.words.append(self.word)
             return
         now, *numbers = map(float, frame.split(","))
+        self.word = "frame"
         legs = numbers[:6]
         self.frames += 1
         if not all(STROKE[0] <= leg <= STROKE[1] for leg in legs):
@@ -79,15 +91,22 @@ class Controller:
         if self.last:
             step = max(abs(leg - before) for leg, before in zip(legs, self.last[1]))
             self.step = max(self.step, step)
+            self.gap = max(self.gap, arrival - self.last[2])
+            self.speed = step / INTERVAL
             if step > STEP:
                 self.faults.append(f"{now} s: a leg {1e3 * step:.1f} mm from the last frame")
         if self.last and now > self.last[0]:
             fastest = max(abs(leg - before) for leg, before in zip(legs, self.last[1])) / (now - self.last[0])
             if fastest > FASTEST:
                 self.faults.append(f"{now} s: a leg at {fastest:.2f} m/s")
-        self.last = now, legs
+        self.last = now, legs, arrival
         if self.keeps:
             self.rows.append((now, numbers))
+            self.arrivals.append(arrival)
+
+    def last_word(self):
+        """The last message, and the speed of its legs."""
+        return f"{self.word}, legs at {self.speed:.3f} m/s" if self.word == "frame" else self.word
 
 
 class Vehicle:
