@@ -19,8 +19,12 @@ const GLIDE_SPEED: f64 = 0.1;
 /// Speed of a glide to a controller that was lost, or without frames for so long \[m/s, s\].
 const LOST_SPEED: f64 = 0.05;
 const LONG: f64 = 0.5;
-/// Part of the actuators' acceleration that a glide may add, twice.
-const GLIDE_ACCELERATION: f64 = 0.3;
+/// Acceleration of the legs that a glide may add \[m/s2\], of which a rider feels up to four times
+/// as much, and the same as a part of theirs.
+const GLIDE_ACCELERATION: f64 = 0.25;
+const GLIDE_PART: f64 = 0.3;
+/// Rates at which a glide may go on: with all of its way ahead, and at its end \[1/s\].
+const GLIDE_PACES: [f64; 2] = [1.0, 4.5];
 /// Part of the actuators' acceleration with which a glide brakes before the stroke's end.
 const BRAKING: f64 = 1.2;
 /// Part of a glide that is too short to see.
@@ -103,9 +107,11 @@ impl Glide {
     fn advance(&mut self, time: f64, far: f64, actuators: &Actuators) {
         let steps = (time / STEP).ceil();
         let step = time / steps.max(1.0);
-        let most = GLIDE_ACCELERATION * actuators.acceleration;
-        let fastest = (most / actuators.speed).min((most / far.max(1e-9)).sqrt());
+        let most = GLIDE_ACCELERATION.min(GLIDE_PART * actuators.acceleration);
+        let [first, last] = GLIDE_PACES;
         for _ in 0..steps as u32 {
+            let by_way = (most / (far * self.left).max(1e-9)).sqrt();
+            let fastest = last.min(first / self.left).min(by_way);
             let ahead = (self.left - self.lag) * far;
             let pace = fastest.min(self.speed / ahead.max(1e-9));
             let kept = (-pace * step).exp();

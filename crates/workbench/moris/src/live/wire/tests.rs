@@ -183,6 +183,24 @@ fn a_controller_that_was_lost_is_followed_from_where_it_was() {
     assert_eq!(wire.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
 }
 
+/// A person may sit there.
+#[test]
+fn a_glide_from_rest_is_gentle() {
+    for interval in [1_u32, 10] {
+        let mut wire = Wire::new(f64::from(interval) * 1e-3, ACTUATORS);
+        let at = |time: u32, length: f64| Values { time: f64::from(time) * 1e-3, length: [length; 6], ..commanded(0.0) };
+        wire.pass(Duration::ZERO, &at(0, 1.35));
+        wire.lose();
+        let times = (9_000..40_000).step_by(interval as usize);
+        let lengths: Vec<f64> =
+            times.map(|time| wire.pass(Duration::from_millis(time.into()), &at(time, 1.012)).length[0]).collect();
+        let turns = lengths.windows(3).map(|three| (three[2] - 2.0 * three[1] + three[0]) / wire.interval.powi(2));
+        let most = turns.fold(0.0_f64, |most, turn| most.max(turn.abs()));
+        assert!(most < 1.1 * GLIDE_ACCELERATION, "{interval} ms: {most} m/s2");
+        assert_eq!(*lengths.last().unwrap(), 1.012);
+    }
+}
+
 /// The loop has ended by an error while legs move towards their ends, which they could just reach.
 #[test]
 fn actuators_without_a_loop_come_to_rest_within_the_stroke() {
