@@ -376,7 +376,7 @@ interface! {
     /// The soft limits, in front of the safety units and the actuator guard.
     pub struct SoftLimitParameters: Parameter, Tunable {
         /// Rate at which the platform may approach a limit: at most this times the distance left per second. 0 is off.
-        "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 100.0 } = 5.0;
+        "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 9.0 } = 5.0;
         /// Reserve that is kept at either end of an axis and of an actuator's stroke, at most a quarter of it.
         "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;
     }

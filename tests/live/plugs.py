@@ -29,7 +29,7 @@ MOST = 1.0  # largest change of the felt force within 20 ms; the vehicle's own f
 
 class Ride:
     def __init__(self, seconds, directory):
-        self.hold = seconds / 17 if seconds else SHORT
+        self.hold = seconds / 18 if seconds else SHORT
         self.pipe = directory / "recording"
         os.mkfifo(self.pipe)
         self.disk = threading.Event()

@@ -149,7 +149,7 @@ fn soft_limits_that_do_not_act_change_no_bit() {
     for strategy in [1.0, 2.0, 3.0, 4.0, 5.0] {
         let calm: Force = |t| [0.4 * (0.9 * t).sin(), 0.3 * (1.3 * t).sin(), 0.2 * (2.0 * t).sin()];
         let with = |pace| presets::with("", &[("strategy", strategy), ("softLimit.pace", pace)]);
-        let (on, off) = (felt(&with(12.0), calm), felt(&with(0.0), calm));
+        let (on, off) = (felt(&with(9.0), calm), felt(&with(0.0), calm));
         assert!(on.1.iter().all(|output| !output.soft_limited), "strategy {strategy}");
         assert_eq!(on.1, off.1, "strategy {strategy}");
     }

@@ -15,7 +15,7 @@ const INSIDE: f64 = 0.8;
 /// Speed below which the platform may come to rest anywhere \[m/s\].
 const SLOW: f64 = 0.01;
 /// Most by which the soft limits' margin grows in an interval \[m\].
-const NARROWER: f64 = 0.01;
+const NARROWER: f64 = 0.007;
 /// Least pace with which a limit is approached \[1/s\], where the soft limits have none.
 const SLOWEST: f64 = 1.0;
 

@@ -188,7 +188,8 @@ fn a_controller_that_was_lost_is_followed_from_where_it_was() {
 fn a_glide_from_rest_is_gentle() {
     for interval in [1_u32, 10] {
         let mut wire = Wire::new(f64::from(interval) * 1e-3, ACTUATORS);
-        let at = |time: u32, length: f64| Values { time: f64::from(time) * 1e-3, length: [length; 6], ..commanded(0.0) };
+        let at =
+            |time: u32, length: f64| Values { time: f64::from(time) * 1e-3, length: [length; 6], ..commanded(0.0) };
         wire.pass(Duration::ZERO, &at(0, 1.35));
         wire.lose();
         let times = (9_000..40_000).step_by(interval as usize);
