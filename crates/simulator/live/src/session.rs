@@ -555,13 +555,12 @@ impl Session {
         }
         self.adjust_delay();
         if let Some(parameters) = self.tuning.advance(self.steps) {
-            let safety = tuning::with_room(&parameters, &self.washout);
-            let soft_limit = tuning::with_pace(&Parameters { safety, ..parameters }, &self.washout);
-            if safety != parameters.safety || soft_limit != parameters.soft_limit {
+            let gentle = tuning::with_gentle_limits(&parameters, &self.washout);
+            if gentle != parameters {
                 self.tuning.go_on();
             }
             // Values on the way may be refused where both ends are not: the next ones follow.
-            let _ = self.washout.retune(&Parameters { safety, soft_limit, ..parameters });
+            let _ = self.washout.retune(&gentle);
         }
         self.learn_road(now - STEP - self.delay);
         let (at, change) = self.input(now);

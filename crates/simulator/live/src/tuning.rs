@@ -1,7 +1,7 @@
 //! Parameters that glide to chosen values within about 2 s.
 
 use moris_interface::{Group as _, Kind, Reader, refuse};
-use moris_washout::interface::{SafetyParameters, SoftLimitParameters};
+use moris_washout::interface::{SafetyParameters, SoftLimitParameters, TiltParameters};
 use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::log::name_of;
@@ -90,9 +90,38 @@ impl Tuning {
     }
 }
 
+/// These parameters, with limits in force that the platform can keep gently now.
+pub fn with_gentle_limits(parameters: &Parameters, washout: &Washout) -> Parameters {
+    let safety = with_room(parameters, washout);
+    let tilt = with_tilt(parameters, washout);
+    let parameters = Parameters { safety, tilt, ..*parameters };
+    Parameters { soft_limit: with_pace(&parameters, washout), ..parameters }
+}
+
+/// The tilt's limits of these parameters. Where a tilt is beyond smaller ones, or could not end
+/// within them, those in force stay.
+fn with_tilt(parameters: &Parameters, washout: &Washout) -> TiltParameters {
+    let (before, mut tilt) = (&washout.parameters().tilt, parameters.tilt);
+    let output = washout.output();
+    let axes = [(output.tilt_roll, output.tilt_roll_rate), (output.tilt_pitch, output.tilt_pitch_rate)];
+    let fits = axes.into_iter().all(|(angle, rate)| {
+        let stopping = rate * rate / (2.0 * tilt.acceleration_limit);
+        angle.abs() + stopping <= INSIDE * tilt.angle_limit && rate.abs() <= INSIDE * tilt.rate_limit
+    });
+    let least = if fits { 1.0 - PART } else { 1.0 };
+    for (limit, old) in [
+        (&mut tilt.angle_limit, before.angle_limit),
+        (&mut tilt.rate_limit, before.rate_limit),
+        (&mut tilt.acceleration_limit, before.acceleration_limit),
+    ] {
+        *limit = limit.max(least * old);
+    }
+    tilt
+}
+
 /// The safety units' limits of these parameters. On an axis where the platform is beyond smaller
 /// ones, or too fast to stay within them gently, those in force stay.
-pub fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
+fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
     let (before, mut safety) = (&washout.parameters().safety, parameters.safety);
     let motion = washout.motion();
     let neutral = washout.parameters().rig.neutral_height;
@@ -119,7 +148,7 @@ pub fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters
 /// The soft limits of these parameters, towards which they change gradually. Those in force stay
 /// while the platform is so fast that a lower pace or a larger margin would not stop it in time:
 /// the guard would have to.
-pub fn with_pace(parameters: &Parameters, washout: &Washout) -> SoftLimitParameters {
+fn with_pace(parameters: &Parameters, washout: &Washout) -> SoftLimitParameters {
     let before = washout.parameters().soft_limit;
     let SoftLimitParameters { pace, margin } = parameters.soft_limit;
     let soft_limit = SoftLimitParameters {

@@ -126,6 +126,16 @@ fn other_signs_and_switches_are_refused_in_motion_with_the_reason() {
     }
 }
 
+/// Coins, the same with each run.
+fn coin(mut seed: u64) -> impl FnMut() -> bool {
+    move || {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        seed.is_multiple_of(2)
+    }
+}
+
 #[test]
 fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
     let all = packets(40.0, |t| {
@@ -136,13 +146,7 @@ fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
         let slots = ["x", "y", "z"].map(|axis| slot_of(&format!("safety.{axis}.{name}Limit")).unwrap());
         (slots, low, high)
     });
-    let mut seed = 1_u64;
-    let mut coin = move || {
-        seed ^= seed << 13;
-        seed ^= seed >> 7;
-        seed ^= seed << 17;
-        seed.is_multiple_of(2)
-    };
+    let mut coin = coin(1);
     for ride in 0..8 {
         let (session, course) = course(&Parameters::default(), &Settings::default(), &all, 39.0, |session| {
             let step = (session.time() / STEP).round() as u64;
@@ -165,5 +169,40 @@ fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
         let safety = session.washout().parameters().safety;
         let sums = [safety.position_limit, safety.velocity_limit, safety.acceleration_limit].map(|limit| limit.sum());
         assert!(sums.iter().zip(&limits).all(|(sum, (_, low, _))| (sum - 3.0 * low).abs() < 1e-9), "{safety:?}");
+    }
+}
+
+/// Sliders of several parameters at random, each from one end to the other at 25 Hz.
+#[test]
+fn sliders_moved_at_random_are_no_jolt() {
+    const SLIDERS: [(&str, f64, f64); 6] = [
+        ("scale.specificForce.x", 0.1, 1.0),
+        ("softLimit.pace", 1.0, FASTEST),
+        ("softLimit.margin", 0.01, 0.1),
+        ("tilt.angleLimit", 0.05, 0.3),
+        ("tilt.rateLimit", 0.02, 0.3),
+        ("tilt.accelerationLimit", 0.1, 1.0),
+    ];
+    let all = packets(40.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    });
+    let slots = SLIDERS.map(|(name, ..)| slot_of(name).unwrap());
+    for set in ["", presets::CAR, presets::ADAPTIVE, presets::OPTIMAL, presets::ROBUST, presets::CLASSICAL] {
+        let parameters = presets::parameters(set);
+        for moved in [0b000001_u32, 0b001000, 0b010000, 0b001010, 0b111111] {
+            let mut coin = coin(u64::from(moved));
+            let (_, course) = course(&parameters, &Settings::default(), &all, 39.0, |session| {
+                let step = (session.time() / STEP).round() as u64;
+                if !(18.0..30.0).contains(&session.time()) || !step.is_multiple_of(40) {
+                    return;
+                }
+                for (k, (_, low, high)) in SLIDERS.iter().enumerate().filter(|(k, _)| moved >> k & 1 == 1) {
+                    session.choose(slots[k], if coin() { *low } else { *high });
+                }
+                session.retune().unwrap();
+            });
+            let jolt = course.jolt(17.0, 38.0);
+            assert!(jolt <= 1.0, "{set}, sliders {moved:06b}: {jolt:.2} m/s2");
+        }
     }
 }

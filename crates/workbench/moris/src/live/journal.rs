@@ -1,7 +1,6 @@
 //! The journal: events on standard error, and the recorded session.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io;
 use std::time::Duration;
 
 use moris_live::log::Entry;
@@ -13,6 +12,7 @@ use rtrb::Consumer;
 use super::console;
 use super::frames::Loss;
 use super::page::Desk;
+use super::recorder::Recorder;
 use super::watch::Part;
 
 /// Something that happened at a time \[s\].
@@ -88,14 +88,13 @@ fn line(note: &Note) -> Option<String> {
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>) -> io::Result<()> {
-    let mut record = record.map(BufWriter::new);
+pub fn keep(mut notes: Consumer<Note>, mut record: Option<Recorder>, page: Option<&Desk>) -> io::Result<()> {
     let mut recorded = Ok(());
     loop {
         let ended = notes.is_abandoned();
         while let Ok(note) = notes.pop() {
-            if let (Note::Entry(entry), Some(file)) = (note, &mut record) {
-                recorded = writeln!(file, "{entry}");
+            if let (Note::Entry(entry), Some(recorder)) = (note, &record) {
+                recorded = recorder.take(entry);
             } else if let Some(line) = line(&note) {
                 say(&line, page);
             }
@@ -106,7 +105,7 @@ pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>
             }
         }
         if ended {
-            let recorded = recorded.and_then(|()| record.map_or(Ok(()), |mut file| file.flush()));
+            let recorded = recorded.and_then(|()| record.map_or(Ok(()), Recorder::end));
             // As a text: a pipe that is closed is no success of the command here.
             return recorded.map_err(|error| io::Error::other(error.to_string()));
         }

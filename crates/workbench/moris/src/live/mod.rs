@@ -14,7 +14,7 @@
 //! - `frames` sends frames; `wire` keeps them within the speed of actuators, `contact` sees a
 //!   controller that is gone, `occupied` one that another session has.
 //! - `sender` follows one sender of telemetry and explains what it sends; `journal` prints what
-//!   happens and records the session.
+//!   happens; `recorder` records the session.
 //! - `page` serves the page in a browser.
 //! - `tables` lists formats and templates.
 //!
@@ -34,6 +34,7 @@ mod page;
 mod parking;
 mod place;
 mod priority;
+mod recorder;
 #[cfg(feature = "ros2")]
 mod ros2;
 mod sender;
@@ -71,6 +72,7 @@ use frames::{Device, Sender, Sent, Sink};
 use occupied::Occupied;
 use page::{Desk, Server, Start};
 use place::LegPlace;
+use recorder::Recorder;
 use signals::{Interrupts, Signals};
 use watch::{Failed, Part, watch};
 use wire::Actuators;
@@ -321,6 +323,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(file) = &mut record {
         file.write_all(header.as_bytes()).context("cannot record the session")?;
     }
+    let record = record.map(Recorder::new).transpose().context("cannot record the session")?;
     let votes = options.votes.as_ref().map(|file| File::options().append(true).create(true).open(file));
     let votes = votes.transpose().context("cannot write votes")?;
     let shared = Arc::new(Shared::default());

@@ -6,7 +6,7 @@
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read as _, Seek as _, Write as _};
-use std::net::ToSocketAddrs;
+use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
@@ -17,6 +17,8 @@ use super::console;
 #[derive(Debug)]
 pub struct Occupied {
     file: Option<File>,
+    /// The file has no other text than this program's: something else would be lost.
+    is_own: bool,
     /// The session before has not parked.
     was_left: bool,
 }
@@ -42,7 +44,7 @@ impl Occupied {
     /// Keeps for the next session whether the legs are left somewhere. A file of another user stays
     /// as it is.
     pub fn leave(&mut self, is_left: bool) {
-        if let Some(file) = &mut self.file {
+        if let Some(file) = self.file.as_mut().filter(|_| self.is_own) {
             let text = if is_left { LEFT } else { "" };
             let _ = file.rewind().and_then(|()| file.set_len(0)).and_then(|()| file.write_all(text.as_bytes()));
         }
@@ -52,10 +54,11 @@ impl Occupied {
         let path = directory.join(name(target));
         let locked = open(&path).map_err(TryLockError::Error).and_then(|file| file.try_lock().map(|()| file));
         match locked {
-            Ok(mut file) => {
+            Ok(file) => {
                 let mut text = String::new();
-                let was_left = file.read_to_string(&mut text).is_ok() && text == LEFT;
-                Ok(Occupied { file: Some(file), was_left })
+                let is_read = (&file).take(1 + LEFT.len() as u64).read_to_string(&mut text).is_ok();
+                let is_own = is_read && ["", LEFT].contains(&text.as_str());
+                Ok(Occupied { file: Some(file), is_own, was_left: text == LEFT })
             }
             Err(TryLockError::WouldBlock) => {
                 bail!("another session of moris live sends to {target}; end it first (its lock is {})", path.display())
@@ -63,7 +66,7 @@ impl Occupied {
             Err(TryLockError::Error(error)) => {
                 let file = path.display();
                 console::line(&format!("no lock of the controller: {file}: {error}; a second session is not noticed"));
-                Ok(Occupied { file: None, was_left: false })
+                Ok(Occupied { file: None, is_own: false, was_left: false })
             }
         }
     }
@@ -87,8 +90,15 @@ fn open(path: &Path) -> std::io::Result<File> {
 fn name(target: &str) -> PathBuf {
     let plain = match target.split_once(':') {
         Some(("udp", address)) => {
-            let found = address.to_socket_addrs().ok().and_then(|mut all| all.next());
-            found.map_or_else(|| target.to_owned(), |address| format!("udp:{address}"))
+            // That to which frames go: no address is this machine.
+            let found = address.to_socket_addrs().ok().and_then(|mut all| all.find(SocketAddr::is_ipv4));
+            let found = found.map(|mut address| {
+                if address.ip().is_unspecified() {
+                    address.set_ip(Ipv4Addr::LOCALHOST.into());
+                }
+                format!("udp:{address}")
+            });
+            found.unwrap_or_else(|| target.to_owned())
         }
         Some(("serial", line)) => {
             let line = line.rsplit_once(':').map_or(line, |(line, _)| line);
@@ -110,11 +120,10 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let take = |target: &str| Occupied::take_in(directory.path(), target);
         let first = take("udp:127.0.0.1:5000").unwrap();
-        for same in ["udp:127.0.0.1:5000", "udp:localhost:5000"] {
-            if name(same) == name("udp:127.0.0.1:5000") {
-                let refused = take(same).unwrap_err().to_string();
-                assert!(refused.contains("another session") && refused.contains(".lock"), "{refused}");
-            }
+        // Frames go by IPv4, and to no address means to this machine.
+        for same in ["udp:127.0.0.1:5000", "udp:localhost:5000", "udp:0.0.0.0:5000"] {
+            let refused = take(same).unwrap_err().to_string();
+            assert!(refused.contains("another session") && refused.contains(".lock"), "{refused}");
         }
         take("udp:127.0.0.1:5001").unwrap();
         drop(first);
@@ -135,6 +144,21 @@ mod tests {
         parks.leave(false);
         drop(parks);
         assert!(!take().was_left());
+    }
+
+    /// A link to something that is no lock, as somebody may have made in a folder of all users.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_lock_stays_as_it_is() {
+        let directory = tempfile::tempdir().unwrap();
+        let [theirs, link] =
+            [PathBuf::from("theirs"), name("udp:127.0.0.1:5000")].map(|name| directory.path().join(name));
+        fs::write(&theirs, "a letter").unwrap();
+        std::os::unix::fs::symlink(&theirs, link).unwrap();
+        let mut taken = Occupied::take_in(directory.path(), "udp:127.0.0.1:5000").unwrap();
+        taken.leave(true);
+        assert!(Occupied::take_in(directory.path(), "udp:127.0.0.1:5000").is_err());
+        assert_eq!(fs::read_to_string(&theirs).unwrap(), "a letter");
     }
 
     #[cfg(unix)]
