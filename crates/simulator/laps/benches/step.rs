@@ -1,9 +1,11 @@
-//! Benchmarks of the memory: a sample and the preview after it, while six passes are followed.
+//! Benchmarks of the memory: a sample and the preview after it, while six passes are followed, and
+//! the slowest step with a tick.
 //!
 //! `cargo bench -p moris-laps`
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use moris_laps::{Laps, Sample};
@@ -47,5 +49,31 @@ fn step(c: &mut Criterion) {
     bench("a sample each 50 ms: a tick in each step", 0.05);
 }
 
-criterion_group!(benches, step);
+/// The slowest step of a lap after so many, each the fastest of equal ones. With a break the passes
+/// are found again.
+fn slowest_step(_: &mut Criterion) {
+    for (laps, breaks) in [(8, false), (8, true), (32, false), (32, true)] {
+        let lap = lap(0.05);
+        let mut memory = Laps::new();
+        lap.iter().cycle().take(laps * lap.len()).for_each(|sample| memory.step(sample));
+        let mut fastest = vec![Duration::MAX; lap.len()];
+        for _ in 0..50 {
+            let mut memory = memory.clone();
+            if breaks {
+                memory.interrupt();
+            }
+            for (sample, fastest) in lap.iter().zip(&mut fastest) {
+                let begin = Instant::now();
+                memory.step(black_box(sample));
+                black_box(memory.preview());
+                *fastest = begin.elapsed().min(*fastest);
+            }
+        }
+        let slowest = fastest.iter().max().unwrap_or(&Duration::ZERO);
+        let after = if breaks { " and a break" } else { "" };
+        println!("slowest step with a tick after {laps} laps{after}: {:.2} us", 1e6 * slowest.as_secs_f64());
+    }
+}
+
+criterion_group!(benches, step, slowest_step);
 criterion_main!(benches);

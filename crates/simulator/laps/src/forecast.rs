@@ -4,6 +4,8 @@
 //! the present force is from theirs. For each time ahead, b is the least-squares fit to what came
 //! in the last minute, with a prior that fades with the time ahead.
 
+use std::sync::LazyLock;
+
 use serde::{Deserialize, Serialize};
 
 use crate::smooth::{LAG, LATEST_LAG};
@@ -54,16 +56,19 @@ struct Made {
     slope: f64,
 }
 
-/// Growth of a trend up to an element; it fades \[s\].
-fn trend(element: usize) -> f64 {
-    let time = TICK * ((element + 1) * SPACING) as f64 + LATEST_LAG;
-    TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME))
+/// Time ahead of an element \[s\].
+pub fn time_ahead(element: usize) -> f64 {
+    TICK * ((element + 1) * SPACING) as f64
 }
 
-/// Part of a difference that is expected to last up to an element.
-fn lasting(element: usize) -> f64 {
-    libm::exp(-TICK * ((element + 1) * SPACING) as f64 / LASTING_TIME)
-}
+/// Growth of a trend up to each compared time; it fades \[s\].
+static TRENDS: LazyLock<[f64; COMPARED.len()]> = LazyLock::new(|| {
+    COMPARED.map(|element| TREND_TIME * (1.0 - libm::exp(-(time_ahead(element) + LATEST_LAG) / TREND_TIME)))
+});
+
+/// Parts of a difference that are expected to last up to the elements.
+static LASTING: LazyLock<[f64; AHEAD]> =
+    LazyLock::new(|| std::array::from_fn(|element| libm::exp(-time_ahead(element) / LASTING_TIME)));
 
 /// Sums of D^2 and of D times the error of M.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -124,7 +129,7 @@ impl Record {
         self.made[self.latest] = Made { is_known: true, held, slope, ..Made::default() };
         let (passes, now) = passes?;
         let difference = held - now;
-        let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried(lasting(k)) * difference);
+        let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried(LASTING[k]) * difference);
         let forces = COMPARED.map(|k| forecast[k]);
         self.made[self.latest] =
             Made { is_known: true, is_made: true, passes: *passes, difference, forces, held, slope };
@@ -144,7 +149,7 @@ impl Record {
         let [mut square, mut without, mut count] = [0.0; 3];
         for (k, element) in COMPARED.into_iter().enumerate() {
             let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
-            let plain = [made.held, 0.0, made.held + made.slope * trend(element)];
+            let plain = [made.held, 0.0, made.held + made.slope * TRENDS[k]];
             let squares = plain.map(|forecast| (forecast - truth) * (forecast - truth));
             if made.is_made {
                 let best = (0..3).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);

@@ -1,22 +1,17 @@
 //! The whole: samples in, preview out.
 
+use std::sync::LazyLock;
+
 use moris_washout::Preview;
 use serde::{Deserialize, Serialize};
 
-use crate::forecast::{AHEAD, Record, SPACING};
+use crate::forecast::{AHEAD, Record, SPACING, time_ahead};
 use crate::line::{CAPACITY, Line, Point};
-use crate::pass::{NEAR, Pass, SAME_DIRECTION, UNKNOWN, dot, fade};
+use crate::pass::{PASSES, Pass, UNKNOWN, fade};
+use crate::search::{APART, LEAST_AGE, Search};
 use crate::smooth::{LAG, LATEST_LAG, Smooth};
-use crate::ticks::{Sample, TICK, Ticks, distance};
+use crate::ticks::{Sample, TICK, Ticks};
 
-/// Passes that are followed at once.
-const PASSES: usize = 6;
-/// Points by which a pass is older than the vehicle, at least: 8 s.
-const LEAST_AGE: u64 = 160;
-/// Points by which two passes are apart, at least.
-const APART: f64 = 100.0;
-/// Ticks from one search for passes to the next.
-const SEARCH_EVERY: u32 = 10;
 /// Ticks of the vehicle's way with which a found pass is compared.
 const COMPARED: u64 = 80;
 /// Below this speed there is no line to follow \[m/s\].
@@ -25,6 +20,8 @@ const LEAST_SPEED: f64 = 1.0;
 const WEIGHT_FLOOR: f64 = 0.02;
 /// Difference of the pace from 1 at which a pass has half of its weight.
 const ALIKE: f64 = 0.05;
+/// Parts of the differences of the pace that are left at the times ahead.
+static FADES: LazyLock<[f64; AHEAD]> = LazyLock::new(|| std::array::from_fn(|k| fade(time_ahead(k))));
 /// Trust from which on there is a preview, and below which there is none any more.
 const GIVEN: [f64; 2] = [0.4, 0.1];
 
@@ -38,7 +35,7 @@ pub struct Laps {
     /// Force of surge and sway to come by the passes \[m/s2\].
     forecast: Option<[[f64; AHEAD]; 2]>,
     records: [Record; 2],
-    until_search: u32,
+    search: Search,
     is_given: bool,
 }
 
@@ -86,8 +83,8 @@ impl Laps {
     }
 
     fn parts(&mut self) -> (&mut Ticks, Whole<'_>) {
-        let Laps { ticks, smooth, line, passes, forecast, records, until_search, is_given } = self;
-        (ticks, Whole { smooth, line, passes, forecast, records, until_search, is_given })
+        let Laps { ticks, smooth, line, passes, forecast, records, search, is_given } = self;
+        (ticks, Whole { smooth, line, passes, forecast, records, search, is_given })
     }
 
     /// Number of earlier passes of this place that are followed.
@@ -134,7 +131,7 @@ struct Whole<'a> {
     passes: &'a mut [Option<Pass>; PASSES],
     forecast: &'a mut Option<[[f64; AHEAD]; 2]>,
     records: &'a mut [Record; 2],
-    until_search: &'a mut u32,
+    search: &'a mut Search,
     is_given: &'a mut bool,
 }
 
@@ -143,7 +140,7 @@ impl Whole<'_> {
         *self.smooth = Smooth::default();
         self.line.interrupt();
         *self.passes = [None; PASSES];
-        *self.until_search = 0;
+        *self.search = Search::default();
         *self.is_given = false;
         *self.forecast = None;
         for record in self.records.iter_mut() {
@@ -172,10 +169,10 @@ impl Whole<'_> {
         for pass in self.passes.iter_mut().flatten() {
             pass.compare(self.line, point.force);
         }
-        *self.until_search = self.until_search.saturating_sub(1);
-        if is_moving && *self.until_search == 0 {
-            *self.until_search = SEARCH_EVERY;
-            self.search();
+        if !is_moving {
+            *self.search = Search::default();
+        } else if let Some(number) = self.search.tick(self.line, &place, self.passes) {
+            self.follow(number);
         }
         let held = self.smooth.latest();
         let known = self.by_passes();
@@ -200,45 +197,12 @@ impl Whole<'_> {
         }
     }
 
-    /// Looks for passes that are not followed yet; the latest ones are preferred.
-    fn search(&mut self) {
-        let place = *self.smooth.place();
-        let next = self.line.next();
-        let mut found: [Option<(u64, f64)>; PASSES] = [None; PASSES];
-        let passes = &*self.passes;
-        self.line.visit_around(&place.position, |number, point| {
-            let apart = distance(&point.position, &place.position);
-            if apart > NEAR || number + LEAST_AGE > next || dot(&point.direction, &place.direction) < SAME_DIRECTION {
-                return;
-            }
-            if passes.iter().flatten().any(|pass| (pass.number - number as f64).abs() < APART) {
-                return;
-            }
-            let same = found.iter_mut().flatten().find(|(other, _)| other.abs_diff(number) < APART as u64);
-            if let Some(same) = same {
-                if apart < same.1 {
-                    *same = (number, apart);
-                }
-                return;
-            }
-            // The oldest of those found gives way.
-            let age = |slot: &Option<(u64, f64)>| slot.map_or(0, |(number, _)| number + 1);
-            if let Some(oldest) = found.iter_mut().min_by_key(|slot| age(slot))
-                && age(oldest) <= number
-            {
-                *oldest = Some((number, apart));
-            }
-        });
-        for (number, _) in found.into_iter().flatten() {
-            let mut pass = Pass::new(number);
-            pass.errors = self.errors_so_far(number);
-            let oldest = |slot: &Option<Pass>| slot.map_or(-1.0, |pass| pass.number);
-            let slot = self.passes.iter_mut().min_by(|a, b| oldest(a).total_cmp(&oldest(b)));
-            if let Some(slot) = slot
-                && oldest(slot) < number as f64
-            {
-                *slot = Some(pass);
-            }
+    /// Follows a pass from this point on, in place of the oldest one that is followed.
+    fn follow(&mut self, number: u64) {
+        let oldest = |slot: &Option<Pass>| slot.map_or(-1.0, |pass| pass.number);
+        let slot = self.passes.iter().enumerate().min_by(|(_, a), (_, b)| oldest(a).total_cmp(&oldest(b)));
+        if let Some((slot, _)) = slot.filter(|(_, pass)| oldest(pass) < number as f64) {
+            self.passes[slot] = Some(Pass::new(number, self.errors_so_far(number)));
         }
     }
 
@@ -272,12 +236,10 @@ impl Whole<'_> {
         let mut ahead = [[0.0; AHEAD]; 2];
         let mut now = [0.0; 2];
         let mut weights = [0.0; 2];
-        let times: [f64; AHEAD] = std::array::from_fn(|k| ((k + 1) * SPACING) as f64 * TICK);
-        let fades = times.map(fade);
         for pass in self.passes.iter().flatten() {
             let mut forces = [[0.0; 2]; AHEAD];
             let is_known = forces.iter_mut().enumerate().all(|(k, force)| {
-                let there = pass.force_ahead(self.line, times[k], fades[k]);
+                let there = pass.force_ahead(self.line, time_ahead(k), FADES[k]);
                 *force = there.unwrap_or_default();
                 there.is_some()
             });

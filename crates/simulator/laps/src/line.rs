@@ -13,7 +13,9 @@ const CELL: f64 = 10.0;
 /// Least distance of listed points \[m\].
 const LISTED: f64 = 2.0;
 /// Points visited in a cell, at most.
-const VISITS: usize = 256;
+const VISITS: usize = 128;
+/// Rows and columns of the cells around a place.
+pub const ROWS: usize = 3;
 /// Number that is no point's.
 const NONE: u64 = u64::MAX;
 
@@ -106,17 +108,17 @@ impl Line {
         Some(Between { from, to, fraction: number - whole })
     }
 
-    /// Calls `visit` with listed points around a position.
-    pub fn visit_around(&self, position: &[f64; 3], mut visit: impl FnMut(u64, &Point)) {
+    /// Calls `visit` with listed points in a row of the cells around a position, not before the
+    /// point with number `first`.
+    pub fn visit_around(&self, position: &[f64; 3], row: usize, first: u64, mut visit: impl FnMut(u64, &Point)) {
         let [x, y] = cell(position);
-        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-            let cell_visited = [x.wrapping_add(dx), y.wrapping_add(dy)];
-            let mut number = self.lists[list(cell_visited)];
+        for column in 0..ROWS {
+            let [dx, dy] = [column, row].map(|place| place as i64 - 1);
+            let mut number = self.lists[list([x.wrapping_add(dx), y.wrapping_add(dy)])];
             for _ in 0..VISITS {
-                let Some(point) = self.point(number) else { break };
-                if cell(&point.position) == cell_visited {
-                    visit(number, point);
-                }
+                let Some(point) = self.point(number).filter(|_| number >= first) else { break };
+                // Those of other cells in the list are far away.
+                visit(number, point);
                 let before = self.before[number as usize % CAPACITY];
                 if before >= number {
                     break;

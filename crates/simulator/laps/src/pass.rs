@@ -6,6 +6,8 @@ use crate::line::Line;
 use crate::smooth::{LAG, RoadPoint};
 use crate::ticks::TICK;
 
+/// Passes that are followed at once.
+pub const PASSES: usize = 6;
 /// Distance from the remembered line within which the vehicle is on it \[m\].
 pub const NEAR: f64 = 10.0;
 /// Cosine of the angle between two directions that are the same.
@@ -48,9 +50,9 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// A pass at a point.
-    pub fn new(number: u64) -> Self {
-        Pass { number: number as f64, pace: 1.0, errors: [UNKNOWN; 2], missed: 0 }
+    /// A pass at a point, with its squared errors so far.
+    pub fn new(number: u64, errors: [f64; 2]) -> Self {
+        Pass { number: number as f64, pace: 1.0, errors, missed: 0 }
     }
 
     /// Goes on by a tick to the place beside the vehicle. False where the vehicle has left the
