@@ -119,7 +119,7 @@ mod tests {
         assert_eq!((of("splitter.z.zeta1").slider, &of("splitter.z.zeta1").group), ([0.3, 2.0], &None));
         assert_eq!(of("optimal.splitTime").group.as_deref(), Some("The strategy's weights"));
         assert_eq!((of("actuator.minLength").slider, of("safety.x.velocityLimit").slider), ([0.7, 1.3], [0.2, 2.0]));
-        assert_eq!(of("softLimit.pace").slider, [0.0, 50.0]);
+        assert_eq!(of("automaticScale.fallTime").slider, [0.1, 6.0]);
         assert_eq!(conditions("splitter.x.omega2"), ["strategy classical", "splitter.order 3 4"]);
         assert_eq!(conditions("splitter.z.omega2"), ["splitter.order 3 4"]);
         assert_eq!(conditions("predictive.memory"), ["strategy predictive", "predictive.forecast learned"]);
