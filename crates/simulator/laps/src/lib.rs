@@ -32,7 +32,7 @@
 //! - `ticks` makes equal ticks of 50 ms of it, and `smooth` the force and the position that are
 //!   remembered.
 //! - `line` is the memory: a ring of points, found by place.
-//! - `search` finds earlier passes of a place, and `pass` follows an earlier pass beside the vehicle.
+//! - `search` finds earlier passes of a place, and `pass` follows one of them beside the vehicle.
 //! - `forecast` makes the forecast of an axis of them, and compares it with what came.
 //! - `text` writes the memory as text, and reads it.
 
