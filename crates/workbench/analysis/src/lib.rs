@@ -7,6 +7,9 @@
 //! - [`washout_fmu`] steps another washout's FMU through a recording.
 //! - [`tune`] finds better parameters.
 //! - [`rig`] surveys a platform and draws it.
+//! - [`fit`] finds the scale at which the cues have the right sign, [`measure`] the figures of each
+//!   channel, and [`worst_case`] those on machines that differ from the nominal one.
+//! - [`bench`](mod@bench) compares washouts on fixed drives and rigs.
 //! - [`frequency_response`] measures the whole washout's.
 //! - [`page`] makes the report's page.
 //!
@@ -15,10 +18,13 @@
 
 #![forbid(unsafe_code)]
 
+pub mod bench;
 pub mod bounds;
+pub mod fit;
 pub mod frequency_response;
 pub mod host;
 pub mod learned_road;
+pub mod measure;
 pub mod option_values;
 pub mod outcome;
 pub mod page;
@@ -28,3 +34,4 @@ pub mod rig;
 pub mod text_table;
 pub mod tune;
 pub mod washout_fmu;
+pub mod worst_case;

@@ -41,7 +41,7 @@ pub mod tune;
 pub mod votes;
 pub mod worst_case;
 
-use moris_analysis::{learned_road, option_values, random};
+use moris_analysis::{learned_road, option_values};
 pub use moris_analysis::{recording, text_table, washout_fmu};
 pub use moris_pages::VERSION;
 

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use moris_measures::Axes;
 use moris_setup::Setup;
+use moris_simulation::Simulation;
 use moris_simulation::drives::bench::{Drive, FRAME};
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
@@ -14,9 +15,10 @@ use moris_washout::platform::Pose;
 
 use super::columns::COLUMNS;
 use super::rigs::BenchRig;
+use crate::bounds::{self, AxisBound};
+use crate::outcome::Outcome;
 use crate::recording::felt::FeltTable;
 use crate::recording::{Recording, source};
-use crate::simulate::{AxisBound, Outcome, Simulation, bounds};
 use crate::washout_fmu::WashoutFmu;
 
 /// Interval of the bound's controls \[s\].
@@ -90,16 +92,10 @@ enum Source {
 
 impl Foreign {
     /// The folder, under its own name.
-    ///
-    /// # Errors
-    /// There is no such folder.
-    pub fn of(folder: &Path) -> Result<Self> {
-        if !folder.is_dir() {
-            bail!("--felt {}: there is no such folder", folder.display());
-        }
+    pub fn of(folder: &Path) -> Self {
         let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let name = full.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Foreign { name, source: Source::Folder(folder.to_owned()) })
+        Foreign { name, source: Source::Folder(folder.to_owned()) }
     }
 
     /// The FMU with its map, under the FMU's name.

@@ -1,4 +1,6 @@
-//! Recordings fitted with several strategies.
+//! Recordings fitted with several strategies, and drives for those who have no recording.
+
+pub mod usual;
 
 use anyhow::{Context, Result};
 use moris_setup::Setup;

@@ -1,8 +1,6 @@
 //! Figures that a set of parameters is to reach, and those that it misses.
 
-use moris_simulation::capitalised;
 use moris_simulation::channels::ChannelFigures;
-use moris_simulation::frequency_response::channel::name;
 use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
@@ -12,34 +10,38 @@ use super::MeasuredRecording;
 pub const LEAST_FORCE: f64 = 0.03;
 
 /// Targets for a set of parameters.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(next_help_heading = "Targets")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+#[cfg_attr(feature = "clap", command(next_help_heading = "Targets"))]
 pub struct Targets {
     /// Largest geometric mean of the RMS errors of surge and sway over all recordings, each
     /// error at least 0.03 m/s2
-    #[arg(long, value_name = "M/S2", default_value_t = 0.68)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M/S2", default_value_t = 0.68))]
     pub geometric_mean: f64,
 
     /// Largest RMS error of surge and sway, as a multiple of that of a platform at rest
-    #[arg(long, value_name = "RATIO", default_value_t = 1.15)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "RATIO", default_value_t = 1.15))]
     pub ratio: f64,
 
     /// Recordings, by name, of which no ratio is asked: they have a set of their own
-    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NAME", value_delimiter = ','))]
     pub ratio_except: Vec<String>,
 
     /// Largest RMS error of heave beyond that of a platform at rest
-    #[arg(long, value_name = "M/S2", default_value_t = 0.15)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "M/S2", default_value_t = 0.15))]
     pub heave: f64,
 
     /// Largest fraction of a recording's steps in which a safety unit or the actuator
     /// guard limits the platform
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.01)]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FRACTION", default_value_t = 0.01))]
     pub limited: f64,
 
     /// Largest fraction of the time with a false or a missing cue of a rate, over all recordings,
     /// beyond that of a platform at rest
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_negative_numbers = true)
+    )]
     pub cues: f64,
 }
 
@@ -75,63 +77,48 @@ pub fn wrong_cues(recordings: &[MeasuredRecording], axis: Axis) -> [f64; 2] {
     wrong
 }
 
+/// A target that is missed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Missed<'a> {
+    /// The geometric mean over so many channels \[m/s2\].
+    GeometricMean { channels: usize, mean: f64 },
+    /// The ratio on a channel.
+    Ratio { recording: &'a MeasuredRecording, channel: &'a ChannelFigures },
+    /// The error of heave.
+    Heave { recording: &'a MeasuredRecording, channel: &'a ChannelFigures },
+    /// The fraction of a recording's steps with a limit.
+    Limited { recording: &'a MeasuredRecording },
+    /// The fractions of the time of [`wrong_cues`].
+    Cues { axis: Axis, wrong: f64, at_rest: f64 },
+}
+
 impl Targets {
-    /// The targets that are missed, in sentences; empty where all are met.
-    pub fn missed(&self, recordings: &[MeasuredRecording]) -> Vec<String> {
-        let mut missed = Vec::new();
-        let (mean, count) = geometric_mean(recordings);
-        if mean > self.geometric_mean {
-            missed.push(format!(
-                "The geometric mean over {count} channels, {mean:.3} m/s², exceeds {:.3} m/s² (--geometric-mean).",
-                self.geometric_mean
-            ));
-        }
-        for recording in recordings {
-            missed.extend(self.missed_on(recording));
-        }
-        for axis in [Axis::Roll, Axis::Pitch, Axis::Yaw] {
+    /// The targets that are missed.
+    pub fn missed<'a>(&self, recordings: &'a [MeasuredRecording]) -> Vec<Missed<'a>> {
+        let (mean, channels) = geometric_mean(recordings);
+        let mean = (mean > self.geometric_mean).then_some(Missed::GeometricMean { channels, mean });
+        let of_axis = |axis: Axis| {
             let [wrong, at_rest] = wrong_cues(recordings, axis);
-            if wrong > at_rest + self.cues {
-                missed.push(format!(
-                    "{}: false or missing cues for {:.1} % of the time exceed the {:.1} % of a platform at rest (--cues).",
-                    capitalised(name(axis)),
-                    100.0 * wrong,
-                    100.0 * at_rest
-                ));
-            }
-        }
-        missed
+            (wrong > at_rest + self.cues).then_some(Missed::Cues { axis, wrong, at_rest })
+        };
+        let cues = [Axis::Roll, Axis::Pitch, Axis::Yaw].into_iter().filter_map(of_axis);
+        let on_recordings = recordings.iter().flat_map(|recording| self.missed_on(recording));
+        mean.into_iter().chain(on_recordings).chain(cues).collect()
     }
 
-    fn missed_on(&self, recording: &MeasuredRecording) -> Vec<String> {
+    fn missed_on<'a>(&self, recording: &'a MeasuredRecording) -> Vec<Missed<'a>> {
         let mut missed = Vec::new();
         let excepted = self.ratio_except.contains(&recording.name);
         for channel in &recording.channels {
             if counts(channel) && !excepted && channel.ratio() > self.ratio {
-                missed.push(format!(
-                    "{}, {}: {:.3} m/s² is {:.2} times the {:.3} m/s² of a platform at rest and exceeds {:.2} times (--ratio).",
-                    recording.name,
-                    name(channel.axis),
-                    channel.felt.rms_error,
-                    channel.ratio(),
-                    channel.at_rest,
-                    self.ratio
-                ));
+                missed.push(Missed::Ratio { recording, channel });
             }
             if channel.axis == Axis::Heave && channel.felt.rms_error > channel.at_rest + self.heave {
-                missed.push(format!(
-                    "{}, heave: {:.3} m/s² exceeds by more than {:.2} m/s² (--heave) the {:.3} m/s² of a platform at rest.",
-                    recording.name, channel.felt.rms_error, self.heave, channel.at_rest
-                ));
+                missed.push(Missed::Heave { recording, channel });
             }
         }
         if recording.limited > self.limited {
-            missed.push(format!(
-                "{}: limits are active in {:.1} % of the steps, above {:.1} % (--limited).",
-                recording.name,
-                100.0 * recording.limited,
-                100.0 * self.limited
-            ));
+            missed.push(Missed::Limited { recording });
         }
         missed
     }

@@ -1,14 +1,9 @@
 //! `moris bench`: washouts compared on fixed drives and rigs.
 //!
-//! - `moris_simulation::drives::bench` has the drives, and [`rigs`] the rigs.
-//! - [`columns`] are the measures, in their order.
-//! - [`run`] computes the rows of a drive on a rig.
-//! - [`table`] writes the rows as CSV, and prints their means; [`page`] writes them as a page.
+//! [`moris_analysis::bench`] computes the rows. [`table`] writes them as CSV, and prints their
+//! means; [`page`] writes them as a page.
 
-pub mod columns;
 pub mod page;
-pub mod rigs;
-pub mod run;
 pub mod table;
 
 use std::fs;
@@ -18,18 +13,14 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use clap::builder::PossibleValuesParser;
+use moris_analysis::bench::rigs::{BenchRig, RIGS};
+use moris_analysis::bench::run::{Foreign, Row, rows};
 use moris_simulation::drives::bench::{DRIVES, Drive};
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 
 use crate::progress::Progress;
 use crate::setup_options::strategies;
-use rigs::{BenchRig, RIGS};
-use run::{Foreign, Row, rows};
-
-/// Version of the bench: of its drives, rigs and columns. Rows of different
-/// versions do not compare.
-pub const VERSION: u32 = 2;
 
 /// Compare washouts on fixed drives and rigs
 ///
@@ -94,7 +85,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
     let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Foreign::fmu(file, map));
-    let foreign = options.felt.iter().map(|folder| Foreign::of(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
+    let foreign = options.felt.iter().map(|folder| felt(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
     let pairs: Vec<(BenchRig, Drive)> =
         rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
     if !foreign.is_empty() && !pairs.iter().any(|(rig, drive)| foreign.iter().any(|one| one.file(rig, drive).is_some()))
@@ -116,6 +107,14 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     writeln!(out, "wrote {}\nwrote {}", file.display(), page.display())?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The washout whose motion is in a folder.
+fn felt(folder: &Path) -> Result<Foreign> {
+    if !folder.is_dir() {
+        bail!("--felt {}: there is no such folder", folder.display());
+    }
+    Ok(Foreign::of(folder))
 }
 
 /// The remarks on the motions of each other washout: each once, with the first drive and rig.

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use moris_analysis::bench::VERSION;
+use moris_analysis::bench::columns::COLUMNS;
+use moris_analysis::bench::run::Row;
 use moris_pages::report::{PageTable, tables_html};
 
-use super::run::Row;
 use super::table::{Figure, HEADS, groups, mean, means};
-use super::{VERSION, columns::COLUMNS};
 use crate::text_table::or_undefined;
 
 /// Writes the page: means over all, then the errors by drive and by rig, with the bound and the

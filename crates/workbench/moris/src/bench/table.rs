@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use moris_analysis::bench::VERSION;
+use moris_analysis::bench::columns::COLUMNS;
+use moris_analysis::bench::run::{Row, Scale};
 
-use super::VERSION;
-use super::columns::COLUMNS;
-use super::run::{Row, Scale};
 use crate::text_table::{TextTable, or_undefined};
 
 /// Writes the rows. A value that is not defined is an empty field.

@@ -1,9 +1,8 @@
 //! `moris fit`: the largest scale at which the cues have the right sign and proportion.
 //!
-//! [`source`] reads the recordings, [`mod@fitted`] fits them, and [`picture`] draws size against
-//! shape.
+//! [`source`] reads the recordings, [`moris_analysis::fit`] fits them, and [`picture`] draws size
+//! against shape.
 
-pub mod fitted;
 pub mod picture;
 pub mod source;
 
@@ -13,6 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
+use moris_analysis::fit::usual::{Usual, Vehicle};
+use moris_analysis::fit::{Fitted, Strategy, fitted, means};
 use moris_interface::Group;
 use moris_setup::{changed, parameter_file};
 use moris_simulation::fit::{Aims, Fit};
@@ -28,8 +29,6 @@ use crate::recording::{ConventionOptions, Recording};
 use crate::setup_options::{SetupOptions, strategies};
 use crate::status::DOES_NOT_FIT;
 use crate::text_table::TextTable;
-use fitted::{Fitted, Strategy, fitted, means};
-use source::{Usual, Vehicle};
 
 /// Find the largest scale at which the cues have the right sign and proportion
 ///

@@ -1,20 +1,19 @@
 //! `moris measure`: one table of all channels of several recordings.
 //!
-//! [`host`] replays the recordings, [`targets`] checks the targets, and [`table`] prints the table.
-//! The figures of a channel are those of [`moris_simulation::channels`].
+//! [`moris_analysis::measure`] measures the recordings and checks the targets, and [`table`] prints
+//! the table.
 
 pub mod table;
-pub mod targets;
 
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
+use moris_analysis::host::{Host, Inputs};
+use moris_analysis::measure::MeasuredRecording;
+use moris_analysis::measure::targets::Targets;
 use moris_laps::Laps;
-use moris_measures::Measures;
-use moris_setup::Setup;
-use moris_simulation::channels::{ChannelFigures, channels};
 use moris_simulation::preview::{Previewer, parse_seconds};
 use rayon::prelude::*;
 
@@ -22,11 +21,7 @@ use crate::learned_road::Kept;
 use crate::option_values::number_in;
 use crate::recording::{ConventionOptions, FADE_IN, Recording, files_in};
 use crate::setup_options::SetupOptions;
-use crate::simulate::{Outcome, bounds};
 use crate::status::WORSE;
-use host::{Host, Inputs};
-pub use moris_analysis::host;
-use targets::Targets;
 
 /// Measure recordings channel by channel and say which targets are missed
 ///
@@ -81,55 +76,6 @@ pub struct Options {
     conventions: ConventionOptions,
 }
 
-/// The figures of a recording.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeasuredRecording {
-    /// The recording's name.
-    pub name: String,
-    /// Duration \[s\].
-    pub duration: f64,
-    /// The channels on which something is desired or felt.
-    pub channels: Vec<ChannelFigures>,
-    /// Fractions of the steps in which tilt coordination was limited, and in which the soft limits,
-    /// a safety unit and the actuator guard were active.
-    pub limits: [f64; 4],
-    /// Fraction of the steps in which a safety unit or the actuator guard limited the platform.
-    pub limited: f64,
-    /// Fraction of the stroke used.
-    pub stroke_used: f64,
-}
-
-impl MeasuredRecording {
-    /// Replays and measures a recording, with a preview that is learned, if there is one.
-    ///
-    /// # Errors
-    /// The parameters cannot be used, the steps do not fit, or there is no bound.
-    pub fn of(
-        recording: &Recording,
-        setup: &Setup,
-        host: &Host,
-        learned: Option<Previewer>,
-        with_bound: bool,
-    ) -> Result<Self> {
-        let simulation = host.replay(recording, &recording.parameters(&setup.parameters), learned)?;
-        let mut outcome = Outcome::measured(simulation, setup)?;
-        if with_bound {
-            outcome.bounds = bounds::bounds(&outcome.simulation)?;
-        }
-        let Outcome { simulation, measures: Measures { effort, .. }, .. } = &outcome;
-        let steps = simulation.outputs.len().max(2) - 1;
-        let limited = simulation.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
-        Ok(MeasuredRecording {
-            name: recording.name.clone(),
-            duration: recording.manoeuvre.duration(),
-            channels: channels(&outcome.evaluated()),
-            limits: [effort.tilt_limited, effort.soft_limited, effort.safety_active, effort.actuator_limited],
-            limited: limited.count() as f64 / steps as f64,
-            stroke_used: effort.stroke_used,
-        })
-    }
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -165,7 +111,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         }
     };
     let missed = options.targets.missed(&recordings);
-    write!(out, "{}", table::text(&setup, &host, &recordings, &missed))?;
+    write!(out, "{}", table::text(&setup, &host, &recordings, &options.targets, &missed))?;
     Ok(if options.check && !missed.is_empty() { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 

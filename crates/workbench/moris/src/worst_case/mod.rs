@@ -1,17 +1,7 @@
 //! `moris worst-case`: what the rider feels where the platform is not the nominal one.
 //!
-//! - [`points`](mod@points) are the machines that are tried.
-//! - [`commands`] are the washout's, for a ride.
-//! - [`machine`] moves a platform by them.
-//! - [`figures`] compares what is felt with what is desired.
-//! - [`study`] does so for a strategy on all rides and machines.
-//! - [`table`] prints the result.
+//! [`moris_analysis::worst_case`] measures, and [`table`] prints the result.
 
-pub mod commands;
-pub mod figures;
-pub mod machine;
-pub mod points;
-pub mod study;
 pub mod table;
 
 use std::io::Write;
@@ -20,6 +10,8 @@ use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, Result};
+use moris_analysis::worst_case::points::points;
+use moris_analysis::worst_case::study::Study;
 use moris_interface::Group;
 use moris_setup::{Setup, overlaid, parameter_file};
 use moris_stewart_platform::Parameters as Platform;
@@ -30,8 +22,6 @@ use crate::measure;
 use crate::progress::Progress;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 use crate::setup_options::strategies;
-use points::points;
-use study::Study;
 
 /// Measure each strategy on platforms that differ from the nominal one
 ///

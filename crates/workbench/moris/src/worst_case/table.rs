@@ -1,10 +1,10 @@
 //! The table that `moris worst-case` prints.
 
+use moris_analysis::worst_case::figures::Measure;
+use moris_analysis::worst_case::points::Point;
+use moris_analysis::worst_case::study::{MachineFigures, Study};
 use moris_setup::Setup;
 
-use super::figures::Measure;
-use super::points::Point;
-use super::study::{MachineFigures, Study};
 use crate::text_table::{Column, TextTable};
 
 /// The whole text.

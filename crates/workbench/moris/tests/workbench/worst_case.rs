@@ -7,11 +7,11 @@ use std::process::{Command, Output};
 
 use crate::cases::cases;
 use moris::recording::{Conventions, Recording};
-use moris::worst_case::commands::{Commands, LONGEST_STEP};
-use moris::worst_case::figures::{Desired, Measure, over_rides};
-use moris::worst_case::machine::real_motion;
-use moris::worst_case::points::{Point, points};
-use moris::worst_case::study::Study;
+use moris_analysis::worst_case::commands::{Commands, LONGEST_STEP};
+use moris_analysis::worst_case::figures::{Desired, Measure, over_rides};
+use moris_analysis::worst_case::machine::real_motion;
+use moris_analysis::worst_case::points::{Point, points};
+use moris_analysis::worst_case::study::Study;
 use moris_measures::comfort::comfort;
 use moris_stewart_platform::{Input, Model, Parameters as Platform, StewartPlatform};
 use moris_washout::Parameters;

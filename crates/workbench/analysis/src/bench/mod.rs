@@ -1,0 +1,13 @@
+//! Washouts compared on fixed drives and rigs.
+//!
+//! - `moris_simulation::drives::bench` has the drives, and [`rigs`] the rigs.
+//! - [`columns`] are the measures, in their order.
+//! - [`run`] computes the rows of a drive on a rig.
+
+pub mod columns;
+pub mod rigs;
+pub mod run;
+
+/// Version of the bench: of its drives, rigs and columns. Rows of different
+/// versions do not compare.
+pub const VERSION: u32 = 2;
