@@ -80,3 +80,15 @@ def test_analysis_and_simulation_know_no_command_line():
     table = tomllib.loads((ROOT / "crates" / "workbench" / "simulation" / "Cargo.toml").read_text())
     assert not table["dependencies"].keys() & html
     assert "moris" not in packages()["python"][1]
+
+
+# Comments, and literals of text and of characters, in Rust.
+RUST = re.compile(r"""//[^\n]*|/\*.*?\*/|r(#*)".*?"\1|"(?:\\.|[^"\\])*"|'(?:\\.[^']*|[^'\\])'""", re.DOTALL)
+
+
+def test_analysis_leaves_the_words_for_options_to_the_faces():
+    """The text of an error or a warning has no option of the command, and no sign in place of one: remedies are data."""
+    for file in (ROOT / "crates" / "workbench" / "analysis" / "src").glob("**/*.rs"):
+        for literal in (found[0] for found in RUST.finditer(file.read_text())):
+            if not literal.startswith("/"):
+                assert not re.search(r"--[a-z]|\\u\{fdd|[\ufdd0-\ufdef]", literal, re.IGNORECASE), f"{file}: {literal}"

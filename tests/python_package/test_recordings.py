@@ -1,6 +1,7 @@
 """Recordings from tables, dicts and files, by the workbench's import code."""
 
 import pickle
+import re
 import subprocess
 
 import moris
@@ -153,6 +154,38 @@ def test_messages_name_arguments_and_not_the_options_of_the_command(ride):
     again = {name: np.concatenate([values, values]) for name, values in ride.items()}
     with pytest.raises(moris.RecordingError, match="use lap=1 to lap=2 to read one of them"):
         moris.Recording(again)
+
+
+# A change of each column that a recording has, or none to leave it out, the options, and a part of what is said.
+DAMAGES = [
+    ({"wz": None}, {}, 'columns={"wz": "NAME"}'),
+    ({"time": lambda t: 1e-6 * t}, {}, 'columns={"time": "NAME * 1000"}'),
+    ({"time": lambda t: 1e3 * t}, {}, "give it with time_unit"),
+    ({"time": lambda t: np.round(t, 1)}, {}, "resample="),
+    ({"time": lambda t: t % 5}, {}, "use lap=1"),
+    ({"time": lambda t: t % 5}, {"lap": 9}, "another lap"),
+    ({"az": lambda az: 16384 * az / STANDARD_GRAVITY}, {}, '"az": "az / 16'),
+    ({"az": lambda az: az - STANDARD_GRAVITY}, {}, 'gravity="removed"'),
+    ({"az": lambda az: az - STANDARD_GRAVITY}, {"mounting": "auto"}, 'mounting="auto" finds no gravity'),
+    ({"ay": lambda ay: ay + 7.0, "az": lambda az: az - 3.0}, {}, 'mounting="auto"'),
+    ({"ax": lambda ax: ax + 2.0}, {"fade_in": 0.0}, "fade_in=1"),
+    ({"ax": lambda ax: np.where(np.arange(len(ax)) == 300, 40.0, ax)}, {}, "repair=True"),
+    ({"ax": lambda ax: np.where(np.arange(len(ax)) == 300, np.nan, ax)}, {}, 'empty_fields="interpolate"'),
+    ({"wz": lambda wz: 600 * wz}, {}, 'rate_unit="deg/s"'),
+    ({"ax": lambda ax: ax}, {"columns": {"ax": "wx"}}, "with columns"),
+]
+
+
+@pytest.mark.parametrize(("change", "options", "message"), DAMAGES)
+def test_what_is_said_of_a_damaged_recording_has_no_option_of_the_command(ride, change, options, message):
+    for name, act in change.items():
+        ride[name] = None if act is None else act(ride[name])
+    try:
+        said = " ".join(moris.Recording({name: values for name, values in ride.items() if values is not None}, **options).warnings)
+    except moris.RecordingError as error:
+        said = str(error)
+    assert message in said
+    assert not re.search(r"--|[\ufdd0-\ufdef]|\b(time|force|rate|angle|speed|length)-unit|fade-in|empty-fields", said), said
 
 
 def test_what_is_no_recording_is_refused(tmp_path):

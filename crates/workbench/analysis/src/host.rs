@@ -1,11 +1,12 @@
 //! A recording replayed as a host does it: in steps of the host's length, with or without
 //! slopes of the inputs.
 
-use anyhow::{Context, Result};
 use moris_simulation::Replay;
 use moris_simulation::preview::Previewer;
 use moris_washout::Parameters;
 
+use crate::error::Result;
+use crate::message::{message, named};
 use crate::recording::Recording;
 use moris_simulation::Simulation;
 
@@ -49,9 +50,12 @@ impl Host {
     ) -> Result<Simulation> {
         let sample = recording.step();
         let step = self.step.unwrap_or(sample);
-        let replay = Replay::in_steps(&recording.manoeuvre, step, self.inputs == Inputs::Slopes).with_context(|| {
+        let replay = Replay::in_steps(&recording.manoeuvre, step, self.inputs == Inputs::Slopes).ok_or_else(|| {
             let name = &recording.name;
-            format!("--step is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other")
+            message![
+                named("step"),
+                " is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other"
+            ]
         })?;
         let previewer =
             learned.or_else(|| (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview)));

@@ -5,10 +5,10 @@ use std::fs::{File, remove_file, rename};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
 use moris_laps::Laps;
 use moris_simulation::preview::Previewer;
 
+use crate::error::{About, Result, ensure};
 use crate::recording::Recording;
 
 /// Largest file \[bytes\]. A full memory has less than 4 MB.
@@ -60,8 +60,8 @@ pub fn load(file: &Path) -> Result<Laps> {
     match moris_bounded_files::text(file, LARGEST) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
-            let text = text.with_context(|| file.display().to_string())?;
-            Laps::of_text(&text).with_context(|| file.display().to_string())
+            let text = text.about(|| file.display().to_string())?;
+            Laps::of_text(&text).about(|| file.display().to_string())
         }
     }
 }
@@ -72,11 +72,13 @@ pub fn load(file: &Path) -> Result<Laps> {
 /// It cannot be written. The file is as before then.
 pub fn save(file: &Path, laps: &Laps) -> Result<()> {
     let part = beside(file);
-    write(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file)).map_err(|error| {
-        // Half of a road is of no use; if it cannot be removed, it stays beside the old one.
-        let _ = remove_file(&part);
-        anyhow::Error::new(error).context(format!("cannot keep the road in {}", file.display()))
-    })
+    let written = write(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file));
+    written
+        .inspect_err(|_| {
+            // Half of a road is of no use; if it cannot be removed, it stays beside the old one.
+            let _ = remove_file(&part);
+        })
+        .about(|| format!("cannot keep the road in {}", file.display()))
 }
 
 /// A file in the same folder, so that it can take the other's place.
@@ -115,6 +117,6 @@ mod tests {
         let nowhere = folder.path().join("none").join("kart.laps");
         assert!(save(&nowhere, &laps).unwrap_err().to_string().starts_with("cannot keep the road in "));
         std::fs::write(&file, "x,y\n").unwrap();
-        assert!(format!("{:#}", load(&file).unwrap_err()).contains("none of a road"));
+        assert!(load(&file).unwrap_err().with_sources(|_| String::new()).contains("none of a road"));
     }
 }

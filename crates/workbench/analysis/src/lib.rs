@@ -12,6 +12,8 @@
 //! - [`bench`](mod@bench) compares washouts on fixed drives and rigs.
 //! - [`frequency_response`] measures the whole washout's.
 //! - [`page`] makes the report's page.
+//! - [`error`] has the reasons why an analysis has no result.
+//! - [`message`] has the remedies in errors and warnings as data, which each face words.
 //!
 //! There is no command line here, no terminal and no socket: nothing is printed. The feature `clap`
 //! lets the types that options have be parsed.
@@ -20,11 +22,13 @@
 
 pub mod bench;
 pub mod bounds;
+pub mod error;
 pub mod fit;
 pub mod frequency_response;
 pub mod host;
 pub mod learned_road;
 pub mod measure;
+pub mod message;
 pub mod option_values;
 pub mod outcome;
 pub mod page;

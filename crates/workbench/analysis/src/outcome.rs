@@ -1,6 +1,5 @@
 //! A recording on a rig with one set of parameters: the simulation, its measures and bounds.
 
-use anyhow::Result;
 use moris_measures::bound::BoundError;
 use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
@@ -11,6 +10,7 @@ use moris_simulation::{Evaluated, Simulation, measures};
 use moris_washout::Parameters;
 
 use crate::bounds::{AxisBound, bounds};
+use crate::error::Result;
 use crate::recording::Recording;
 
 /// A simulation with one set of parameters, and its measures.

@@ -16,6 +16,7 @@
 //! - [`parameters`] lists all parameters.
 //! - [`help`] writes shell completions and man pages.
 //! - [`schema`] writes schemas of the files, for editors.
+//! - [`words`] writes remedies as options.
 //!
 //! [`recording`] reads recordings for all commands, and [`washout_fmu`] steps another washout's
 //! FMU. The crate `moris-setup` reads rigs and parameters.
@@ -39,6 +40,7 @@ pub mod simulate;
 mod status;
 pub mod tune;
 pub mod votes;
+pub mod words;
 pub mod worst_case;
 
 use moris_analysis::{learned_road, option_values};

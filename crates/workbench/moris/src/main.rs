@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use moris::{
     bench, build_fmu, fit, frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune,
-    worst_case,
+    words, worst_case,
 };
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
@@ -72,7 +72,7 @@ fn main() -> ExitCode {
 /// The error and its causes; a cause that the text before it has said is left out.
 fn with_causes(error: &anyhow::Error) -> String {
     let mut text = String::new();
-    for cause in error.chain().map(|cause| cause.to_string()) {
+    for cause in error.chain().map(words::error) {
         if !text.contains(cause.trim_end()) {
             text += if text.is_empty() { "" } else { ": " };
             text += &cause;

@@ -12,6 +12,7 @@ use pyo3::types::PyList;
 use crate::arrays::{numbers, values, wrong_shape};
 use crate::error;
 use crate::setup::Given;
+use crate::words::argument;
 
 /// The motion of `felt_force`, `felt_rate`, `pose` and `legs`, and sentences about interpolations.
 ///
@@ -40,12 +41,12 @@ fn part<const N: usize>(
     let refused = |reason: String| error::recording(given.py(), reason);
     let table = if given.hasattr("__fspath__")? {
         let file: PathBuf = given.extract()?;
-        FeltTable::read(&file).map_err(|reason| refused(reason.to_string()))?
+        FeltTable::read(&file).map_err(|reason| refused(reason.worded(argument)))?
     } else if is_table(given)? {
         let columns: Vec<(String, Bound<PyAny>)> = given.extract()?;
         let column = |(title, array): (String, Bound<PyAny>)| Ok((title.clone(), values(&array, &title, None, None)?));
         let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
-        FeltTable::of_columns("", &columns).map_err(|reason| refused(reason.to_string()))?
+        FeltTable::of_columns("", &columns).map_err(|reason| refused(reason.worded(argument)))?
     } else {
         return rows(given, names.argument, recording.inputs().len()).map(Some);
     };

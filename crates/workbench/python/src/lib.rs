@@ -3,7 +3,7 @@
 //! `washout` is the class `Washout`, `output` what its step returns. `setup` reads rigs and
 //! parameters, `judged` another washout's motion, `arrays` and `preview` numpy's arrays,
 //! `variables` finds variables by name, `table` lists them. `fmu` packs an FMU. `error`
-//! makes the exceptions.
+//! makes the exceptions, and `words` has the remedies in them.
 
 mod arrays;
 mod error;
@@ -22,6 +22,7 @@ mod table;
 mod tune;
 mod variables;
 mod washout;
+mod words;
 
 use pyo3::prelude::*;
 

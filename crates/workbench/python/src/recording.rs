@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use moris_analysis::recording::{ConventionOptions, Conventions, Dialect, Recording, Road};
+use moris_analysis::recording::{ConventionOptions, Conventions, Recording, RecordingError, Road};
 use moris_interface::{Group, slots_of};
 use moris_simulation::Manoeuvre;
 use moris_washout::Input;
@@ -16,6 +16,7 @@ use crate::arrays::{Series, series, values};
 use crate::error;
 use crate::setup::table;
 use crate::variables::Variables;
+use crate::words::argument;
 
 /// A recording in the washout's frames and units.
 #[pyclass(frozen, module = "moris._moris", name = "Recording")]
@@ -33,7 +34,7 @@ impl PyRecording {
     fn read(py: Python, file: PathBuf, options: &Bound<PyDict>) -> PyResult<Self> {
         let conventions = conventions(options)?;
         let recording = py.detach(|| Recording::read(&file, &conventions));
-        Self::of(py, recording.map_err(|error| error.to_string()))
+        Self::of(py, recording)
     }
 
     /// Reads columns, pairs of name and array.
@@ -51,7 +52,7 @@ impl PyRecording {
         };
         let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
         let recording = py.detach(|| Recording::of_columns(name, &columns, &conventions));
-        Self::of(py, recording.map_err(|error| error.to_string()))
+        Self::of(py, recording)
     }
 
     #[getter]
@@ -71,7 +72,7 @@ impl PyRecording {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.inner.warnings.clone()
+        self.worded_warnings()
     }
 
     /// The samples' times, their inputs row by row, and the names of the inputs.
@@ -81,8 +82,8 @@ impl PyRecording {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, road, warnings } =
-            &*self.inner;
+        let Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, road, .. } = &*self.inner;
+        let warnings = self.worded_warnings();
         let inputs = manoeuvre.inputs();
         let state = (name, manoeuvre.step(), inputs, start, angular_velocity_frame, has_orientation, road, warnings);
         let bytes = postcard::to_allocvec(&state).map_err(|reason| error::recording(py, reason.to_string()))?;
@@ -95,15 +96,20 @@ impl PyRecording {
         let state: State = postcard::from_bytes(state).map_err(refused)?;
         let (name, step, inputs, start, angular_velocity_frame, has_orientation, road, warnings) = state;
         let manoeuvre = Manoeuvre::new(step, inputs);
+        let warnings = warnings.into_iter().map(Into::into).collect();
         let recording = Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, road, warnings };
         Ok(PyRecording { inner: Arc::new(recording) })
     }
 }
 
 impl PyRecording {
-    fn of(py: Python, recording: Result<Recording, String>) -> PyResult<Self> {
-        let recording = recording.map_err(|message| error::recording(py, message))?;
+    fn of(py: Python, recording: Result<Recording, RecordingError>) -> PyResult<Self> {
+        let recording = recording.map_err(|reason| error::recording(py, reason.worded(argument)))?;
         Ok(PyRecording { inner: Arc::new(recording) })
+    }
+
+    fn worded_warnings(&self) -> Vec<String> {
+        self.inner.warnings.iter().map(|warning| warning.worded(argument)).collect()
     }
 }
 
@@ -114,8 +120,7 @@ fn conventions(options: &Bound<PyDict>) -> PyResult<Conventions> {
     let refused = |message: String| error::recording(py, message);
     let options: ConventionOptions =
         toml::from_str(&given.to_string()).map_err(|error| refused(error.message().to_owned()))?;
-    let conventions = options.load().map_err(|error| refused(error.to_string()))?;
-    Ok(Conventions { dialect: Dialect::Python, ..conventions })
+    options.load().map_err(|error| refused(error.worded(argument)))
 }
 
 /// Whole numbers as reals: all numbers among the options are.

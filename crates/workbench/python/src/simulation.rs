@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use moris_analysis::bounds::{self, AxisBound};
+use moris_analysis::error::{Result, worded};
 use moris_analysis::host::Host;
 use moris_analysis::learned_road::Kept;
 use moris_analysis::outcome::Outcome;
@@ -31,6 +32,7 @@ use crate::recording::PyRecording;
 use crate::setup::{self, Given};
 use crate::variables::Variables;
 use crate::washout::parameter_dict;
+use crate::words::argument;
 
 /// A measure for Python: subject, name, value, unit, definition, source.
 type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &'static str);
@@ -87,12 +89,12 @@ impl PySimulation {
         check_learning(&setup, &recording.inner, preview, learn).map_err(PyValueError::new_err)?;
         let recording = Arc::clone(&recording.inner);
         let learned = learn.then(|| py.detach(|| learned(&recording, road.as_deref()))).transpose();
-        let learned = learned.map_err(|reason| PyValueError::new_err(format!("{reason:#}")))?;
+        let learned = learned.map_err(|reason| PyValueError::new_err(reason.with_sources(argument)))?;
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters), learned)?;
             Outcome::measured(simulated, &setup)?.advised(&recording, preview)
         });
-        let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
+        let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &worded(&reason, argument)))?;
         if bound {
             outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
@@ -116,13 +118,15 @@ impl PySimulation {
         let setup = setup::load(py, rig, parameters, None)?;
         let recording = Arc::clone(&recording.inner);
         let (motion, notes) = match washout {
-            Some([file, map]) => py
-                .detach(|| WashoutFmu::with_map(&file, &map)?.motion(&recording))
-                .map_err(|reason| error::recording(py, format!("{}: {reason:#}", file.display())))?,
+            Some([file, map]) => {
+                py.detach(|| WashoutFmu::with_map(&file, &map)?.motion(&recording)).map_err(|reason| {
+                    error::recording(py, format!("{}: {}", file.display(), reason.with_sources(argument)))
+                })?
+            }
             None => judged::motion(&parts, &recording)?,
         };
         let outcome = py.detach(|| Outcome::foreign(&recording, &setup, name, &motion, notes.clone()));
-        let mut outcome = outcome.map_err(|reason| error::recording(py, reason.to_string()))?;
+        let mut outcome = outcome.map_err(|reason| error::recording(py, worded(&reason, argument)))?;
         if bound {
             outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
@@ -238,7 +242,8 @@ impl PySimulation {
     fn html(&self, others: Vec<PyRef<PySimulation>>) -> String {
         let outcomes: Vec<Outcome> =
             std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
-        page::html(&self.recording, &outcomes, None)
+        let command = format!("cargo moris simulate {}.csv --parameters", self.recording.name);
+        page::html(&self.recording, &outcomes, &command, argument)
     }
 }
 
@@ -268,7 +273,7 @@ pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), &'static str> {
 }
 
 /// The preview that a recording learns, and keeps in a file if there is one.
-fn learned(recording: &Recording, file: Option<&Path>) -> anyhow::Result<Previewer> {
+fn learned(recording: &Recording, file: Option<&Path>) -> Result<Previewer> {
     let mut road = Kept::open(file)?;
     let learned = road.learn(recording)?;
     road.save()?;

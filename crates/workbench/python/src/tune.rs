@@ -6,12 +6,13 @@ use std::thread;
 use std::time::Duration;
 
 use moris_analysis::tune::cost::{Aim, Cost, Objective};
+use moris_analysis::tune::error::TuneError;
 use moris_analysis::tune::folds;
 use moris_analysis::tune::search::{Budget, Evaluate, evaluate_here};
 use moris_analysis::tune::space::{Space, group_named};
 use moris_analysis::tune::summary::{self, Verdict};
 use moris_analysis::tune::tested::{Tested, tune_tested};
-use moris_analysis::tune::tuner::{NoFeasibleParameters, Tuner};
+use moris_analysis::tune::tuner::Tuner;
 use moris_setup::{NamedValues, Setup, all, overlaid};
 use moris_washout::Parameters;
 use moris_washout::interface::TuningGroup;
@@ -23,6 +24,7 @@ use crate::error;
 use crate::recording::PyRecording;
 use crate::setup::{self, Given};
 use crate::washout::parameter_dict;
+use crate::words::argument;
 
 /// Time between two checks of progress and signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -181,11 +183,12 @@ impl PyTuning {
         }
         let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
         let Tested { setup: tuned, results, fraction } = done.map_err(|reason| {
-            let is_infeasible = reason.is::<NoFeasibleParameters>();
-            error::plain(py, if is_infeasible { "NoFeasibleParameters" } else { "ParameterError" }, &reason)
+            let is_infeasible = matches!(reason, TuneError::Infeasible(_));
+            let class = if is_infeasible { "NoFeasibleParameters" } else { "ParameterError" };
+            error::plain(py, class, &reason.worded(argument))
         })?;
         let was_interrupted = interrupted.load(Ordering::Relaxed);
-        let text = summary::text(&self.before, &tuned, &results, fraction, was_interrupted);
+        let text = summary::text(&self.before, &tuned, &results, fraction, was_interrupted, argument);
         let errors = results.iter().map(|result| {
             let error = |cost: Option<Cost>| cost.map(|cost| cost.error);
             (result.name.clone(), result.before.error, error(result.tuned), error(result.unseen))
@@ -193,7 +196,7 @@ impl PyTuning {
         Ok((
             parameter_dict(py, &tuned.parameters)?,
             text,
-            summary::first_line(&results, fraction),
+            summary::first_line(&results, fraction, argument),
             Verdict::of(&results, fraction) == Verdict::Worse,
             was_interrupted,
             errors.collect(),
@@ -202,16 +205,13 @@ impl PyTuning {
 }
 
 impl PyTuning {
-    fn tune(&self, tuner: &Tuner, groups: usize) -> Result<Tested, Reason> {
+    fn tune(&self, tuner: &Tuner, groups: usize) -> Result<Tested, TuneError> {
         let (tuned_on, held_out) = self.objectives.split_at(self.objectives.len() - self.held_out);
         let tuned_on: Vec<&Objective> = tuned_on.iter().collect();
         let held_out: Vec<&Objective> = held_out.iter().collect();
         tune_tested(tuner, &tuned_on, &held_out, &folds::folds(tuned_on.len(), groups))
     }
 }
-
-/// The workbench's error.
-type Reason = anyhow::Error;
 
 /// Evaluations by a function of Python. Its first exception ends the search.
 fn remote<'a>(
@@ -226,11 +226,11 @@ fn remote<'a>(
         });
         match sent {
             Ok(Some(costs)) => Ok(costs.into_iter().map(received).collect()),
-            Ok(None) => Err(anyhow::anyhow!("the parameters cannot be used")),
+            Ok(None) => Err(TuneError::Evaluation("the parameters cannot be used")),
             Err(error) => {
                 lock(failure).get_or_insert(error);
                 interrupted.store(true, Ordering::Relaxed);
-                Err(anyhow::anyhow!("the evaluation failed"))
+                Err(TuneError::Evaluation("the evaluation failed"))
             }
         }
     })

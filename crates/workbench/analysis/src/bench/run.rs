@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
 use moris_measures::Axes;
 use moris_setup::Setup;
 use moris_simulation::Simulation;
@@ -16,6 +15,8 @@ use moris_washout::platform::Pose;
 use super::columns::COLUMNS;
 use super::rigs::BenchRig;
 use crate::bounds::{self, AxisBound};
+use crate::error::{About, Result};
+use crate::message::Message;
 use crate::outcome::Outcome;
 use crate::recording::felt::FeltTable;
 use crate::recording::{Recording, source};
@@ -121,10 +122,10 @@ impl Foreign {
     fn motion(&self, file: &Path, recording: &Recording) -> Result<(ForeignMotion, Vec<String>)> {
         match &self.source {
             Source::Folder(_) => {
-                let motion = FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg);
-                motion.with_context(|| file.display().to_string())
+                let motion = FeltTable::read(file)?.motion(recording).map_err(Message::from);
+                motion.about(|| file.display().to_string())
             }
-            Source::Fmu(fmu) => fmu.motion(recording).with_context(|| file.display().to_string()),
+            Source::Fmu(fmu) => fmu.motion(recording).about(|| file.display().to_string()),
         }
     }
 }
@@ -135,7 +136,7 @@ impl Foreign {
 /// A set cannot be used on the rig, or a motion cannot be judged.
 pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign: &[Foreign]) -> Result<Vec<Row>> {
     let of = || format!("{} on {}", drive.name, rig.name);
-    let setup = rig.setup().with_context(of)?;
+    let setup = rig.setup().about(of)?;
     let recording = Recording {
         name: drive.name.to_owned(),
         manoeuvre: drive.manoeuvre(),
@@ -147,20 +148,20 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
     };
     let unscaled = recording.parameters(&unscaled(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
-    let bounds = bounds::bounds_at(&asked, INTERVAL).with_context(of)?;
+    let bounds = bounds::bounds_at(&asked, INTERVAL).about(of)?;
     let row = |washout: &str, scale: Scale, outcome: Outcome| row(rig, drive, washout, scale, outcome, &bounds);
-    let at_rest = at_rest(&recording, &Setup { parameters: unscaled, ..setup.clone() }).with_context(of)?;
+    let at_rest = at_rest(&recording, &Setup { parameters: unscaled, ..setup.clone() }).about(of)?;
     let mut rows = vec![row("at rest", Scale::One, at_rest)];
     let search = Search::new(&recording.manoeuvre, 0.0, Aims::default());
     for &strategy in strategies {
         let parameters = recording.parameters(&self::unscaled(&setup.parameters, strategy));
         let simulated = |parameters: &Parameters| {
             let setup = Setup { parameters: *parameters, ..setup.clone() };
-            Outcome::of(&recording, &setup, || ()).with_context(of)
+            Outcome::of(&recording, &setup, || ()).about(of)
         };
         let name = strategy.name();
         rows.push(row(name, Scale::One, simulated(&parameters)?));
-        let found = search.fit(&parameters).with_context(of)?;
+        let found = search.fit(&parameters).about(of)?;
         let scale = Scale::Fit { factor: found.best.factors.scale, fits: found.fits };
         rows.push(row(name, scale, simulated(&found.best.factors.applied(&parameters))?));
         let mut automatic = parameters;
@@ -176,9 +177,9 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
             let (motion, notes) = other.motion(&file, &recording)?;
             let setup = Setup { parameters: unscaled, ..setup.clone() };
             let outcome = Outcome::foreign(&recording, &setup, &other.name, &motion, notes);
-            outcome.with_context(|| file.display().to_string())
+            outcome.about(|| file.display().to_string())
         };
-        let judged = judge().with_context(of)?;
+        let judged = judge().about(of)?;
         rows.push(row(&other.name, Scale::Own, judged));
     }
     let least = |name: &str| rows.iter().filter_map(|row| row.value(name)).reduce(f64::min);

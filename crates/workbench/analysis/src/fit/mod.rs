@@ -2,11 +2,11 @@
 
 pub mod usual;
 
-use anyhow::{Context, Result};
 use moris_setup::Setup;
 use moris_simulation::fit::{Aims, Fit, Search};
 use rayon::prelude::*;
 
+use crate::error::{About, Result};
 use crate::recording::Recording;
 
 /// Rate of tilt that a second line shows \[rad/s\].
@@ -46,7 +46,7 @@ fn of_recording(recording: &Recording, strategies: &[Strategy], preview: f64, ai
     let search = Search::new(&recording.manoeuvre, preview, aims);
     let fit = |strategy: &Strategy| {
         let parameters = recording.parameters(&strategy.setup.parameters);
-        search.fit(&parameters).with_context(|| format!("{}, {}", recording.name, strategy.name))
+        search.fit(&parameters).about(|| format!("{}, {}", recording.name, strategy.name))
     };
     let fits: Vec<Fit> = strategies.par_iter().map(fit).collect::<Result<_>>()?;
     let is_better = |one: &Fit, other: &Fit| match (one.fits, other.fits) {

@@ -2,13 +2,13 @@
 
 pub mod targets;
 
-use anyhow::Result;
 use moris_measures::Measures;
 use moris_setup::Setup;
 use moris_simulation::channels::{ChannelFigures, channels};
 use moris_simulation::preview::Previewer;
 
 use crate::bounds;
+use crate::error::Result;
 use crate::host::Host;
 use crate::outcome::Outcome;
 use crate::recording::Recording;

@@ -7,6 +7,7 @@ use moris_pages::report::{Chart, Line, Report, Run, Simulator, Thinning, felt_ch
 use moris_simulation::{Finding, Weight};
 
 use self::vehicle::vehicle;
+use crate::message::Words;
 use crate::outcome::{Outcome, listed};
 use crate::recording::Recording;
 
@@ -22,12 +23,12 @@ const LEAST_SIMULATED: usize = 1_000;
 
 /// The page of a recording with one or several sets of parameters, with as many
 /// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
-/// follow.
-pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>) -> String {
+/// follow. `words` are for the remedies in warnings.
+pub fn html(recording: &Recording, outcomes: &[Outcome], command: &str, words: Words) -> String {
     let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
-        let report = report(recording, outcomes, most / outcomes.len());
+        let report = report(recording, outcomes, most / outcomes.len(), words);
         let page = moris_pages::report::html(&report);
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
             let is_foreign = outcomes[0].simulation.foreign.is_some();
@@ -65,10 +66,11 @@ fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> St
 
 /// The report of a recording with one or several sets of parameters, of which the first is shown
 /// first, with at most so many samples of each.
-fn report(recording: &Recording, outcomes: &[Outcome], most: usize) -> Report {
+fn report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words) -> Report {
     let first = &outcomes[0];
     let thinning = Thinning::new(first.simulation.inputs.len(), most);
-    let warnings = recording.warnings.iter().map(|warning| Finding { weight: Weight::Warning, text: warning.clone() });
+    let finding = |text: String| Finding { weight: Weight::Warning, text };
+    let warnings = recording.warnings.iter().map(|warning| finding(warning.worded(words)));
     Report {
         title: recording.name.clone(),
         subtitle: format!(

@@ -15,7 +15,7 @@ pub fn is_compiled() -> bool {
 
 /// The simulator of a recording from the parameters of an outcome; none if it was not compiled.
 /// `command` is what stands before the name of a parameter file.
-pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> Option<Simulator> {
+pub fn of(recording: &Recording, outcome: &Outcome, command: &str) -> Option<Simulator> {
     if !is_compiled() {
         return None;
     }
@@ -33,7 +33,7 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
             "Chosen in the report of {name} on {}, from {}",
             outcome.setup.rig_name, outcome.setup.parameters_name
         ),
-        command: command.unwrap_or_else(|| format!("cargo moris simulate {name}.csv --parameters")),
+        command: command.to_owned(),
         file: format!("{name}.toml"),
         rig_name: outcome.setup.rig_name.clone(),
         actuator_diameter: outcome.setup.actuator_diameter,

@@ -11,6 +11,7 @@ use super::columns::units::Dimension;
 use super::conventions::Conventions;
 use super::message::RecordingError;
 use super::read::{Sheet, source};
+use crate::message::Message;
 
 /// Names of the columns of a quantity, each as this project's outputs have it, then shorter.
 pub struct Names<const N: usize> {
@@ -170,7 +171,7 @@ impl FeltTable {
     /// # Errors
     /// Columns differ in length, or a unit is unknown.
     pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)]) -> Result<Self, RecordingError> {
-        let refused = |reason: String| RecordingError::whole(Path::new(name), reason);
+        let refused = |reason: Message| RecordingError::whole(Path::new(name), reason);
         let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
         let conventions = Conventions::default();
         let time = match header.terms("time").map_err(refused)? {
@@ -181,7 +182,8 @@ impl FeltTable {
             }
             None => None,
         };
-        let table = Self::of(&header, time, |place| columns[place].1.clone()).map_err(refused)?;
+        let table =
+            Self::of(&header, time, |place| columns[place].1.clone()).map_err(|reason| refused(reason.into()))?;
         Ok(FeltTable { name: name.to_owned(), ..table })
     }
 

@@ -14,8 +14,8 @@
 //! [`felt`] reads the motion that another washout computed for a recording.
 //!
 //! [`conventions`] are the names, units and axes given by options, or by one of the
-//! [`formats`]. `message` names these options in errors and warnings, and `signal` has the
-//! statistics of all steps.
+//! [`formats`]. Errors and warnings name these options as remedies of a [`Message`], and `signal`
+//! has the statistics of all steps.
 //!
 //! # Gravity without orientation
 //!
@@ -50,12 +50,13 @@ use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
+use crate::message::Message;
 use axes::convert;
 use checks::{consistency, dead, exchanged, frozen, outliers, unusual};
 pub(crate) use columns::units;
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
-pub use message::{Dialect, RecordingError};
+pub use message::RecordingError;
 pub use read::source;
 pub use read::source::files_in;
 pub use road::Road;
@@ -77,7 +78,7 @@ pub struct Recording {
     /// Position and speed along the road, if the conventions ask for them.
     pub road: Option<Road>,
     /// Warnings, in whole sentences.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Message>,
 }
 
 impl Recording {
@@ -93,8 +94,7 @@ impl Recording {
     /// - A unit in the header contradicts an option.
     /// - The units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
-        let read = || Self::of_table(source::name(file), table::read(file, conventions)?, conventions);
-        read().map_err(|error| error.written(conventions.dialect))
+        Self::of_table(source::name(file), table::read(file, conventions)?, conventions)
     }
 
     /// A recording of columns in memory, each a name and its values, read as the columns of a file.
@@ -106,8 +106,7 @@ impl Recording {
         columns: &[(String, Vec<f64>)],
         conventions: &Conventions,
     ) -> Result<Self, RecordingError> {
-        let read = || Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions);
-        read().map_err(|error| error.written(conventions.dialect))
+        Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
     }
 
     fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
@@ -124,7 +123,7 @@ impl Recording {
             Some(reason) => table.refused(reason.trim_end_matches('.')),
             None => error,
         })?;
-        warnings.extend(stops);
+        warnings.extend(stops.into_iter().map(Message::from));
         warnings.extend(frozen::repeats(&table, conventions));
         warnings.extend(exchanged::warnings(&table, &inputs, conventions));
         warnings.extend(dead::warnings(&table, &inputs, conventions));
@@ -141,7 +140,7 @@ impl Recording {
             },
             has_orientation: table.has_orientation(),
             road: Road::of(&table),
-            warnings: warnings.iter().map(|warning| conventions.dialect.written(warning)).collect(),
+            warnings,
         })
     }
 

@@ -3,13 +3,14 @@
 
 use std::sync::Mutex;
 
-use anyhow::{Result, anyhow, ensure};
 use cmaes::{CMAESOptions, DVector};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use super::cost::{Cost, Objective};
+use super::error::TuneError;
 use super::space::Space;
+use crate::message::{given, message, named};
 
 /// Length and start of a search.
 #[derive(Clone, Copy, Debug)]
@@ -21,13 +22,13 @@ pub struct Budget {
 }
 
 /// Computes the cost of each recording with these parameters, in the search's long steps.
-pub type Evaluate<'a> = dyn Fn(&[&Objective], &Parameters) -> Result<Vec<Cost>> + Sync + 'a;
+pub type Evaluate<'a> = dyn Fn(&[&Objective], &Parameters) -> Result<Vec<Cost>, TuneError> + Sync + 'a;
 
 /// Evaluates on all cores of this machine.
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn evaluate_here(objectives: &[&Objective], parameters: &Parameters) -> Result<Vec<Cost>> {
+pub fn evaluate_here(objectives: &[&Objective], parameters: &Parameters) -> Result<Vec<Cost>, TuneError> {
     objectives.par_iter().map(|objective| Ok(objective.coarse_cost(parameters)?)).collect()
 }
 
@@ -86,12 +87,16 @@ pub fn search(
     space: &Space,
     budget: Budget,
     mut progress: impl FnMut(usize, Option<&Candidate>) -> bool,
-) -> Result<Searched> {
-    ensure!(
-        space.dimension() > 0,
-        "the groups given with --tune have no continuous parameter: the classical strategy has none of its own, and orders \
-         are searched only beside others; add a group, such as --tune splitter,order"
-    );
+) -> Result<Searched, TuneError> {
+    if space.dimension() == 0 {
+        return Err(TuneError::NothingToTune(message![
+            "the groups given with ",
+            named("tune"),
+            " have no continuous parameter: the classical strategy has none of its own, and orders are searched only beside \
+             others; add a group, such as ",
+            given("tune", "splitter,order")
+        ]));
+    }
     let recordings = &Recordings::new(objectives, evaluate, space)?;
     let mut continues = true;
     let beginning = beginning(recordings, space, |best| {
@@ -105,7 +110,7 @@ pub fn search(
         .max_function_evals(budget.evaluations)
         .tol_fun(TOLERANCE)
         .build(cost)
-        .map_err(|error| anyhow!("CMA-ES rejects the start of the search: {error:?}"))?;
+        .map_err(|error| TuneError::Start(format!("{error:?}")))?;
     while continues {
         let ended = search.next_parallel().is_some();
         let first = best.lock().expect("no evaluation panics").0.first().cloned();
@@ -289,7 +294,7 @@ struct Recordings<'a> {
 }
 
 impl<'a> Recordings<'a> {
-    fn new(objectives: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
+    fn new(objectives: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self, TuneError> {
         let start = at(space, &DVector::zeros(space.dimension()));
         let starts = evaluate(objectives, &start)?.iter().map(|cost| cost.error).collect();
         Ok(Recordings { objectives, evaluate, starts })

@@ -1,4 +1,4 @@
-//! Summary of a tuning, as Markdown.
+//! Summary of a tuning, as Markdown, with a face's words for the options that help.
 
 use moris_interface::{Group as _, Kind, Row};
 use moris_setup::{Setup, all};
@@ -8,6 +8,7 @@ use moris_washout::platform::reach::Axis;
 
 use super::cost::{Channels, Cost, Objective};
 use super::tuner::WORST_RATIO;
+use crate::message::{Words, given, named};
 use crate::text_table::or_undefined;
 
 /// A recording before and after.
@@ -96,16 +97,18 @@ fn losses(before: &Cost, after: &Cost) -> Vec<String> {
 }
 
 /// The most important result in a sentence. `fraction` is that of [`super::tested::Tested`].
-pub fn first_line(results: &[RecordingResult], fraction: f64) -> String {
+pub fn first_line(results: &[RecordingResult], fraction: f64, words: Words) -> String {
     match Verdict::of(results, fraction) {
-        Verdict::Unchanged => {
+        Verdict::Unchanged => format!(
             "UNCHANGED: no fraction of the way to the best parameters for these recordings is better on recordings left out. \
-             With --folds 0 the result goes all the way."
-                .to_owned()
-        }
+             With {} the result goes all the way.",
+            words(&given("folds", 0))
+        ),
         Verdict::Unknown => "No recording was held out: nothing is known of other recordings.".to_owned(),
         Verdict::Worse => worse_line(results),
-        Verdict::Better => format!("Better than before on recordings that it was not tuned on: {}.", mean_figures(results)),
+        Verdict::Better => {
+            format!("Better than before on recordings that it was not tuned on: {}.", mean_figures(results))
+        }
         Verdict::NotClear => {
             format!("Not clearly better than before on recordings that it was not tuned on: {}.", mean_figures(results))
         }
@@ -146,8 +149,15 @@ fn mean_figures(results: &[RecordingResult]) -> String {
 }
 
 /// The whole summary.
-pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction: f64, interrupted: bool) -> String {
-    let mut text = first_line(results, fraction);
+pub fn text(
+    before: &Setup,
+    tuned: &Setup,
+    results: &[RecordingResult],
+    fraction: f64,
+    interrupted: bool,
+    words: Words,
+) -> String {
+    let mut text = first_line(results, fraction, words);
     text += &format!("\n\n# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name);
     if interrupted {
         text.push_str("The search was interrupted; this is the best result so far.\n\n");
@@ -155,17 +165,18 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction
     if 0.0 < fraction && fraction < 1.0 {
         text += &format!(
             "The result goes {:.0} % of the way to the best parameters for these recordings: that is best for recordings left out. \
-             With --folds 0 it goes all the way.\n\n",
-            100.0 * fraction
+             With {} it goes all the way.\n\n",
+            100.0 * fraction,
+            words(&given("folds", 0))
         );
     }
-    let verdict = verdict(results, &before.parameters_name);
+    let verdict = verdict(results, &before.parameters_name, words);
     let tables = [errors(results), shapes(results), comfort(results), channels(results), parameters(before, tuned)];
     text + &format!("{verdict}\n\n{}", tables.join("\n"))
 }
 
 /// The mean errors before and after in a few sentences, on recordings tuned on and on others.
-fn verdict(results: &[RecordingResult], before_name: &str) -> String {
+fn verdict(results: &[RecordingResult], before_name: &str, words: Words) -> String {
     let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
     let unseen = Comparison::unseen(results);
     let mut text = String::new();
@@ -185,7 +196,7 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
             }
         }
     }
-    text.push_str(&without_result(results));
+    text.push_str(&without_result(results, words));
     let Some(unseen) = unseen else {
         text.push_str(if results.iter().any(|result| result.infeasible_without) {
             " Nothing is known of other recordings."
@@ -205,7 +216,7 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
 }
 
 /// Without which recordings nothing was found; empty where there are none.
-fn without_result(results: &[RecordingResult]) -> String {
+fn without_result(results: &[RecordingResult], words: Words) -> String {
     let recordings: Vec<&str> =
         results.iter().filter(|result| result.infeasible_without).map(|result| result.name.as_str()).collect();
     if recordings.is_empty() {
@@ -213,8 +224,9 @@ fn without_result(results: &[RecordingResult]) -> String {
     }
     format!(
         "\n\nTuned without {}, no parameters were found that keep the limits on the others: nothing is known of it as a recording not tuned on. \
-         More --evaluations may find some.",
-        recordings.join(", or ")
+         More {} may find some.",
+        recordings.join(", or "),
+        words(&named("evaluations"))
     )
 }
 
@@ -431,6 +443,11 @@ fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::message::Remedy;
+
+    fn words(remedy: &Remedy) -> String {
+        remedy.option.to_owned()
+    }
 
     fn cost(error: f64, violated: f64) -> Cost {
         Cost { error, violated, ..Cost::default() }
@@ -451,7 +468,7 @@ mod tests {
 
     /// Verdict and headline.
     fn judged(results: &[RecordingResult]) -> (Verdict, String) {
-        (Verdict::of(results, 1.0), first_line(results, 1.0))
+        (Verdict::of(results, 1.0), first_line(results, 1.0, words))
     }
 
     #[test]
@@ -469,7 +486,7 @@ mod tests {
             verdict == Verdict::Worse && line.contains("that it was tuned on: ride (error 0.800 → 0.900)"),
             "{line}"
         );
-        assert!(first_line(&free(&[(0.8, 0.6)]), 0.0).starts_with("UNCHANGED"));
+        assert!(first_line(&free(&[(0.8, 0.6)]), 0.0, words).starts_with("UNCHANGED"));
     }
 
     /// An error within 5 % and longer limits are not better, whatever the other recording gains.
@@ -490,7 +507,7 @@ mod tests {
         let (found, line) = judged(&results);
         assert_eq!(found, Verdict::Better);
         assert!(line.ends_with("mean error 0.733 → 0.607, smaller on 2 of 3, no limit active."), "{line}");
-        assert!(verdict(&results, "default").contains("goes from 0.733 to 0.607; it is better on 2 of 3"));
+        assert!(verdict(&results, "default", words).contains("goes from 0.733 to 0.607; it is better on 2 of 3"));
     }
 
     #[test]
@@ -500,7 +517,7 @@ mod tests {
 
     #[test]
     fn what_was_not_held_out_is_not_claimed() {
-        let text = verdict(&[result(cost(0.8, 0.02), None)], "default");
+        let text = verdict(&[result(cost(0.8, 0.02), None)], "default", words);
         assert!(text.contains("No recording was held out: nothing is known of other recordings."), "{text}");
         assert!(text.contains("limits were active or the reserve was used on 1 of 1 with default"), "{text}");
     }
@@ -509,11 +526,11 @@ mod tests {
     fn a_ride_without_which_nothing_was_found_is_named_and_does_not_count() {
         let found = result(cost(0.8, 0.0), Some(cost(0.6, 0.0)));
         let not = RecordingResult { name: "wild".to_owned(), infeasible_without: true, ..result(cost(0.9, 0.0), None) };
-        let text = verdict(&[found.clone(), not.clone()], "default");
+        let text = verdict(&[found.clone(), not.clone()], "default", words);
         assert!(text.contains("Tuned without wild, no parameters were found"), "{text}");
         assert!(text.contains("better on 1 of 1"), "{text}");
         assert!(errors(&[found, not.clone()]).lines().any(|line| line.contains("wild") && line.contains("none found")));
-        let text = verdict(&[not], "default");
+        let text = verdict(&[not], "default", words);
         assert!(text.ends_with("Nothing is known of other recordings.") && !text.contains("held out"), "{text}");
     }
 

@@ -1,12 +1,12 @@
 //! Tuning with a test on recordings that are left out. The test also determines how far the result
 //! goes from the initial parameters.
 
-use anyhow::Result;
 use moris_setup::Setup;
 
 use super::cost::{Cost, Objective};
+use super::error::TuneError;
 use super::summary::RecordingResult;
-use super::tuner::{NoFeasibleParameters, Tuner, WORST_RATIO, full_cost, full_costs, with_scales_times, worst_ratio};
+use super::tuner::{Tuner, WORST_RATIO, full_cost, full_costs, with_scales_times, worst_ratio};
 
 /// Fractions of the distance from the initial parameters to the best ones for the recordings
 /// tuned on, in logarithms.
@@ -41,14 +41,14 @@ const TRIES: i32 = 8;
 /// Recordings in `held_out` have no influence on the result.
 ///
 /// # Errors
-/// No parameters keep the limits on all recordings ([`NoFeasibleParameters`]), or
+/// No parameters keep the limits on all recordings ([`TuneError::Infeasible`]), or
 /// parameters cannot be used.
 pub fn tune_tested(
     tuner: &Tuner,
     objectives: &[&Objective],
     held_out: &[&Objective],
     folds: &[Vec<usize>],
-) -> Result<Tested> {
+) -> Result<Tested, TuneError> {
     let best = tuner.tune(objectives, "all recordings")?;
     let before = full_costs(objectives, tuner.setup)?;
     let left_out = leave_out_in_turn(tuner, objectives, folds)?;
@@ -84,7 +84,11 @@ struct LeftOut {
 }
 
 /// Tunes without each of the folds. The result of an interrupted search is not used.
-fn leave_out_in_turn(tuner: &Tuner, objectives: &[&Objective], folds: &[Vec<usize>]) -> Result<Vec<LeftOut>> {
+fn leave_out_in_turn(
+    tuner: &Tuner,
+    objectives: &[&Objective],
+    folds: &[Vec<usize>],
+) -> Result<Vec<LeftOut>, TuneError> {
     let mut left_out = vec![LeftOut::default(); objectives.len()];
     for fold in folds {
         if tuner.was_interrupted() {
@@ -94,7 +98,7 @@ fn leave_out_in_turn(tuner: &Tuner, objectives: &[&Objective], folds: &[Vec<usiz
             _ if tuner.was_interrupted() => break,
             Ok(of_fold) => fold.iter().zip(of_fold).for_each(|(&k, costs)| left_out[k].trials = Some(costs)),
             // The result for all recordings remains valid.
-            Err(error) if error.is::<NoFeasibleParameters>() => {
+            Err(TuneError::Infeasible(_)) => {
                 fold.iter().for_each(|&k| left_out[k].infeasible = true);
             }
             Err(error) => return Err(error),
@@ -111,7 +115,7 @@ fn as_far_as_serves(
     before: &[Cost],
     pairs: &[(Cost, Trials)],
     best: Setup,
-) -> Result<(Setup, f64)> {
+) -> Result<(Setup, f64), TuneError> {
     for index in serving(pairs) {
         let Some(setup) = within_limits(tuner, objectives, &best, FRACTIONS[index])? else { continue };
         if worst_ratio(before, &full_costs(objectives, &setup)?) <= WORST_RATIO {
@@ -126,7 +130,7 @@ fn as_far_as_serves(
 
 /// Costs of the recordings of a fold, at each fraction of the distance to the best
 /// parameters for the others.
-fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result<Vec<Trials>> {
+fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result<Vec<Trials>, TuneError> {
     let others: Vec<&Objective> =
         objectives.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, objective)| *objective).collect();
     let names: Vec<&str> = fold.iter().map(|&k| objectives[k].name()).collect();
@@ -143,7 +147,12 @@ fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result
 
 /// The parameters at this fraction of the distance to the best ones. Their scales are reduced until
 /// the limits are kept on these recordings. `None` if the limits are not kept.
-fn within_limits(tuner: &Tuner, objectives: &[&Objective], best: &Setup, fraction: f64) -> Result<Option<Setup>> {
+fn within_limits(
+    tuner: &Tuner,
+    objectives: &[&Objective],
+    best: &Setup,
+    fraction: f64,
+) -> Result<Option<Setup>, TuneError> {
     if fraction == 1.0 {
         return Ok(Some(best.clone()));
     }

@@ -3,21 +3,16 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use anyhow::Result;
 use moris_setup::Setup;
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use super::cost::{Cost, Objective};
+use super::error::TuneError;
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
+use crate::message::{given, message, named};
 use moris_simulation::Simulation;
-
-/// No parameters were found that keep the constraints. The text names the
-/// recordings and the remedy.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct NoFeasibleParameters(String);
 
 /// Tunes on sets of recordings.
 pub struct Tuner<'a> {
@@ -85,8 +80,9 @@ impl Tuner<'_> {
     /// steps that they will be used with.
     ///
     /// # Errors
-    /// No parameters keep the constraints ([`NoFeasibleParameters`]), or parameters cannot be used.
-    pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup> {
+    /// No parameters keep the constraints ([`TuneError::Infeasible`]), or parameters cannot be
+    /// used.
+    pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup, TuneError> {
         let begin = self.tried.load(Ordering::Relaxed);
         // The best set has the least cost, but its error may be slightly above an earlier set's.
         let mut least: Option<f64> = None;
@@ -124,14 +120,20 @@ impl Tuner<'_> {
             return Ok(tuned);
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
-        let text = format!(
+        let violating = self.violating_recordings(objectives, &nearest)?;
+        Err(TuneError::Infeasible(message![
             "no parameters were found with which every recording stays clear of the safety units and the actuators' limits, and within the \
-             bounds of --comfort{}; omit the most demanding recording, or try more --evaluations, less --stroke-reserve, lower scales to \
-             start from, larger bounds of --comfort, or, for vibration, \
-             --tune splitter,angular,scale,cutoff",
-            self.violating_recordings(objectives, &nearest)?
-        );
-        Err(NoFeasibleParameters(text).into())
+             bounds of ",
+            named("comfort"),
+            "{violating}; omit the most demanding recording, or try more ",
+            named("evaluations"),
+            ", less ",
+            named("stroke-reserve"),
+            ", lower scales to start from, larger bounds of ",
+            named("comfort"),
+            ", or, for vibration, ",
+            given("tune", "splitter,angular,scale,cutoff")
+        ]))
     }
 
     /// Candidates to verify in the final step size, in this order:
@@ -153,7 +155,7 @@ impl Tuner<'_> {
     }
 
     /// The recordings that violate constraints, and how much, as the end of a sentence.
-    fn violating_recordings(&self, objectives: &[&Objective], setup: &Setup) -> Result<String> {
+    fn violating_recordings(&self, objectives: &[&Objective], setup: &Setup) -> Result<String, TuneError> {
         let mut limited = Vec::new();
         for objective in objectives {
             let Cost { violated, comfort: [shake, jolt, peak], excess, .. } = full_cost(objective, setup)?;
@@ -197,7 +199,7 @@ pub const WORST_RATIO: f64 = 1.05;
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn full_costs(objectives: &[&Objective], setup: &Setup) -> Result<Vec<Cost>> {
+pub fn full_costs(objectives: &[&Objective], setup: &Setup) -> Result<Vec<Cost>, TuneError> {
     objectives.par_iter().map(|objective| full_cost(objective, setup)).collect()
 }
 
@@ -210,7 +212,7 @@ pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn full_cost(objective: &Objective, setup: &Setup) -> Result<Cost> {
+pub fn full_cost(objective: &Objective, setup: &Setup) -> Result<Cost, TuneError> {
     let parameters = objective.recording().parameters(&setup.parameters);
     Ok(objective.cost(&Simulation::of(&objective.recording().replay(), &parameters, || ())?)?)
 }

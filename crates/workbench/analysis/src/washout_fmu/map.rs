@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail, ensure};
 use moris_bounded_files::TEXT;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, interface::AngularVelocityFrame, interface::STANDARD_GRAVITY};
 use serde::Deserialize;
 
+use crate::error::{About, Result, bail, ensure};
 use crate::recording::felt::Kind;
 use crate::recording::units::Dimension;
 
@@ -106,9 +106,9 @@ impl Map {
     /// It cannot be read, has unknown words, or its outputs are no whole motion.
     pub fn read(file: &Path) -> Result<Self> {
         let shown = || file.display().to_string();
-        let text = moris_bounded_files::text(file, TEXT).with_context(shown)?;
-        let map: Map = toml::from_str(&text).with_context(shown)?;
-        map.check().with_context(shown)?;
+        let text = moris_bounded_files::text(file, TEXT).about(shown)?;
+        let map: Map = toml::from_str(&text).about(shown)?;
+        map.check().about(shown)?;
         Ok(map)
     }
 
@@ -210,8 +210,8 @@ mod tests {
     use super::*;
 
     fn error(text: &str) -> String {
-        let read = || -> Result<()> { toml::from_str::<Map>(text)?.check() };
-        format!("{:#}", read().unwrap_err())
+        let read = || -> Result<()> { toml::from_str::<Map>(text).about(String::new)?.check() };
+        read().unwrap_err().with_sources(|_| String::new())
     }
 
     #[test]

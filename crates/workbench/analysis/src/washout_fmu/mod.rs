@@ -7,11 +7,12 @@ mod map;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
 use moris_fmu_host::{Causality, Running};
 use moris_simulation::foreign::ForeignMotion;
 use moris_washout::Input;
 
+use crate::error::{About, Result, bail, ensure};
+use crate::message::Message;
 use crate::recording::Recording;
 use crate::recording::felt::{FeltTable, Kind};
 pub use map::Map;
@@ -78,7 +79,7 @@ impl WashoutFmu {
         let mut read = |running: &mut Running| -> Result<()> {
             for (output, (_, values)) in given.iter().zip(&mut columns) {
                 let value = match &output.variable {
-                    Some((name, factor)) => running.get(name).with_context(|| name.clone())? * factor,
+                    Some((name, factor)) => running.get(name).about(|| name.clone())? * factor,
                     None => 0.0,
                 };
                 values.push(value + output.offset);
@@ -93,15 +94,15 @@ impl WashoutFmu {
             for input in &taken {
                 let value = |of: &Input| self.map.value(input.quantity, of, frame) * input.factor + input.offset;
                 let [from, to] = [value(&start), value(&end)];
-                running.set(&input.name, from).with_context(|| input.name.clone())?;
+                running.set(&input.name, from).about(|| input.name.clone())?;
                 if input.has_slope {
-                    running.set_slope(&input.name, slope(from, to, step)).with_context(|| input.name.clone())?;
+                    running.set_slope(&input.name, slope(from, to, step)).about(|| input.name.clone())?;
                 }
             }
             let time = k as f64 * step;
             running
                 .step(time, step)
-                .with_context(|| format!("the step of {step} s at {time:.4} s; `step` of the map sets its length"))?;
+                .about(|| format!("the step of {step} s at {time:.4} s; `step` of the map sets its length"))?;
             read(&mut running)?;
             start = end;
         }
@@ -111,7 +112,7 @@ impl WashoutFmu {
         }
         let name = self.file.display().to_string();
         let notes = still(&columns);
-        let (motion, others) = FeltTable::of_columns(&name, &columns)?.motion(recording).map_err(anyhow::Error::msg)?;
+        let (motion, others) = FeltTable::of_columns(&name, &columns)?.motion(recording).map_err(Message::from)?;
         Ok((motion, notes.into_iter().chain(others).collect()))
     }
 
@@ -141,7 +142,7 @@ impl WashoutFmu {
                 listed(running, Causality::Input)
             );
             let in_si = unit(running, place, quantity.kind(), Causality::Input);
-            let in_si = in_si.with_context(|| format!("[inputs] {}", quantity.name()))?;
+            let in_si = in_si.about(|| format!("[inputs] {}", quantity.name()))?;
             let is_real = declaration.is_some_and(|declaration| declaration.element == "Real");
             Ok(Taken {
                 quantity: *quantity,
@@ -159,9 +160,9 @@ impl WashoutFmu {
             let (variable, offset) = match place {
                 OutputPlace::Constant(value) => (None, *value),
                 OutputPlace::Variable(place) => {
-                    let kind = self.map.kind(name).context("the map was checked")?;
+                    let kind = self.map.kind(name).ok_or_else(|| Message::from("the map was checked"))?;
                     let in_si = unit(running, place, kind, Causality::Output);
-                    let in_si = in_si.with_context(|| format!("[outputs] {name}"))?;
+                    let in_si = in_si.about(|| format!("[outputs] {name}"))?;
                     (Some((place.at.clone(), place.scale * in_si)), place.offset)
                 }
             };
@@ -181,7 +182,10 @@ fn unit(running: &Running, place: &Place, kind: Kind, causality: Causality) -> R
     let declared = declaration.unit.as_deref().filter(|unit| *unit != "1");
     let of_fmu = declared.map(|unit| (unit, kind.factor(unit)));
     let of_map = match &place.unit {
-        Some(unit) => Some(kind.factor(unit).with_context(|| format!("unit {unit}: write {}", kind.units()))?),
+        Some(unit) => {
+            let reason = || Message::from(format!("unit {unit}: write {}", kind.units()));
+            Some(kind.factor(unit).ok_or_else(reason)?)
+        }
         None => None,
     };
     match (of_map, of_fmu) {

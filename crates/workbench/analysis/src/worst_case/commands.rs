@@ -1,11 +1,12 @@
 //! The washout's commands to the legs on a recording.
 
-use anyhow::{Context, Result};
 use moris_simulation::Replay;
 use moris_washout::interface::StructureParameters;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Parameters, Rig, Washout};
 
+use crate::error::Result;
+use crate::message::Message;
 use crate::recording::Recording;
 
 /// Longest step from command to command \[s\]. The platform's queue of commands is exact for dead
@@ -43,7 +44,8 @@ impl Commands {
         // Rounding must not make another step.
         let divisions = (sample / longest - 1e-6).ceil().max(1.0) as usize;
         let step = sample / divisions as f64;
-        let replay = Replay::in_steps(&recording.manoeuvre, step, true).context("the samples cannot be divided")?;
+        let replay = Replay::in_steps(&recording.manoeuvre, step, true)
+            .ok_or_else(|| Message::from("the samples cannot be divided"))?;
         let inputs = recording.inputs();
         let mut washout = Washout::new(&parameters)?.starting_with(&inputs[0]);
         let (mut lengths, mut felt) = (Vec::new(), Vec::new());

@@ -1,11 +1,11 @@
 //! The machines that are tried: the nominal one, and others with a different load and other
 //! actuators.
 
-use anyhow::{Result, ensure};
 use moris_stewart_platform::Parameters;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
+use crate::error::{Result, ensure};
 use crate::random::unit;
 
 /// Least and largest load, as multiples of the nominal one.

@@ -1,6 +1,5 @@
 //! A strategy on all rides and machines.
 
-use anyhow::{Context, Result};
 use moris_stewart_platform::Parameters as Platform;
 use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
@@ -10,6 +9,8 @@ use super::commands::{Commands, LONGEST_STEP};
 use super::figures::{Desired, Figures, Measure, RideFigures, over_rides};
 use super::machine::real_motion;
 use super::points::Point;
+use crate::error::{About, Result};
+use crate::message::Message;
 use crate::recording::Recording;
 
 /// Excess by which a value is larger than another, relative to it. Less is rounding: without active
@@ -63,7 +64,7 @@ impl Study {
         let machine = |point: &Point| {
             let on_ride = |(commands, desired): &(Commands, Desired)| {
                 let real = real_motion(commands, &point.parameters(platform))
-                    .with_context(|| format!("platform with {:.0} % of its load", 100.0 * point.load))?;
+                    .about(|| format!("platform with {:.0} % of its load", 100.0 * point.load))?;
                 progress();
                 Ok((desired.compared_with(&real.felt), real.force_limited, real.drive_limited))
             };
@@ -92,12 +93,12 @@ impl Study {
 }
 
 fn prepare(ride: &Recording, parameters: &Parameters) -> Result<(Commands, Desired)> {
-    let commands = Commands::of(ride, parameters, LONGEST_STEP).with_context(|| ride.name.clone())?;
+    let commands = Commands::of(ride, parameters, LONGEST_STEP).about(|| ride.name.clone())?;
     let desired = Desired::of(ride, &commands);
     Ok((commands, desired))
 }
 
 fn figures<'a>(rides: impl Iterator<Item = &'a RideFigures> + Clone) -> Result<Figures> {
-    over_rides(rides)
-        .context("no surge or sway of at least 0.03 m/s² (RMS) is desired on these recordings; take one with motion")
+    let none = "no surge or sway of at least 0.03 m/s² (RMS) is desired on these recordings; take one with motion";
+    over_rides(rides).ok_or_else(|| Message::from(none).into())
 }

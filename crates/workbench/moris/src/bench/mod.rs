@@ -84,7 +84,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let rigs: Vec<BenchRig> = RIGS.into_iter().filter(|rig| chosen(rig.name, &options.rig)).collect();
     let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
-    let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Foreign::fmu(file, map));
+    let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Ok(Foreign::fmu(file, map)?));
     let foreign = options.felt.iter().map(|folder| felt(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
     let pairs: Vec<(BenchRig, Drive)> =
         rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
@@ -93,7 +93,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         bail!("--felt: there is no file DRIVE.csv or RIG/DRIVE.csv, such as {}.csv", drives[0].name);
     }
     let progress = Progress::new("bench", "simulating")?;
-    let of_pair = |(rig, drive): &(BenchRig, Drive)| rows(rig, drive, &strategies, &foreign);
+    let of_pair = |(rig, drive): &(BenchRig, Drive)| Ok(rows(rig, drive, &strategies, &foreign)?);
     let rows: Vec<Row> = pairs.par_iter().map(of_pair).collect::<Result<Vec<_>>>()?.concat();
     progress.finish();
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;

@@ -456,7 +456,7 @@ fn known_laps(file: Option<&Path>, input: &telemetry::Input, setup: &Setup) -> R
         "--learn is for the predictive strategy alone; add --strategy predictive"
     );
     ensure!(input.has_position(), "--learn needs the vehicle's position, which this source does not send");
-    file.map_or_else(|| Ok(Laps::new()), learned_road::load)
+    Ok(file.map_or_else(|| Ok(Laps::new()), learned_road::load)?)
 }
 
 /// Gives the calling thread, which the loop needs on time, its priority.

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::{Outcome, fit, is_better_than_rest};
 use crate::recording::Recording;
+use crate::words;
 
 /// A recording, simulated with one or several sets of parameters.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -88,7 +89,7 @@ pub fn recording(recording: &Recording, outcomes: &[Outcome], files: &[PathBuf])
         recording: recording.name.clone(),
         duration: recording.manoeuvre.duration(),
         step: recording.step(),
-        warnings: recording.warnings.clone(),
+        warnings: words::warnings(recording),
         results: outcomes.iter().map(result).collect(),
         files: files.iter().map(|file| file.display().to_string()).collect(),
     }

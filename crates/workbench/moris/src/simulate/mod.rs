@@ -34,6 +34,7 @@ use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, sourc
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
 use crate::washout_fmu::WashoutFmu;
+use crate::words;
 pub use moris_analysis::bounds::{self, AxisBound};
 pub use moris_analysis::outcome::Outcome;
 use moris_analysis::outcome::listed;
@@ -140,8 +141,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let simulated = match simulate(options, file, &cases, &conventions, &mut road) {
             Ok(simulated) => simulated,
             Err(error) => {
-                eprintln!("error: {error:#}");
-                entries.push(vec![index::Entry::failed(source::name(file), format!("{error:#}"))]);
+                let reason = words::with_causes(&error);
+                eprintln!("error: {reason}");
+                entries.push(vec![index::Entry::failed(source::name(file), reason)]);
                 any_failed = true;
                 continue;
             }
@@ -207,7 +209,7 @@ impl Foreign {
     fn motion(&self, recording: &Recording) -> Result<(ForeignMotion, Vec<String>)> {
         match self {
             Foreign::Felt(file) => FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg),
-            Foreign::Fmu(fmu) => fmu.motion(recording),
+            Foreign::Fmu(fmu) => Ok(fmu.motion(recording)?),
         }
     }
 }
@@ -219,14 +221,14 @@ impl Case {
 
     fn outcome(&self, recording: &Recording, learned: Option<&Previewer>, progress: impl FnMut()) -> Result<Outcome> {
         if let Some(learned) = learned.filter(|_| self.learns) {
-            return Outcome::learned(recording, &self.setup, learned.clone(), progress);
+            return Ok(Outcome::learned(recording, &self.setup, learned.clone(), progress)?);
         }
         let Some(foreign) = &self.foreign else {
-            return Outcome::previewed(recording, &self.setup, self.preview, progress)?
-                .advised(recording, self.preview);
+            let outcome = Outcome::previewed(recording, &self.setup, self.preview, progress)?;
+            return Ok(outcome.advised(recording, self.preview)?);
         };
         let judged = foreign.motion(recording).and_then(|(motion, notes)| {
-            Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)
+            Ok(Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)?)
         });
         judged.with_context(|| foreign.file().display().to_string())
     }
@@ -397,7 +399,7 @@ fn write_files(directory: &Path, file: &Path, recording: &Recording, outcomes: &
         written.push(file);
     }
     let command = command_line::with_other_parameters(file);
-    written.push(write_page(directory, &recording.name, recording, outcomes, Some(command))?);
+    written.push(write_page(directory, &recording.name, recording, outcomes, &command)?);
     Ok(written)
 }
 
@@ -411,10 +413,10 @@ pub fn write_page(
     name: &str,
     recording: &Recording,
     outcomes: &[Outcome],
-    command: Option<String>,
+    command: &str,
 ) -> Result<PathBuf> {
     let file = directory.join(format!("{name}.html"));
-    fs::write(&file, page::html(recording, outcomes, command))
+    fs::write(&file, page::html(recording, outcomes, command, words::option))
         .with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

@@ -7,12 +7,13 @@ use moris_simulation::channels::{ChannelFigures, channels};
 use super::Outcome;
 use crate::recording::Recording;
 use crate::text_table::{Column, TextTable, or_undefined};
+use crate::words::warnings;
 
 /// The recording, what was found, and for each set of parameters a table of measures.
 pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
     let mut text =
         format!("{}: {:.1} s at {:.0} Hz\n", recording.name, recording.manoeuvre.duration(), 1.0 / recording.step());
-    for warning in &recording.warnings {
+    for warning in warnings(recording) {
         text += &format!("  {warning}\n");
     }
     for outcome in outcomes {

@@ -22,15 +22,17 @@ use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE;
 use crate::votes;
+use crate::words;
 use cost::Objective;
 use kept::Kept;
+use moris_analysis::tune::error::TuneError;
 pub use moris_analysis::tune::{cost, folds, search, space, summary, tested, tuner};
 pub use options::{Choice, Options};
 use search::Budget;
 use space::Space;
 use summary::{OfStrategy, RecordingResult, Verdict};
 use tested::{Tested, tune_tested};
-use tuner::{NoFeasibleParameters, Tuner};
+use tuner::Tuner;
 
 /// Runs the command.
 ///
@@ -47,9 +49,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let begun = Tuning::of(options, *strategy, &kept, &interrupted);
         match begun {
             Ok(tuning) => tunings.push(tuning),
-            Err(error) if strategies.len() > 1 && error.is::<NoFeasibleParameters>() => {
+            Err(error) if strategies.len() > 1 && is_infeasible(&error) => {
                 missed.extend(strategy.map(|strategy| strategy.name().to_owned()));
-                eprintln!("{error:#}");
+                eprintln!("{}", words::error(&*error));
             }
             Err(error) => return Err(error),
         }
@@ -149,7 +151,7 @@ impl Tuning {
         let Tested { setup: tuned, results, fraction } = tune_tested(&tuner, &tuned_on, &held_out, &folds)?;
         bar.finish_and_clear();
         let was_interrupted = tuner.was_interrupted();
-        kept.finish(&tuned, &summary::first_line(&results, fraction))?;
+        kept.finish(&tuned, &summary::first_line(&results, fraction, words::option))?;
         Ok(Tuning { before, tuned, objectives: all, results, fraction, was_interrupted, file })
     }
 
@@ -158,8 +160,13 @@ impl Tuning {
     }
 
     fn text(&self) -> String {
-        summary::text(&self.before, &self.tuned, &self.results, self.fraction, self.was_interrupted)
+        summary::text(&self.before, &self.tuned, &self.results, self.fraction, self.was_interrupted, words::option)
     }
+}
+
+/// True where no parameters keep the limits.
+fn is_infeasible(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(TuneError::Infeasible(_)))
 }
 
 /// The parameters that the search starts from.
@@ -206,14 +213,14 @@ fn write_reports(
     fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
     let mut written = vec![file];
     for objective in objectives {
-        let outcomes: Result<Vec<Outcome>> =
-            setups.iter().map(|setup| Outcome::of(objective.recording(), setup, || ())).collect();
+        let outcomes: Vec<Outcome> =
+            setups.iter().map(|setup| Outcome::of(objective.recording(), setup, || ())).collect::<Result<_, _>>()?;
         written.push(write_page(
             &options.report,
             &format!("{}.tuned", objective.name()),
             objective.recording(),
-            &outcomes?,
-            None,
+            &outcomes,
+            &format!("cargo moris simulate {}.csv --parameters", objective.recording().name),
         )?);
     }
     Ok(written)

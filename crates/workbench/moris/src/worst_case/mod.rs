@@ -92,7 +92,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let step = || with(&progress, Progress::step);
         Study::of(*strategy, &rides, &setup.parameters, &platform, &points, &step)
     };
-    let studies: Vec<Study> = strategies.iter().map(study).collect::<Result<_>>()?;
+    let studies: Vec<Study> = strategies.iter().map(study).collect::<Result<_, _>>()?;
     progress.into_inner().unwrap_or_else(PoisonError::into_inner).finish();
     write!(out, "{}", table::text(&setup, rides.len(), &studies))?;
     Ok(ExitCode::SUCCESS)

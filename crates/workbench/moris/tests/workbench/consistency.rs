@@ -6,6 +6,7 @@ use std::fs;
 
 use moris::recording::conventions::{Mounting, Quantity, SpeedUnit};
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 
 /// A car that speeds up and slows down in bends: time, ax, ay, yaw rate, yaw, speed in m/s.
 fn car() -> Vec<[f64; 6]> {
@@ -29,7 +30,7 @@ fn warnings(speed_title: &str, [ax, ay, wz, speed]: [f64; 4], options: &Conventi
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("drive.csv");
     fs::write(&file, text).unwrap();
-    Recording::read(&file, &options.load().unwrap()).unwrap().warnings.join(" ")
+    words::warnings(&Recording::read(&file, &options.load().unwrap()).unwrap()).join(" ")
 }
 
 const PLAIN: [f64; 4] = [1.0; 4];

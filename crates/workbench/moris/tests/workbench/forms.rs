@@ -10,6 +10,7 @@ use moris::recording::conventions::{
     AngleUnit, EmptyFields, ForceUnit, Format, Gravity, Mounting, Quantity, RateUnit, TimeUnit,
 };
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 
 const GRAVITY: f64 = 9.80665;
 const HEADER: [&str; 8] = ["time", "ax", "ay", "az", "wx", "wy", "wz", "speed"];
@@ -52,8 +53,8 @@ fn read_as(name: &str, text: &[u8], options: &ConventionOptions) -> Result<Recor
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join(name);
     fs::write(&file, text).unwrap();
-    let conventions = options.load().map_err(|error| error.to_string())?;
-    Recording::read(&file, &conventions).map_err(|error| error.to_string())
+    let conventions = options.load().map_err(|error| words::error(&error))?;
+    Recording::read(&file, &conventions).map_err(|error| words::error(&error))
 }
 
 fn assert_is_the_car(recording: Result<Recording, String>, name: &str) -> Vec<String> {
@@ -67,7 +68,7 @@ fn assert_is_the_car(recording: Result<Recording, String>, name: &str) -> Vec<St
         assert!(off < 0.02, "{name}: sample {k} is off by {off}");
         assert!(input.speed == 0.0 || (input.speed - speed).abs() < 0.02, "{name}: {}", input.speed);
     }
-    recording.warnings
+    words::warnings(&recording)
 }
 
 fn plain() -> ConventionOptions {
@@ -330,7 +331,7 @@ fn judged(options: &ConventionOptions, change: impl Fn([f64; 8]) -> [f64; 8]) ->
         let fields: Vec<String> = change(car(k)).iter().map(|value| format!("{value:.7}")).collect();
         writeln!(text, "{}", fields.join(",")).unwrap();
     }
-    read(&text, options).map_or_else(|error| error, |recording| recording.warnings.join(" "))
+    read(&text, options).map_or_else(|error| error, |recording| words::warnings(&recording).join(" "))
 }
 
 #[test]
@@ -356,7 +357,7 @@ fn channels_that_stand_still_are_named() {
             }
         });
     let aim = ConventionOptions { format: Some(Format::Aim), force_unit: Some(ForceUnit::Gravity), ..plain() };
-    let warnings = read(&text, &aim).unwrap().warnings.join(" ");
+    let warnings = words::warnings(&read(&text, &aim).unwrap()).join(" ");
     assert!(warnings.contains("Column InlineAcc is constant, 0, while GPS LonAcc changes"), "{warnings}");
     assert!(warnings.contains("\"ax=GPS LonAcc\""), "{warnings}");
 }
@@ -410,7 +411,7 @@ fn slopes_and_reversing_are_no_wrong_signs() {
         speed += step * (force - GRAVITY * slope.sin());
         writeln!(text, "{t:.2},{force},0,{},0,{},0,{speed}", GRAVITY * slope.cos(), -0.03 * (0.25 * t).cos()).unwrap();
     }
-    let warnings = read(&text, &plain()).unwrap().warnings.join(" ");
+    let warnings = words::warnings(&read(&text, &plain()).unwrap()).join(" ");
     assert!(!warnings.contains("integral of the force along x"), "{warnings}");
     // Out of a garage in reverse, then forward; the speed has no sign.
     let velocity = |t: f64| {
@@ -426,7 +427,7 @@ fn slopes_and_reversing_are_no_wrong_signs() {
         let force = (velocity(t + 1e-4) - velocity(t - 1e-4)) / 2e-4;
         writeln!(text, "{t:.2},{force},{},{GRAVITY},0,0,{yaw_rate},{}", v * yaw_rate, v.abs()).unwrap();
     }
-    let warnings = read(&text, &plain()).unwrap().warnings.join(" ");
+    let warnings = words::warnings(&read(&text, &plain()).unwrap()).join(" ");
     assert!(warnings.contains("seems to reverse from 2.") && !warnings.contains("wrong sign"), "{warnings}");
 }
 
@@ -523,10 +524,10 @@ fn damaged_recordings_are_no_panic() {
 fn files_without_an_end_are_refused() {
     let zero = Path::new("/dev/zero");
     if zero.exists() {
-        let message = Recording::read(zero, &plain().load().unwrap()).unwrap_err().to_string();
+        let message = words::error(&Recording::read(zero, &plain().load().unwrap()).unwrap_err());
         assert!(message.contains("is no text but a binary file"), "{message}");
         let options = ConventionOptions { conventions: Some(zero.to_owned()), ..plain() };
-        let message = options.load().unwrap_err().to_string();
+        let message = words::error(&options.load().unwrap_err());
         assert!(message.contains("it has zero bytes"), "{message}");
         assert!(moris::votes::read(zero).is_err());
     }

@@ -12,6 +12,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use moris::recording::conventions::{ForceUnit, Quantity, RateUnit};
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 
 const GRAVITY: f64 = 9.80665;
 
@@ -52,7 +53,7 @@ fn read_bytes(name: &str, bytes: &[u8], options: &ConventionOptions) -> Result<R
     let file = directory.path().join(name);
     fs::write(&file, bytes).unwrap();
     let recording = Recording::read(&file, &options.load().unwrap());
-    recording.map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+    recording.map_err(|error| words::error(&error).replace(&format!("{}/", directory.path().display()), ""))
 }
 
 fn read(text: &str) -> Result<Recording, String> {
@@ -168,7 +169,7 @@ fn rates_that_are_plausible_only_in_degrees_are_rejected() {
     assert!(derivative.contains("57 times the derivative of roll"), "{derivative}");
 
     // In rad/s the same is accepted; rad/s that are given are not doubted.
-    assert!(read(&csv(header, &samples, SI)).unwrap().warnings.is_empty());
+    assert!(words::warnings(&read(&csv(header, &samples, SI)).unwrap()).is_empty());
     for rad in [
         read(&csv("time,ax,ay,az,wx [rad/s],wy [rad/s],wz [rad/s]", &samples, in_degrees)),
         read_bytes(
@@ -372,7 +373,7 @@ fn columns_in_memory_are_read_as_a_file() {
     }
     let conventions = ConventionOptions::default().load().unwrap();
     let in_memory = |columns: &[(String, Vec<f64>)]| {
-        Recording::of_columns("drive", columns, &conventions).map_err(|error| error.to_string())
+        Recording::of_columns("drive", columns, &conventions).map_err(|error| words::error(&error))
     };
     let (file, recording) = (read(&text).unwrap(), in_memory(&columns).unwrap());
     assert_eq!((recording.name.as_str(), recording.step(), recording.inputs()), ("drive", file.step(), file.inputs()));

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use moris::recording::conventions::{EmptyFields, Format, Mounting, Quantity};
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Vector3};
 
@@ -53,7 +54,7 @@ fn with_format(format: Format) -> ConventionOptions {
 }
 
 fn read(path: &Path, options: &ConventionOptions) -> Result<Recording, String> {
-    Recording::read(path, &options.load().map_err(|error| error.to_string())?).map_err(|error| error.to_string())
+    Recording::read(path, &options.load().map_err(|error| words::error(&error))?).map_err(|error| words::error(&error))
 }
 
 fn read_text(text: &str, options: &ConventionOptions) -> Result<Recording, String> {
@@ -110,12 +111,11 @@ fn phyphox_is_a_directory_of_files() {
     assert_is_the_car(&recording, recording.start, 0.01);
     assert!((0.1..0.106).contains(&recording.start), "{}", recording.start);
     assert!(
-        recording
-            .warnings
+        words::warnings(&recording)
             .iter()
             .any(|warning| warning.contains("straight accelerations and the lateral force of bends")),
         "{:?}",
-        recording.warnings
+        words::warnings(&recording)
     );
     // The files by name are the same recording; a format's name is found out.
     let both = format!("{}+{}", folder.join("Accelerometer.csv").display(), folder.join("Gyroscope.csv").display());
@@ -259,9 +259,9 @@ fn racechrono_is_read_with_its_gaps() {
     assert!((recording.step() - 0.02).abs() < 1e-9, "{}", recording.step());
     assert_is_the_car(&recording, recording.start - 1_777_636_800.0, 0.03);
     assert!(
-        recording.warnings.iter().any(|warning| warning.contains("the change of speed")),
+        words::warnings(&recording).iter().any(|warning| warning.contains("the change of speed")),
         "{:?}",
-        recording.warnings
+        words::warnings(&recording)
     );
     // Without the format, it is recognised; without interpolation, the first gap is named.
     let message = read_text(&text(), &ConventionOptions::default()).unwrap_err();
@@ -420,7 +420,8 @@ fn a_turned_sensor_is_turned_back() {
         let found = read_text(&text(degrees), &with(Mounting::Auto)).unwrap();
         assert_is_the_car(&found, 0.0, 1e-6);
         // What it says gives the same.
-        let warning = found.warnings.iter().find_map(|warning| warning.split_once("--mounting=")).unwrap().1;
+        let warnings = words::warnings(&found);
+        let warning = warnings.iter().find_map(|warning| warning.split_once("--mounting=")).unwrap().1;
         let given = Mounting::parse(warning.split_whitespace().next().unwrap()).unwrap();
         assert_is_the_car(&read_text(&text(degrees), &with(given)).unwrap(), 0.0, 0.03);
     }

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use moris::recording::conventions::{Format, Mounting};
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Vector3};
 
@@ -69,7 +70,7 @@ impl<S: Fn(f64) -> f64, Y: Fn(f64) -> f64> Vehicle<S, Y> {
             assert!(off < 0.02, "{degrees:?}, {time}: {} is not {force}", input.specific_force);
             assert!((input.angular_velocity - rate).norm() < 0.02, "{time}: {}", input.angular_velocity);
         }
-        recording.warnings.join(" ")
+        words::warnings(&recording).join(" ")
     }
 
     /// The same with a gyroscope that is off by so much about each axis \[rad/s\].
@@ -88,7 +89,7 @@ impl<S: Fn(f64) -> f64, Y: Fn(f64) -> f64> Vehicle<S, Y> {
     }
 
     fn refusal(&self, more: &[(&str, &dyn Fn(f64) -> f64)]) -> String {
-        read(&self.file(PHONE, more)).map(|recording| recording.warnings).expect_err("forward must be unknown")
+        read(&self.file(PHONE, more)).map(|recording| words::warnings(&recording)).expect_err("forward must be unknown")
     }
 }
 
@@ -101,7 +102,7 @@ fn read(text: &str) -> Result<Recording, String> {
     let file = directory.path().join("drive.csv");
     fs::write(&file, text).unwrap();
     let options = ConventionOptions { mounting: Some(Mounting::Auto), ..ConventionOptions::default() };
-    Recording::read(&file, &options.load().unwrap()).map_err(|error| error.to_string())
+    Recording::read(&file, &options.load().unwrap()).map_err(|error| words::error(&error))
 }
 
 /// From 0 to 1 and back to 0 between two times, with the slope of a sine's square.
@@ -127,7 +128,7 @@ fn bends_before_the_first_acceleration_do_not_mislead() {
                 if leans && (vehicle.yaw_rate)(9.0).abs() < 0.1 {
                     // Too little lean to tell forward from backward: that is said.
                     let found = read(&vehicle.file(degrees, &[]));
-                    let said = found.map_or_else(|error| error, |recording| recording.warnings.join(" "));
+                    let said = found.map_or_else(|error| error, |recording| words::warnings(&recording).join(" "));
                     let words = ["forward is backward", "but only to", "apart; give"];
                     let is_said = words.iter().any(|word| said.contains(word));
                     assert!(is_said || vehicle.assert_found(degrees, &[]).contains("lean"), "{said}");
@@ -185,7 +186,7 @@ fn the_first_stop_shows_the_sign() {
     assert!(at(&stop_and_go, 11.0) < -3.0 && at(&stop_and_go, 24.0) > 2.0);
     let stop = read_with(&to_a_stop);
     assert!(at(&stop, 11.0) < -3.0, "{}", at(&stop, 11.0));
-    let warnings = stop_and_go.warnings.join(" ");
+    let warnings = words::warnings(&stop_and_go).join(" ");
     assert!(warnings.contains("the first acceleration, at 2"), "{warnings}");
     assert!(warnings.contains("forward is backward: use --mounting=90.0,-0.0,90.0."), "{warnings}");
 }
@@ -228,7 +229,11 @@ fn a_biased_gyroscope_does_not_mislead() {
     let recording = Vehicle { speed, yaw_rate, leans: false, vibration: 0.0 }.biased(0.025).unwrap();
     assert!((recording.inputs()[850].specific_force - Vector3::new(18.0 / 7.0, 0.0, GRAVITY)).norm() < 0.02);
     let evidence = "straight accelerations and the lateral force of bends";
-    assert!(recording.warnings.iter().any(|warning| warning.contains(evidence)), "{:?}", recording.warnings);
+    assert!(
+        words::warnings(&recording).iter().any(|warning| warning.contains(evidence)),
+        "{:?}",
+        words::warnings(&recording)
+    );
 }
 
 /// phyphox writes the speed at 1 Hz into a file of its own, which begins late.
@@ -257,7 +262,7 @@ fn the_speed_of_phyphox_is_used() {
     assert!((recording.manoeuvre.duration() - DURATION).abs() < 1e-9, "{}", recording.manoeuvre.duration());
     assert!(recording.inputs()[1200].specific_force.x < -1.5, "the recording begins with a braking");
     assert!((recording.inputs()[1200].speed - speed(12.0)).abs() < 0.5);
-    let warnings = recording.warnings.join(" ");
+    let warnings = words::warnings(&recording).join(" ");
     assert!(warnings.contains("straight accelerations and the change of speed"), "{warnings}");
     assert!(!warnings.contains("Location.csv has no samples"), "{warnings}");
 }

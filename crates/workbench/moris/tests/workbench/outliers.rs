@@ -6,6 +6,7 @@ use std::fs;
 use std::process::Command;
 
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 
 const GRAVITY: f64 = 9.80665;
 const SAMPLES: usize = 2000;
@@ -35,7 +36,7 @@ fn read(samples: &[[f64; 7]], repair: bool) -> Result<Recording, String> {
     fs::write(&file, csv(samples)).unwrap();
     let options = ConventionOptions { repair, ..ConventionOptions::default() };
     let recording = Recording::read(&file, &options.load().unwrap());
-    recording.map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+    recording.map_err(|error| words::error(&error).replace(&format!("{}/", directory.path().display()), ""))
 }
 
 /// The drive with other values of a column at some samples.
@@ -48,16 +49,16 @@ fn with(column: usize, values: impl Iterator<Item = (usize, f64)>) -> Vec<[f64; 
 #[test]
 fn a_drive_without_outliers_is_not_accused() {
     let plain = read(&drive(), false).unwrap();
-    assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
+    assert!(words::warnings(&plain).is_empty(), "{:?}", words::warnings(&plain));
     assert_eq!(read(&drive(), true).unwrap().inputs(), plain.inputs());
     // Rounded to few digits, as loggers write.
     let rounded: Vec<[f64; 7]> = drive().iter().map(|s| s.map(|value| (value * 100.0).round() / 100.0)).collect();
-    assert!(read(&rounded, false).unwrap().warnings.is_empty());
+    assert!(words::warnings(&read(&rounded, false).unwrap()).is_empty());
     // Three samples are a blow, and a step is none.
     let blow = with(2, (500..503).map(|k| (k, 30.0)));
-    assert!(read(&blow, false).unwrap().warnings.is_empty());
+    assert!(words::warnings(&read(&blow, false).unwrap()).is_empty());
     let step = with(1, (1000..SAMPLES).map(|k| (k, drive()[k][1] + 6.0 * f64::from(u8::from(k < 1200)))));
-    assert!(!read(&step, false).unwrap().warnings.iter().any(|warning| warning.contains("spike")));
+    assert!(!words::warnings(&read(&step, false).unwrap()).iter().any(|warning| warning.contains("spike")));
 }
 
 #[test]
@@ -76,7 +77,11 @@ fn error_values_are_refused_and_repaired_on_request() {
         }
         let said =
             format!("{} of column ay", if count == 1 { "a sample".to_owned() } else { format!("{count} samples") });
-        assert!(repaired.warnings.iter().any(|warning| warning.contains(&said)), "{:?}", repaired.warnings);
+        assert!(
+            words::warnings(&repaired).iter().any(|warning| warning.contains(&said)),
+            "{:?}",
+            words::warnings(&repaired)
+        );
     }
     // At either end, the nearest value holds.
     for sample in [0, SAMPLES - 1] {
@@ -92,11 +97,11 @@ fn spikes_are_named_and_repaired_on_request() {
         [(1, "ax", vec![(300, 12.0)]), (6, "wz", vec![(300, 2.0), (301, 2.1)]), (3, "az", vec![(300, -120.0)])]
     {
         let samples = with(column, spikes.iter().copied());
-        let warnings = read(&samples, false).unwrap().warnings.join(" ");
+        let warnings = words::warnings(&read(&samples, false).unwrap()).join(" ");
         assert!(warnings.contains(&format!("Column {name} has isolated spikes")), "{warnings}");
         assert!(warnings.contains("at 3.00 s (line 302)") && warnings.contains("use --repair"), "{warnings}");
         let repaired = read(&samples, true).unwrap();
-        assert!(repaired.warnings.join(" ").contains("Repaired: "), "{:?}", repaired.warnings);
+        assert!(words::warnings(&repaired).join(" ").contains("Repaired: "), "{:?}", words::warnings(&repaired));
         let input = &repaired.inputs()[300];
         let found = [input.specific_force.as_slice(), input.angular_velocity.as_slice()].concat()[column - 1];
         assert!((found - drive()[300][column]).abs() < 0.5, "{name}: {found}");
@@ -110,7 +115,7 @@ fn spikes_stand_out_of_vibration() {
         let mut samples = drive();
         samples.iter_mut().enumerate().for_each(|(k, s)| s[3] += 30.0 * (2.3 * k as f64).sin());
         samples[300][3] = spike;
-        read(&samples, false).unwrap().warnings.join(" ")
+        words::warnings(&read(&samples, false).unwrap()).join(" ")
     };
     assert!(rough(120.0).contains("Column az has isolated spikes"));
     assert!(!rough(80.0).contains("spikes"));
@@ -121,7 +126,7 @@ fn spikes_stand_out_of_vibration() {
 fn rough_roads_are_not_accused() {
     let mut samples = drive();
     (1000..1100).for_each(|k| samples[k][3] += 25.0 * (2.3 * k as f64).sin() * (0.41 * k as f64).sin().powi(8));
-    let warnings = read(&samples, false).unwrap().warnings;
+    let warnings = words::warnings(&read(&samples, false).unwrap());
     assert!(warnings.is_empty(), "{warnings:?}");
 }
 
@@ -129,7 +134,7 @@ fn rough_roads_are_not_accused() {
 fn flat_tops_are_named() {
     let clipped: Vec<[f64; 7]> =
         drive().into_iter().map(|s| [s[0], s[1], s[2].clamp(-1.5, 1.2), s[3], s[4], s[5], s[6]]).collect();
-    let warnings = read(&clipped, true).unwrap().warnings;
+    let warnings = words::warnings(&read(&clipped, true).unwrap());
     let tops: Vec<&String> =
         warnings.iter().filter(|warning| warning.contains("Column ay stays at its extreme")).collect();
     assert_eq!(tops.len(), 2, "{warnings:?}");
@@ -140,7 +145,7 @@ fn flat_tops_are_named() {
         .into_iter()
         .map(|s| [s[0], 0.0, 0.0, GRAVITY, 0.0, 0.0, 0.1 * (TAU * 0.05 * (s[0] - 5.0).clamp(0.0, 10.0)).sin()])
         .collect();
-    assert!(read(&left, false).unwrap().warnings.is_empty());
+    assert!(words::warnings(&read(&left, false).unwrap()).is_empty());
     // A computed manoeuvre that brakes steadily from rest is none.
     let steady: Vec<[f64; 7]> = drive()
         .into_iter()
@@ -151,7 +156,7 @@ fn flat_tops_are_named() {
             [s[0], s[1] + ((s[0] - 4.0).clamp(0.0, 1.0) - (s[0] - 7.0).clamp(0.0, 1.0)), s[2], s[3], s[4], s[5], s[6]]
         })
         .collect();
-    assert!(!read(&steady, false).unwrap().warnings.iter().any(|warning| warning.contains("extreme")));
+    assert!(!words::warnings(&read(&steady, false).unwrap()).iter().any(|warning| warning.contains("extreme")));
 }
 
 /// The page tells what was repaired.

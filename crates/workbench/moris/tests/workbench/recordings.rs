@@ -9,6 +9,7 @@ use moris::recording::conventions::{
     AngleUnit, Axes, Dimension, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, TimeUnit,
 };
 use moris::recording::{ConventionOptions, Conventions, Recording};
+use moris::words;
 use moris_washout::Parameters;
 use moris_washout::cueing::conditioning::cue;
 use moris_washout::interface::{AngularVelocityFrame, GravityRemoval};
@@ -65,9 +66,8 @@ fn read(text: &str, options: &ConventionOptions) -> Recording {
 /// The message with which a recording is refused, without the directory.
 fn refusal(text: &str, options: &ConventionOptions) -> String {
     let (directory, file) = file(text);
-    let message =
-        Recording::read(&file, &options.load().unwrap()).expect_err("this recording must be refused").to_string();
-    message.replace(&format!("{}/", directory.path().display()), "")
+    let error = Recording::read(&file, &options.load().unwrap()).expect_err("this recording must be refused");
+    words::error(&error).replace(&format!("{}/", directory.path().display()), "")
 }
 
 fn assert_same(found: &Recording, expected: &Recording) {
@@ -196,10 +196,10 @@ fn options_stand_over_the_file_of_conventions() {
     assert_eq!(given.rate_frame, RateFrame::Body);
 
     fs::write(&file, "force-units = \"g\"\n").unwrap();
-    let message = options.load().unwrap_err().to_string();
+    let message = words::error(&options.load().unwrap_err());
     assert!(message.contains("force-units") && message.contains("force-unit"), "{message}");
     fs::write(&file, "[columns]\naxx = \"x\"\n").unwrap();
-    let message = options.load().unwrap_err().to_string();
+    let message = words::error(&options.load().unwrap_err());
     assert!(message.contains("there is no key axx; there are time, ax"), "{message}");
 }
 
@@ -293,7 +293,7 @@ fn missing_columns_and_empty_files_are_told() {
     assert!(refusal("", &default).contains("is empty"));
     assert!(refusal("0.0,1,2,3,4,5,6\n", &default).contains("begins with numbers"));
     assert!(refusal(&format!("{PLAIN}\n0,0,0,9.81,0,0,0\n"), &default).contains("fewer than two samples"));
-    let missing = Recording::read(&PathBuf::from("no/such.csv"), &Conventions::default()).unwrap_err().to_string();
+    let missing = words::error(&Recording::read(&PathBuf::from("no/such.csv"), &Conventions::default()).unwrap_err());
     assert!(missing.contains("cannot read no/such.csv"), "{missing}");
 }
 
@@ -323,9 +323,9 @@ fn unequal_steps_are_refused_and_can_be_interpolated() {
     let gap: Vec<Sample> = kept.iter().copied().filter(|s| !(1.0..2.0).contains(&s[0])).collect();
     let recording = read(&csv(PLAIN, &gap, |s| s[..7].to_vec()), &options);
     assert!(
-        recording.warnings.iter().any(|warning| warning.contains("Nothing was recorded for")),
+        words::warnings(&recording).iter().any(|warning| warning.contains("Nothing was recorded for")),
         "{:?}",
-        recording.warnings
+        words::warnings(&recording)
     );
 }
 
@@ -390,13 +390,21 @@ fn a_recording_that_does_not_begin_at_rest_can_be_faded_in() {
     let text = csv(PLAIN, &samples, |s| s[..7].to_vec());
     let recording = read(&text, &ConventionOptions::default());
     assert!(
-        recording.warnings.iter().any(|warning| warning.contains("does not begin at rest")),
+        words::warnings(&recording).iter().any(|warning| warning.contains("does not begin at rest")),
         "{:?}",
-        recording.warnings
+        words::warnings(&recording)
     );
-    assert!(recording.warnings.iter().any(|warning| warning.contains("along x is 2.")), "{:?}", recording.warnings);
+    assert!(
+        words::warnings(&recording).iter().any(|warning| warning.contains("along x is 2.")),
+        "{:?}",
+        words::warnings(&recording)
+    );
     let led = read(&text, &ConventionOptions { fade_in: Some(1.0), ..ConventionOptions::default() });
-    assert!(!led.warnings.iter().any(|warning| warning.contains("does not begin at rest")), "{:?}", led.warnings);
+    assert!(
+        !words::warnings(&led).iter().any(|warning| warning.contains("does not begin at rest")),
+        "{:?}",
+        words::warnings(&led)
+    );
     assert_eq!(led.inputs()[0].specific_force, Vector3::new(0.0, 0.0, GRAVITY));
     // Half way through, half of it: 0.5^2 (3 - 2 * 0.5).
     let half = 0.5 * (recording.inputs()[50].specific_force + Vector3::new(0.0, 0.0, GRAVITY));
@@ -441,7 +449,7 @@ proptest! {
         let options = ConventionOptions { resample, ..ConventionOptions::default() };
         match Recording::read(&file, &options.load().unwrap()) {
             Ok(recording) => prop_assert!(recording.step() > 0.0 && recording.inputs().iter().all(|input| input.specific_force.x.is_finite())),
-            Err(error) => prop_assert!(error.to_string().contains("ride.csv")),
+            Err(error) => prop_assert!(words::error(&error).contains("ride.csv")),
         }
     }
 }

@@ -6,6 +6,7 @@ use std::fs;
 
 use moris::recording::conventions::AngleUnit;
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 
 const GRAVITY: f64 = 9.80665;
 const HEADER: &str = "time,ax,ay,az,wx,wy,wz,speed,roll,pitch,yaw";
@@ -49,8 +50,8 @@ fn said_of(header: &str, options: &ConventionOptions, change: impl Fn(usize, Sam
     let file = directory.path().join("drive.csv");
     fs::write(&file, text).unwrap();
     match Recording::read(&file, &options.load().unwrap()) {
-        Ok(recording) => recording.warnings.join(" "),
-        Err(error) => error.to_string(),
+        Ok(recording) => words::warnings(&recording).join(" "),
+        Err(error) => words::error(&error),
     }
 }
 

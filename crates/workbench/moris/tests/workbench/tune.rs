@@ -11,6 +11,7 @@ use moris::simulate::Simulation;
 use moris::tune::cost::{Aim, Cost, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::Space;
+use moris::words;
 use moris_setup::Setup;
 use moris_simulation::Manoeuvre;
 use moris_washout::interface::{AngularVelocityFrame, TuningGroup};
@@ -313,7 +314,7 @@ fn groups_without_a_number_to_search_are_an_error_with_a_remedy() {
         let space = Space::new(&classical(), &[group]);
         let budget = Budget { evaluations: 10, seed: 1 };
         let error = search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap_err();
-        assert!(error.to_string().contains("--tune"), "{error}");
+        assert!(words::error(&error).contains("--tune"), "{error}");
     }
 }
 

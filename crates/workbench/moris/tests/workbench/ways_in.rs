@@ -9,6 +9,7 @@ use std::process::Command;
 
 use moris::recording::conventions::{Format, Missing, Mounting};
 use moris::recording::{ConventionOptions, Recording};
+use moris::words;
 
 const GRAVITY: f64 = 9.80665;
 const HEADER: &str = "time,ax,ay,az,wx,wy,wz";
@@ -39,7 +40,7 @@ fn read_as(name: &str, text: &str, options: &ConventionOptions) -> Result<Record
     let file = directory.path().join(name);
     fs::write(&file, text).unwrap();
     let recording = Recording::read(&file, &options.load().unwrap());
-    recording.map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+    recording.map_err(|error| words::error(&error).replace(&format!("{}/", directory.path().display()), ""))
 }
 
 fn read(text: &str, options: &ConventionOptions) -> Result<Recording, String> {
@@ -108,7 +109,11 @@ fn vbox_files_are_read() {
         assert_is_the_car(&recording, 1e-4);
         assert!((recording.inputs()[500].speed - car(5.0)[3]).abs() < 1e-4, "{}", recording.inputs()[500].speed);
         let missing = "The recording has no wx, wy: they are taken as at rest.";
-        assert!(recording.warnings.iter().any(|warning| warning == missing), "{:?}", recording.warnings);
+        assert!(
+            words::warnings(&recording).iter().any(|warning| warning == missing),
+            "{:?}",
+            words::warnings(&recording)
+        );
         let receiver = read_as("drive.vbo", &vbo(false, &clock), &format).unwrap();
         for (time, input) in receiver.times().zip(receiver.inputs()) {
             assert!((input.specific_force.y - car(time)[1]).abs() < 1e-4);
@@ -136,7 +141,7 @@ fn a_recording_without_a_gyroscope_is_read_on_request() {
     let rest = ConventionOptions { missing: Some(Missing::Rest), ..ConventionOptions::default() };
     let recording = read(&text, &rest).unwrap();
     assert!(recording.inputs().iter().all(|input| input.angular_velocity.norm() == 0.0));
-    assert!(recording.warnings[0].contains("has no wx, wy, wz"), "{:?}", recording.warnings);
+    assert!(words::warnings(&recording)[0].contains("has no wx, wy, wz"), "{:?}", words::warnings(&recording));
     // Forward is not found without a gyroscope, and a turned sensor's vertical is not known.
     let auto = ConventionOptions { mounting: Some(Mounting::Auto), ..rest.clone() };
     assert!(read(&text, &auto).unwrap_err().contains("there are no columns wx, wy, wz"));
@@ -153,7 +158,11 @@ fn equal_times_are_spread_on_request() {
     let resample = ConventionOptions { resample: Some(100.0), ..ConventionOptions::default() };
     let recording = read(&drive(10, &rounded), &resample).unwrap();
     assert_is_the_car(&recording, 1e-6);
-    assert!(recording.warnings.iter().any(|warning| warning.contains("spread evenly")), "{:?}", recording.warnings);
+    assert!(
+        words::warnings(&recording).iter().any(|warning| warning.contains("spread evenly")),
+        "{:?}",
+        words::warnings(&recording)
+    );
     // At the end, steps are the mean ones.
     let last = |k: usize| plain(k.min(999));
     let recording = read(&drive(10, &last), &resample).unwrap();
@@ -171,7 +180,7 @@ fn equal_times_are_spread_on_request() {
     fs::write(directory.path().join("rate.csv"), columns(4, 7)).unwrap();
     let read = |options: &ConventionOptions| Recording::read(directory.path(), &options.load().unwrap());
     assert_is_the_car(&read(&resample).unwrap(), 1e-6);
-    let message = read(&ConventionOptions::default()).unwrap_err().to_string();
+    let message = words::error(&read(&ConventionOptions::default()).unwrap_err());
     assert!(message.contains("--resample 100 spreads"), "{message}");
 }
 
@@ -182,7 +191,7 @@ fn a_last_line_that_is_cut_off_is_left_out() {
     for end in ["10.0", "10.01,0.3", "10.01,0.3,0.1,9.8,0,0,-"] {
         let recording = read(&format!("{text}{end}"), &ConventionOptions::default()).unwrap();
         assert_eq!(recording.inputs(), expected.inputs(), "{end}");
-        assert_eq!(recording.warnings[..1], ["The last line, 1003, is cut off and left out."]);
+        assert_eq!(words::warnings(&recording)[..1], ["The last line, 1003, is cut off and left out."]);
     }
     // A line in the middle, and a whole last one, are errors.
     assert!(read(&text.replacen("\n0.05,", "\n0.05\n0.055,", 1), &ConventionOptions::default()).is_err());

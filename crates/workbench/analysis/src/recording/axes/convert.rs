@@ -6,6 +6,7 @@ use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::mounting::{self, MountingEstimate, SensorMotion};
+use crate::message::{Message, message};
 use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
 use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
@@ -14,7 +15,7 @@ use crate::recording::table::Table;
 ///
 /// # Errors
 /// The mounting is to be found and cannot be.
-pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Option<String>), RecordingError> {
+pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Option<Message>), RecordingError> {
     let (mounting, warning) = match conventions.mounting {
         None => (None, None),
         Some(Mounting::Angles(angles)) => (Some(Orientation::new(angles).rotation), None),
@@ -34,10 +35,10 @@ fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(
     Vector3::from_fn(|axis, _| table.value(quantity(axis), sample) * signs[axis])
 }
 
-fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, String> {
+fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, Message> {
     if conventions.gravity == Gravity::Removed {
         let [auto, angles] = Mounting::options();
-        return Err(format!("{auto} needs gravity in the accelerations; give {angles}"));
+        return Err(message![auto, " needs gravity in the accelerations; give ", angles]);
     }
     let vectors = |quantity| -> Vec<Vector3<f64>> {
         (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()

@@ -6,9 +6,9 @@ use moris_washout::Input;
 
 use super::consistency::derivative_and_rate;
 use super::remedy;
+use crate::message::{Message, given, message};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{AngleUnit, Conventions, Quantity, RateFrame};
-use crate::recording::message::given;
 use crate::recording::signal::{median, regression, root_mean_square};
 use crate::recording::table::Table;
 
@@ -25,16 +25,16 @@ const LEAST_RATE: f64 = 0.005;
 
 /// Rejects angles that no vehicle reaches, and those that change as degrees would. A given unit
 /// overrides all tests but the first.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
+pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), Message> {
     let angles = inputs.iter().map(|input| input.orientation.roll.abs().max(input.orientation.pitch.abs()));
     let steepest = angles.fold(0.0, f64::max);
     let is_radians = |quantity| table.unit(quantity).0 == AngleUnit::Radian.unit();
     if steepest > STEEPEST {
         return Err(if is_radians(Quantity::Angle(0)) {
             let remedy = remedy(table, Quantity::Angle(0), AngleUnit::Degree.word());
-            format!("roll or pitch reaches {steepest:.0}: these are degrees, not radians; {remedy}")
+            message!["roll or pitch reaches {steepest:.0}: these are degrees, not radians; ", remedy]
         } else {
-            format!("roll or pitch reaches {:.0} degrees, which no vehicle does", steepest.to_degrees())
+            format!("roll or pitch reaches {:.0} degrees, which no vehicle does", steepest.to_degrees()).into()
         });
     }
     let is_open = |quantity| table.unit(quantity).1 == UnitSource::Default && table.columns.contains_key(&quantity);
@@ -49,7 +49,7 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     let Some((quantity, evidence)) = evidence else { return Ok(()) };
     let remedy = remedy(table, quantity, AngleUnit::Degree.word());
     let radians = given(quantity.dimension().option(), AngleUnit::Radian.word());
-    Err(format!("{evidence}: these are degrees, not radians; {remedy} (or {radians}, if they are)"))
+    Err(message!["{evidence}: these are degrees, not radians; ", remedy, " (or ", radians, ", if they are)"])
 }
 
 /// Evidence that an angle is in degrees.

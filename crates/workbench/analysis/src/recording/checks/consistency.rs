@@ -11,11 +11,11 @@ use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::speeds::signed_speeds;
 use super::{remedy, remedy_with};
+use crate::message::{Message, given, message, named};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{
     Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, SpeedUnit, TimeUnit, Unit,
 };
-use crate::recording::message::{given, named};
 use crate::recording::signal::{centred, integral, regression, root_mean_square, smooth};
 use crate::recording::table::Table;
 
@@ -46,7 +46,7 @@ const FITS: f64 = 0.1;
 const OPPOSITE: f64 = -0.5;
 
 /// Warnings that name the options for channels that contradict each other.
-pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
+pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
     let mut warnings = Vec::new();
     if table.columns.contains_key(&Quantity::Speed) {
         let (speeds, reversing) = signed_speeds(inputs, table.step());
@@ -56,7 +56,7 @@ pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> V
         let is_explained = of_surge.is_some() || surge.is_some_and(is_equal);
         warnings.extend(of_surge);
         warnings.extend(sway.and_then(|sway| bends(table, conventions, sway, is_explained)));
-        warnings.extend(reversing);
+        warnings.extend(reversing.map(Message::from));
     }
     warnings.extend(angles_and_rates(table, inputs, conventions));
     warnings
@@ -132,14 +132,16 @@ enum Cause {
 }
 
 /// Judges the ratio of the changes of speed and the integral of the force along x.
-fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>) -> Option<String> {
+fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>) -> Option<Message> {
     let fact = format!("The speed changes {surge:.1} times as much as the integral of the force along x");
     if surge < OPPOSITE {
         let remedy = turned(conventions, Quantity::Force(0));
-        return Some(format!(
+        return Some(message![
             "{fact}: the axis may point to the back, or the force be positive in braking, or slopes or reversing cause \
-             it. If the axis does, {remedy}."
-        ));
+             it. If the axis does, ",
+            remedy,
+            "."
+        ]);
     }
     if is_equal(surge) {
         return None;
@@ -147,20 +149,26 @@ fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: O
     let meaning = match cause(table, conventions, surge, sway) {
         Some(Cause::Unit(Quantity::Speed, unit)) => {
             let remedy = remedy(table, Quantity::Speed, unit.word);
-            format!("it seems to be in {}, not in {}: {remedy}", unit.word, table.unit(Quantity::Speed).0.word)
+            message![
+                format!("it seems to be in {}, not in {}: ", unit.word, table.unit(Quantity::Speed).0.word),
+                remedy
+            ]
         }
         Some(Cause::Unit(quantity, unit)) => {
             let (name, remedy) = (quantity.dimension().name(), remedy(table, quantity, unit.word));
-            format!("the {name} seems to be in {}, not in {}: {remedy}", unit.word, table.unit(quantity).0.word)
+            message![
+                format!("the {name} seems to be in {}, not in {}: ", unit.word, table.unit(quantity).0.word),
+                remedy
+            ]
         }
         Some(Cause::TimeScale(scale)) => {
             let pace = time_scale(conventions, scale);
             let slopes = if (1.0 / SCALE..SCALE).contains(&scale) { ", if no slopes cause it" } else { "" };
-            format!("{pace}{slopes}")
+            message![pace, slopes]
         }
         Some(Cause::SpeedScale(factor)) => {
             let scaled = format!("\"speed={} * {factor}\"", conventions.column(Quantity::Speed));
-            format!("its unit seems to be {factor} m/s: use {}", given("columns", scaled))
+            message!["its unit seems to be {factor} m/s: use ", given("columns", scaled)]
         }
         Some(Cause::Horizontal(factor, [unit, other])) => {
             let scaled = |axis: usize| {
@@ -168,22 +176,20 @@ fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: O
                 format!("{}={} * {factor:.5}", quantity.key(), conventions.column(quantity))
             };
             let columns = given("columns", format!("\"{}\"", [0, 1].map(scaled).join(",")));
-            format!(
-                "the forces along x and y seem to be in {}, and that along z in {}: use {columns}",
-                unit.word, other.word
-            )
+            let (unit, other) = (unit.word, other.word);
+            message!["the forces along x and y seem to be in {unit}, and that along z in {other}: use ", columns]
         }
-        None => format!("check {}", named("speed-unit")),
+        None => message!["check ", named("speed-unit")],
     };
-    Some(format!("{fact}: {meaning}."))
+    Some(message!["{fact}: ", meaning, "."])
 }
 
 /// The fact that time runs at another pace, and the remedy.
-fn time_scale(conventions: &Conventions, scale: f64) -> String {
+fn time_scale(conventions: &Conventions, scale: f64) -> Message {
     let scaled = format!("\"time={} * {scale:.3}\"", conventions.column(Quantity::Time));
     let (unit, columns) = (named("time-unit"), given("columns", scaled));
     let (times, pace) = if scale < 1.0 { (1.0 / scale, "slow") } else { (scale, "fast") };
-    format!("the time seems to run {times:.1} times too {pace}: check {unit}, or use {columns}")
+    message!["the time seems to run {times:.1} times too {pace}: check ", unit, ", or use ", columns]
 }
 
 /// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
@@ -236,19 +242,21 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
 
 /// Judges the ratio of the lateral force of bends and speed times yaw rate. Where the speed fits
 /// the force along x, its unit is right.
-fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool) -> Option<String> {
+fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool) -> Option<Message> {
     if sway < OPPOSITE {
         let rate = turned(conventions, Quantity::Rate(2));
         let force = turned(conventions, Quantity::Force(1));
         let remedy = if conventions.mounting.is_some() {
             rate
         } else {
-            format!("{rate} where the rate is positive to the right, or {force} where the force is")
+            message![rate, " where the rate is positive to the right, or ", force, " where the force is"]
         };
-        return Some(format!(
+        return Some(message![
             "In bends the lateral force is {sway:.1} times speed by yaw rate: one of them has the wrong sign. Use the one \
-             that applies: {remedy}."
-        ));
+             that applies: ",
+            remedy,
+            "."
+        ]);
     }
     let fact = format!("In bends the lateral force is {sway:.2} times speed by yaw rate");
     if let Some(warning) = rate_unit(table, sway, &fact) {
@@ -266,17 +274,18 @@ fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool
         _ => return None,
     };
     let (quantity, other, given, name) = quantity;
-    Some(format!(
+    let remedy = remedy(table, quantity, other.word);
+    let (other, given) = (other.word, given.word);
+    Some(message![
         "In bends the lateral force is {sway:.2} times speed by yaw rate. If the vehicle does not lean, its {name} is in \
-         {}, not in {}: {}.",
-        other.word,
-        given.word,
-        remedy(table, quantity, other.word)
-    ))
+         {other}, not in {given}: ",
+        remedy,
+        "."
+    ])
 }
 
 /// A unit of the rates that explains the ratio of what they should be and what they are.
-fn rate_unit(table: &Table, ratio: f64, fact: &str) -> Option<String> {
+fn rate_unit(table: &Table, ratio: f64, fact: &str) -> Option<Message> {
     let given = table.unit(Quantity::Rate(2)).0;
     let others = RateUnit::ALL.iter().map(|unit| unit.unit()).filter(|other| *other != given);
     let other = others.min_by(|a, b| {
@@ -285,12 +294,11 @@ fn rate_unit(table: &Table, ratio: f64, fact: &str) -> Option<String> {
     })?;
     let is_near = ratio > 0.0 && (ratio * given.in_si / other.in_si).ln().abs() < RATE_TOLERANCE;
     is_near.then(|| {
-        format!(
-            "{fact}: the angular velocities seem to be in {}, not in {}: {}.",
-            other.word,
-            given.word,
-            remedy(table, Quantity::Rate(2), other.word)
-        )
+        message![
+            format!("{fact}: the angular velocities seem to be in {}, not in {}: ", other.word, given.word),
+            remedy(table, Quantity::Rate(2), other.word),
+            "."
+        ]
     })
 }
 
@@ -306,7 +314,7 @@ pub fn derivative_and_rate(inputs: &[Input], axis: usize, step: f64, period: f64
 }
 
 /// Compares rates with the derivatives of angles.
-fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
+fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
     if conventions.rate_frame != RateFrame::Body {
         return Vec::new();
     }
@@ -320,11 +328,13 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
         let name = ["roll", "pitch", "yaw"][axis];
         let remedy = turned(conventions, Quantity::Rate(axis));
         (ratio < OPPOSITE).then(|| {
-            format!(
-                "The angular velocity {} is {ratio:.1} times the derivative of {name}: one of them has the wrong sign. If it \
-                 is the angular velocity, {remedy}.",
-                Quantity::Rate(axis).key()
-            )
+            let key = Quantity::Rate(axis).key();
+            message![
+                "The angular velocity {key} is {ratio:.1} times the derivative of {name}: one of them has the wrong sign. If \
+                 it is the angular velocity, ",
+                remedy,
+                "."
+            ]
         })
     };
     let sizes: Vec<f64> = ratios.iter().map(|(_, ratio)| ratio.abs()).collect();
@@ -334,16 +344,16 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
         None
     } else {
         let fact = format!("The angular velocities are {size:.2} times the derivatives of the angles");
-        let of_time = || (sizes.len() > 1).then(|| format!("{fact}: {}.", time_scale(conventions, 1.0 / size)));
+        let of_time = || (sizes.len() > 1).then(|| message!["{fact}: ", time_scale(conventions, 1.0 / size), "."]);
         rate_unit(table, 1.0 / size, &fact).or_else(of_time)
     };
     ratios.iter().filter_map(opposite).chain(scaled).collect()
 }
 
 /// The remedy for a quantity with the wrong sign.
-fn turned(conventions: &Conventions, quantity: Quantity) -> String {
+fn turned(conventions: &Conventions, quantity: Quantity) -> Message {
     if conventions.mounting.is_some() {
-        return format!("check {}", named("mounting"));
+        return message!["check ", named("mounting")];
     }
     let name = conventions.column(quantity);
     let turned = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned);

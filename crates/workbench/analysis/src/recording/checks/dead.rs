@@ -8,8 +8,8 @@ use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::consistency::{LEAST_CHANGE, LEAST_SWAY, changes, derivative_and_rate, slopes_explain};
 use super::speeds::signed_speeds;
+use crate::message::{Message, message, named};
 use crate::recording::conventions::{Conventions, Quantity, RateFrame};
-use crate::recording::message::named;
 use crate::recording::signal::{centred, integral, is_constant, median, regression, root_mean_square, smooth};
 use crate::recording::table::Table;
 
@@ -38,7 +38,7 @@ struct Channels<'a> {
 
 /// Warnings about channels with one value throughout, or with noise alone, while the vehicle speeds
 /// up, turns or leans.
-pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
+pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
     let step = table.step();
     let (speeds, _) = signed_speeds(inputs, step);
     let channels = Channels { table, inputs, conventions, speeds, step };
@@ -49,7 +49,7 @@ pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> V
         channels.misses_bends().then_some((Quantity::Force(1), "the vehicle drives bends")),
         channels.is_stuck().then_some((Quantity::Speed, "the force along x changes it")),
     ];
-    let mut warnings: Vec<String> = found
+    let mut warnings: Vec<Message> = found
         .into_iter()
         .flatten()
         .map(|(quantity, contradiction)| channels.warning(quantity, contradiction))
@@ -64,17 +64,18 @@ pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> V
 }
 
 impl Channels<'_> {
-    fn warning(&self, quantity: Quantity, contradiction: &str) -> String {
+    fn warning(&self, quantity: Quantity, contradiction: &str) -> Message {
         let name = self.conventions.column(quantity);
         let fact = if self.is_constant(quantity) {
             format!("is constant, {},", shown(self.table.value(quantity, 0) / self.table.unit(quantity).0.in_si))
         } else {
             "hardly changes".to_owned()
         };
-        format!(
-            "Column {name} {fact} while {contradiction}: it is not measured. Name the column that is with {}.",
-            named("columns")
-        )
+        message![
+            "Column {name} {fact} while {contradiction}: it is not measured. Name the column that is with ",
+            named("columns"),
+            "."
+        ]
     }
 
     fn is_measured(&self, quantity: Quantity) -> bool {

@@ -6,8 +6,8 @@ use moris_washout::Input;
 
 use super::consistency::{LEAST_CHANGE, changes, derivative_and_rate};
 use super::speeds::signed_speeds;
+use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Conventions, Quantity, RateFrame};
-use crate::recording::message::{given, named};
 use crate::recording::signal::{centred, integral, regression, root_mean_square};
 use crate::recording::table::Table;
 
@@ -18,7 +18,7 @@ const LEAST_RATE: f64 = 0.002;
 
 /// Warnings about a speed that goes with the force along y, and a roll that goes with the rate of
 /// pitch.
-pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
+pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
     [forces(table, inputs, conventions), rates(table, inputs, conventions)].into_iter().flatten().collect()
 }
 
@@ -26,7 +26,7 @@ fn is_same(ratio: Option<f64>) -> bool {
     ratio.is_some_and(|ratio| (SAME[0]..SAME[1]).contains(&ratio.abs()))
 }
 
-fn forces(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
+fn forces(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<Message> {
     table.columns.get(&Quantity::Speed)?;
     let step = table.step();
     let (speeds, _) = signed_speeds(inputs, step);
@@ -44,13 +44,13 @@ fn forces(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<
         return None;
     }
     let sign = if ratio(1)? > 0.0 { "" } else { "-" };
-    Some(format!(
-        "The speed goes with the force along y, and not with that along x: the axes seem to be exchanged. {}",
+    Some(message![
+        "The speed goes with the force along y, and not with that along x: the axes seem to be exchanged. ",
         remedy(conventions, [Quantity::Force(0), Quantity::Force(1)], sign)
-    ))
+    ])
 }
 
-fn rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
+fn rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<Message> {
     let has_angles = [0, 1].iter().all(|axis| table.columns.contains_key(&Quantity::Angle(*axis)));
     if !has_angles || conventions.rate_frame != RateFrame::Body {
         return None;
@@ -63,19 +63,19 @@ fn rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<S
     };
     let is_exchanged = ratio(0, 0).is_none() && ratio(1, 1).is_none() && is_same(ratio(0, 1)) && is_same(ratio(1, 0));
     is_exchanged.then(|| {
-        format!(
-            "Roll goes with the angular velocity wy, and pitch with wx: the rates seem to be exchanged. {}",
+        message![
+            "Roll goes with the angular velocity wy, and pitch with wx: the rates seem to be exchanged. ",
             remedy(conventions, [Quantity::Rate(0), Quantity::Rate(1)], "")
-        )
+        ]
     })
 }
 
 /// The remedy where two columns are exchanged.
-fn remedy(conventions: &Conventions, [one, other]: [Quantity; 2], sign: &str) -> String {
+fn remedy(conventions: &Conventions, [one, other]: [Quantity; 2], sign: &str) -> Message {
     if conventions.mounting.is_some() {
-        return format!("Check {}.", named("mounting"));
+        return message!["Check ", named("mounting"), "."];
     }
     let [first, second] = [one, other].map(|quantity| conventions.column(quantity));
     let columns = format!("{}={sign}{second},{}={first}", one.key(), other.key());
-    format!("If they are, use {}.", given("columns", columns))
+    message!["If they are, use ", given("columns", columns), "."]
 }

@@ -4,8 +4,8 @@ use moris_washout::Input;
 
 use super::consistency::{LEAST_CHANGE, LEAST_SWAY, changes};
 use super::speeds::signed_speeds;
+use crate::message::{Message, given, message};
 use crate::recording::conventions::{Conventions, Quantity};
-use crate::recording::message::given;
 use crate::recording::signal::{is_constant, median, root_mean_square, smooth, sorted};
 use crate::recording::table::Table;
 
@@ -78,7 +78,7 @@ fn stays(values: &[f64], least: usize) -> Vec<(usize, usize)> {
 
 /// A warning about channels whose values come several times in a row: they were sampled at a lower
 /// rate than they are written.
-pub fn repeats(table: &Table, conventions: &Conventions) -> Option<String> {
+pub fn repeats(table: &Table, conventions: &Conventions) -> Option<Message> {
     let step = table.step();
     let times = |quantity: &Quantity| {
         let values = table.columns.get(quantity).filter(|values| !is_constant(values))?;
@@ -98,10 +98,11 @@ pub fn repeats(table: &Table, conventions: &Conventions) -> Option<String> {
     let &(_, usual) = found.iter().min_by_key(|(_, usual)| *usual)?;
     let names: Vec<&str> = found.iter().map(|(quantity, _)| conventions.column(*quantity)).collect();
     let rate = 1.0 / (usual as f64 * step);
-    Some(format!(
-        "Each value of {} comes {usual} times: measured at about {rate:.1} Hz, it changes in steps, which are felt as \
-         jolts. {} takes each value once.",
-        names.join(", "),
-        given("resample", format!("{rate:.1}"))
-    ))
+    let names = names.join(", ");
+    Some(message![
+        "Each value of {names} comes {usual} times: measured at about {rate:.1} Hz, it changes in steps, which are felt as \
+         jolts. ",
+        given("resample", format!("{rate:.1}")),
+        " takes each value once."
+    ])
 }

@@ -5,8 +5,8 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
 use super::remedy;
+use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Axes, Conventions, Gravity, Quantity, Unit};
-use crate::recording::message::{given, named};
 use crate::recording::signal::median;
 use crate::recording::table::Table;
 
@@ -19,7 +19,7 @@ const COUNTS: f64 = 60.0;
 const NO_GRAVITY: f64 = 3.0;
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
+pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), Message> {
     let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis])));
     let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     let is_near = (median - gravity).norm() < GRAVITY_TOLERANCE;
@@ -38,19 +38,14 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     let meaning = match other_units.find(is_gravity_in) {
         Some(other) => {
             let remedy = remedy(table, Quantity::Force(2), other.word);
-            format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
+            message![format!("which is gravity in {}, not in {}: ", other.word, unit.word), remedy]
         }
         None if size > COUNTS => counts(size, conventions),
         None => meaning(&median, conventions),
     };
-    Err(format!(
-        "most of the time the accelerations{} are about ({:.2}, {:.2}, {:.2}) {}, {meaning}",
-        if is_mounted { format!(", turned by {},", named("mounting")) } else { String::new() },
-        raw.x,
-        raw.y * signs[1],
-        raw.z * signs[2],
-        unit.word
-    ))
+    let (x, y, z, unit) = (raw.x, raw.y * signs[1], raw.z * signs[2], unit.word);
+    let turned = if is_mounted { message![", turned by ", named("mounting"), ","] } else { Message::default() };
+    Err(message!["most of the time the accelerations", turned, " are about ({x:.2}, {y:.2}, {z:.2}) {unit}, ", meaning])
 }
 
 /// True if driving explains a horizontal median, as on a circuit with more bends one way. Then the
@@ -71,42 +66,44 @@ fn is_steady_bend(median: &Vector3<f64>, inputs: &[Input]) -> bool {
 }
 
 /// Gravity in counts of a sensor, and its scale.
-fn counts(size: f64, conventions: &Conventions) -> String {
+fn counts(size: f64, conventions: &Conventions) -> Message {
     let scaled = |axis: usize| {
         let quantity = Quantity::Force(axis);
         format!("{}={} / {size:.0}", quantity.key(), conventions.column(quantity))
     };
     let columns = given("columns", format!("\"{}\"", [0, 1, 2].map(scaled).join(",")));
     let unit = given("force-unit", "g");
-    format!(
+    message![
         "which is gravity in no unit: if they are counts of the sensor, its scale factor is about {size:.0} a g, and the \
-         exact one is in its data sheet: use {columns} with {unit}, and the scale of the rates likewise"
-    )
+         exact one is in its data sheet: use ",
+        columns,
+        " with ",
+        unit,
+        ", and the scale of the rates likewise"
+    ]
 }
 
 /// The meaning of a median in the right unit that is not gravity along z.
-fn meaning(median: &Vector3<f64>, conventions: &Conventions) -> String {
+fn meaning(median: &Vector3<f64>, conventions: &Conventions) -> Message {
     if conventions.gravity == Gravity::Removed {
-        format!(
-            "which includes gravity although {} was given: use {}",
-            given("gravity", "removed"),
-            given("gravity", "included")
-        )
+        let (removed, included) = (given("gravity", "removed"), given("gravity", "included"));
+        message!["which includes gravity although ", removed, " was given: use ", included]
     } else if (median + Vector3::new(0.0, 0.0, STANDARD_GRAVITY)).norm() < GRAVITY_TOLERANCE {
         match conventions.axes {
-            Axes::ForwardLeftUp => format!("so z points down: use {}", given("axes", "forward-right-down")),
-            Axes::ForwardRightDown => format!("so z points up: use {}", given("axes", "forward-left-up")),
+            Axes::ForwardLeftUp => message!["so z points down: use ", given("axes", "forward-right-down")],
+            Axes::ForwardRightDown => message!["so z points up: use ", given("axes", "forward-left-up")],
         }
     } else if median.norm() < NO_GRAVITY {
-        format!("so gravity has been taken out: use {}", given("gravity", "removed"))
+        message!["so gravity has been taken out: use ", given("gravity", "removed")]
     } else if (median.norm() - STANDARD_GRAVITY).abs() < GRAVITY_TOLERANCE {
         let axis = ["x", "y", "z"][median.iamax()];
-        format!(
-            "so {axis} is nearest to the vertical; name the column of each axis with {}, or use {}",
+        message![
+            "so {axis} is nearest to the vertical; name the column of each axis with ",
             named("columns"),
+            ", or use ",
             given("mounting", "auto")
-        )
+        ]
     } else {
-        "which is gravity in no unit known here: convert the file to m/s2 or g".to_owned()
+        "which is gravity in no unit known here: convert the file to m/s2 or g".into()
     }
 }

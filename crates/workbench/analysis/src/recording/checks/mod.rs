@@ -22,8 +22,9 @@ use moris_washout::Input;
 
 use super::columns::UnitSource;
 use super::conventions::{Conventions, Quantity};
-use super::message::{RecordingError, given};
+use super::message::RecordingError;
 use super::table::Table;
+use crate::message::{Message, given, message};
 
 /// Checks that units and axes are plausible.
 ///
@@ -38,15 +39,15 @@ pub fn plausibility(table: &Table, inputs: &[Input], conventions: &Conventions) 
 }
 
 /// The remedy for a column: another name.
-fn remedy_with(quantity: Quantity, name: &str) -> String {
-    format!("use {}", given("columns", format!("{}={name}", quantity.key())))
+fn remedy_with(quantity: Quantity, name: &str) -> Message {
+    message!["use ", given("columns", format!("{}={name}", quantity.key()))]
 }
 
 /// The remedy for a unit: an option where the header leaves it open, otherwise the header.
-fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
+fn remedy(table: &Table, quantity: Quantity, word: &str) -> Message {
     let (unit, source) = table.unit(quantity);
     match source {
-        UnitSource::Header => format!("correct the header, which gives {}", unit.word),
-        UnitSource::Option | UnitSource::Default => format!("use {}", given(quantity.dimension().option(), word)),
+        UnitSource::Header => format!("correct the header, which gives {}", unit.word).into(),
+        UnitSource::Option | UnitSource::Default => message!["use ", given(quantity.dimension().option(), word)],
     }
 }

@@ -13,9 +13,9 @@
 use moris_washout::Input;
 
 use super::remedy;
+use crate::message::{Message, given, message};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Conventions, Quantity, RateFrame, RateUnit};
-use crate::recording::message::given;
 use crate::recording::signal::{extremes, integral, regression, root_mean_square, smooth, sorted};
 use crate::recording::table::Table;
 
@@ -33,23 +33,23 @@ const TIGHTEST: f64 = 1.0;
 
 /// Rejects rates that are plausible only as deg/s. A given unit overrides all
 /// tests except the first.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
+pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), Message> {
     let (unit, source) = table.unit(Quantity::Rate(0));
     if unit != RateUnit::RadianPerSecond.unit() {
         return Ok(());
     }
     let fast = usual_maximum(inputs);
     let (evidence, insist) = if fast > FASTEST {
-        (Some(format!("angular velocities reach {fast:.0}")), String::new())
+        (Some(format!("angular velocities reach {fast:.0}")), Message::default())
     } else if source == UnitSource::Default {
         let option = given(Quantity::Rate(0).dimension().option(), "rad/s");
-        (not_radians(table, inputs, conventions), format!(" (or {option}, if they are)"))
+        (not_radians(table, inputs, conventions), message![" (or ", option, ", if they are)"])
     } else {
-        (None, String::new())
+        (None, Message::default())
     };
     let Some(evidence) = evidence else { return Ok(()) };
     let remedy = remedy(table, Quantity::Rate(0), RateUnit::DegreePerSecond.word());
-    Err(format!("{evidence}: these are degrees a second, not radians; {remedy}{insist}"))
+    Err(message!["{evidence}: these are degrees a second, not radians; ", remedy, insist])
 }
 
 /// Angular velocity that is exceeded for a hundredth of the time \[rad/s\].

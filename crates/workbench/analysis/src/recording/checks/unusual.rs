@@ -5,9 +5,9 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
 use super::rates::usual_maximum;
+use crate::message::{Message, given, message, named};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::Quantity;
-use crate::recording::message::{given, named};
 use crate::recording::table::Table;
 
 /// Angular velocity that few heads exceed for a hundredth of a recording \[rad/s\].
@@ -18,7 +18,7 @@ const BIAS: f64 = 0.3;
 const JOLT: f64 = 1.0;
 
 /// Warnings about a recording that is unusual but possible.
-pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
+pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<Message> {
     [bias(table, inputs, 0), bias(table, inputs, 1), fast_rates(table, inputs), jolt(&inputs[0])]
         .into_iter()
         .flatten()
@@ -26,7 +26,7 @@ pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
 }
 
 /// A lasting force along x or y, and what may be its cause.
-fn bias(table: &Table, inputs: &[Input], axis: usize) -> Option<String> {
+fn bias(table: &Table, inputs: &[Input], axis: usize) -> Option<Message> {
     let mean_of = |value: &dyn Fn(&Input) -> f64| inputs.iter().map(value).sum::<f64>() / inputs.len() as f64;
     let mean = mean_of(&|input| input.specific_force[axis]);
     let has_speed = table.columns.contains_key(&Quantity::Speed);
@@ -49,29 +49,36 @@ fn bias(table: &Table, inputs: &[Input], axis: usize) -> Option<String> {
         format!(
             "The specific force along {name} is {mean:.2} m/s2 on average: {cause}. The platform will lean as much."
         )
+        .into()
     })
 }
 
-fn fast_rates(table: &Table, inputs: &[Input]) -> Option<String> {
+fn fast_rates(table: &Table, inputs: &[Input]) -> Option<Message> {
     let (unit, source) = table.unit(Quantity::Rate(0));
     let fast = usual_maximum(inputs);
     (source == UnitSource::Default && fast > BRISK).then(|| {
         let (unit, option, remedy) = (unit.word, named("rate-unit"), given("rate-unit", "deg/s"));
-        format!(
-            "Angular velocities reach {fast:.1} {unit}, and neither the header nor {option} gives a unit. If they are in \
-             deg/s, use {remedy}."
-        )
+        message![
+            "Angular velocities reach {fast:.1} {unit}, and neither the header nor ",
+            option,
+            " gives a unit. If they are in deg/s, use ",
+            remedy,
+            "."
+        ]
     })
 }
 
-fn jolt(first: &Input) -> Option<String> {
+fn jolt(first: &Input) -> Option<Message> {
     let cue = first.specific_force - Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     let remedy = given("fade-in", 1);
     (cue.amax() > JOLT).then(|| {
-        format!(
-            "The recording does not begin at rest: the specific force jumps by ({:.1}, {:.1}, {:.1}) m/s2 at once; \
-             {remedy} fades it in from rest.",
-            cue.x, cue.y, cue.z
-        )
+        message![
+            format!(
+                "The recording does not begin at rest: the specific force jumps by ({:.1}, {:.1}, {:.1}) m/s2 at once; ",
+                cue.x, cue.y, cue.z
+            ),
+            remedy,
+            " fades it in from rest."
+        ]
     })
 }

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use super::units::{AngleUnit, TimeUnit, Unit};
 use super::{Header, Quantity, Term};
+use crate::message::{Message, message, named};
 use crate::recording::conventions::Conventions;
-use crate::recording::message::named;
 
 /// The source of a column's unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ impl Header {
     /// - Columns are missing. The message names all of them.
     /// - A name occurs twice, or a column is given for two quantities.
     /// - A unit is unknown, or contradicts an option.
-    pub fn columns(&self, conventions: &Conventions, skips_time: bool) -> Result<Vec<Column>, String> {
+    pub fn columns(&self, conventions: &Conventions, skips_time: bool) -> Result<Vec<Column>, Message> {
         let mut columns = Vec::new();
         for (quantity, mut terms) in self.terms_of_quantities(conventions, skips_time)? {
             if quantity == Quantity::Time && terms.len() > 1 {
@@ -71,7 +71,7 @@ impl Header {
         &self,
         conventions: &Conventions,
         skips_time: bool,
-    ) -> Result<Vec<(Quantity, Vec<Term>)>, String> {
+    ) -> Result<Vec<(Quantity, Vec<Term>)>, Message> {
         let (mut chosen, mut missing, mut ambiguous) = (Vec::new(), Vec::new(), None);
         let is_geographic = self.is_geographic(conventions);
         let is_read = |quantity: &Quantity| match quantity {
@@ -106,18 +106,16 @@ impl Header {
             && has([Quantity::Geographic(0), Quantity::Geographic(1)])
     }
 
-    fn check_each_is_used_once(&self, chosen: &[(Quantity, Vec<Term>)]) -> Result<(), String> {
+    fn check_each_is_used_once(&self, chosen: &[(Quantity, Vec<Term>)]) -> Result<(), Message> {
         let mut used = BTreeMap::new();
         for (quantity, terms) in chosen {
             for term in terms {
                 if let Some(other) = used.insert(term.place, *quantity) {
-                    return Err(format!(
-                        "column {} is given for both {} and {}; give each a column of its own with {}",
-                        self.shown(term.place),
-                        other.key(),
-                        quantity.key(),
+                    let (title, one, other) = (self.shown(term.place), other.key(), quantity.key());
+                    return Err(message![
+                        "column {title} is given for both {one} and {other}; give each a column of its own with ",
                         named("columns")
-                    ));
+                    ]);
                 }
             }
         }

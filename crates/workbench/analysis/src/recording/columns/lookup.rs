@@ -1,7 +1,8 @@
 //! The column of a name, and the columns of a sum of names.
 
 use super::Header;
-use crate::recording::message::{named, quoted};
+use crate::message::{Message, message, named};
+use crate::recording::message::quoted;
 
 /// A column of the file, and the factor with which it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Term {
 impl Header {
     /// The columns of `name`, or of `-name`, or of terms with spaces around their signs. A term may
     /// be multiplied or divided by a number.
-    pub fn terms(&self, text: &str) -> Result<Option<Vec<Term>>, String> {
+    pub fn terms(&self, text: &str) -> Result<Option<Vec<Term>>, Message> {
         if let Some(place) = self.place(text)? {
             return Ok(Some(vec![Term { factor: 1.0, place }]));
         }
@@ -30,7 +31,7 @@ impl Header {
     ///
     /// # Errors
     /// Several columns have this name.
-    pub fn place(&self, name: &str) -> Result<Option<usize>, String> {
+    pub fn place(&self, name: &str) -> Result<Option<usize>, Message> {
         let likenesses: Vec<_> = self.titles.iter().map(|title| title.likeness(name)).collect();
         let Some(best) = likenesses.iter().flatten().min() else { return Ok(self.numbered(name)) };
         let mut found = (0..self.width()).filter(|&place| likenesses[place].as_ref() == Some(best));
@@ -47,21 +48,17 @@ impl Header {
         (0..self.width()).filter(|&place| self.titles[place].likeness(name).is_some()).nth(index)
     }
 
-    fn ambiguous(&self, name: &str, first: usize, second: usize) -> String {
+    fn ambiguous(&self, name: &str, first: usize, second: usize) -> Message {
         let (one, other) = (self.shown(first), self.shown(second));
         let remedy = if self.titles[first].file != self.titles[second].file {
-            format!("give the file's name with it in {}", named("columns"))
+            message!["give the file's name with it in ", named("columns")]
         } else if self.titles[first].full == self.titles[second].full {
-            format!("remove or rename one of them, or give its number with {}", named("columns"))
+            message!["remove or rename one of them, or give its number with ", named("columns")]
         } else {
-            format!("give the whole name of one of them with {}, or rename one", named("columns"))
+            message!["give the whole name of one of them with ", named("columns"), ", or rename one"]
         };
-        format!(
-            "two columns are called {}: {one}{} and {other}{}; {remedy}",
-            quoted(name),
-            self.number(first),
-            self.number(second)
-        )
+        let (name, first, second) = (quoted(name), self.number(first), self.number(second));
+        message!["two columns are called {name}: {one}{first} and {other}{second}; ", remedy]
     }
 
     /// The column's place in its file, for messages: empty where there are several files.

@@ -3,8 +3,9 @@
 use moris_setup::nearest;
 
 use super::{Header, Quantity, Term};
+use crate::message::{Message, given, message};
 use crate::recording::conventions::{Conventions, Format};
-use crate::recording::message::{given, quoted};
+use crate::recording::message::quoted;
 
 /// Most columns that a message lists.
 const MOST_LISTED: usize = 30;
@@ -27,7 +28,10 @@ impl Header {
     }
 
     /// The quantities that a recording needs, with their columns.
-    fn needed(&self, conventions: &Conventions) -> impl Iterator<Item = (Quantity, Result<Option<Vec<Term>>, String>)> {
+    fn needed(
+        &self,
+        conventions: &Conventions,
+    ) -> impl Iterator<Item = (Quantity, Result<Option<Vec<Term>>, Message>)> {
         let is_geographic = self.is_geographic(conventions);
         let needed = Quantity::ALL.into_iter().filter(move |&quantity| {
             conventions.needs(quantity) && !(is_geographic && matches!(quantity, Quantity::Position(_)))
@@ -36,12 +40,12 @@ impl Header {
     }
 
     /// The reason for a refusal where quantities have no column.
-    pub(super) fn missing(&self, missing: &[Quantity], conventions: &Conventions) -> String {
+    pub(super) fn missing(&self, missing: &[Quantity], conventions: &Conventions) -> Message {
         let names: Vec<&str> = missing.iter().map(|&quantity| conventions.column(quantity)).collect();
         if let Some(&format) = Format::ALL.iter().find(|&&format| self.is_of(format)) {
             let names = names.into_iter().map(quoted).collect::<Vec<_>>().join(", ");
             let (title, remedy) = (format.title(), given("format", format.word()));
-            return format!("this looks like a recording of {title}; use {remedy} (there is no column {names})");
+            return message!["this looks like a recording of {title}; use ", remedy, " (there is no column {names})"];
         }
         // Formats have optional channels: others may have measured the same.
         let likely = |quantity: &Quantity| {
@@ -63,23 +67,23 @@ impl Header {
                 "there are {}: this looks like a line for each value of a channel, which is not read; make a column of each \
                  channel, in Python: pandas.DataFrame.pivot",
                 self.listed()
-            );
+            )
+            .into();
         }
         let may_rest = |quantity: &Quantity| matches!(quantity, Quantity::Force(1..) | Quantity::Rate(_));
-        format!(
-            "there {} {}; there are {}; name what is called otherwise with {}{}",
-            if names.len() == 1 { "is no column" } else { "are no columns" },
-            self.with_nearest(&names),
-            self.listed(),
+        let no = if names.len() == 1 { "is no column" } else { "are no columns" };
+        let (names, listed) = (self.with_nearest(&names), self.listed());
+        message![
+            "there {no} {names}; there are {listed}; name what is called otherwise with ",
             given("columns", keys.join(",")),
             if missing == [Quantity::Time] {
-                format!(", or use {} if its samples come at equal steps", given("rate", "HERTZ"))
+                message![", or use ", given("rate", "HERTZ"), " if its samples come at equal steps"]
             } else if missing.iter().all(may_rest) || keys.len() < missing.len() {
-                format!(", or use {} if nothing measured them", given("missing", "rest"))
+                message![", or use ", given("missing", "rest"), " if nothing measured them"]
             } else {
-                String::new()
+                Message::default()
             }
-        )
+        ]
     }
 
     /// Names, each with the one that is nearest to it in the header.

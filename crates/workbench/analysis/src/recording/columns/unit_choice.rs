@@ -2,8 +2,9 @@
 
 use super::units::{Dimension, TimeUnit, Unit, any_spelled};
 use super::{Column, Header, Term, UnitSource};
+use crate::message::{Message, message, named};
 use crate::recording::conventions::Conventions;
-use crate::recording::message::{named, quoted};
+use crate::recording::message::quoted;
 
 impl Header {
     /// The unit of columns that are added, which must be one.
@@ -12,7 +13,7 @@ impl Header {
         terms: &[Term],
         dimension: Dimension,
         conventions: &Conventions,
-    ) -> Result<(Unit, UnitSource), String> {
+    ) -> Result<(Unit, UnitSource), Message> {
         let (unit, source) = self.unit(terms[0].place, dimension, conventions)?;
         for term in &terms[1..] {
             let (other, _) = self.unit(term.place, dimension, conventions)?;
@@ -21,7 +22,8 @@ impl Header {
                 let (unit, other) = (unit.word, other.word);
                 return Err(format!(
                     "columns {one} and {two} are added, but are in {unit} and {other}; convert one of them"
-                ));
+                )
+                .into());
             }
         }
         Ok((unit, source))
@@ -31,7 +33,7 @@ impl Header {
     ///
     /// # Errors
     /// As [`Header::columns`].
-    pub fn time_unit(&self, terms: &[Term], conventions: &Conventions) -> Result<(Unit, UnitSource), String> {
+    pub fn time_unit(&self, terms: &[Term], conventions: &Conventions) -> Result<(Unit, UnitSource), Message> {
         match terms {
             [one] => self.unit(one.place, Dimension::Time, conventions),
             _ => Ok((TimeUnit::Second.unit(), UnitSource::Header)),
@@ -56,7 +58,7 @@ impl Header {
         place: usize,
         dimension: Dimension,
         conventions: &Conventions,
-    ) -> Result<(Unit, UnitSource), String> {
+    ) -> Result<(Unit, UnitSource), Message> {
         let given = conventions.unit(dimension);
         let of_option = given.map(|unit| (unit, UnitSource::Option));
         let Some(text) = &self.titles[place].unit else {
@@ -64,31 +66,39 @@ impl Header {
         };
         let (title, option) = (self.shown(place), named(dimension.option()));
         match (dimension.spelled(text), given) {
-            (Some(unit), Some(given)) if unit != given => Err(format!(
-                "column {title} is in {} by its header, but {option} gives {}; leave {option} out, or correct the header",
-                unit.word, given.word
-            )),
+            (Some(unit), Some(given)) if unit != given => Err(message![
+                format!("column {title} is in {} by its header, but ", unit.word),
+                option.clone(),
+                format!(" gives {}; leave ", given.word),
+                option,
+                " out, or correct the header"
+            ]),
             (Some(unit), _) => Ok((unit, UnitSource::Header)),
-            (None, _) if any_spelled(text).is_some() => Err(format!(
-                "column {title} is in {} by its header, which is no unit of {}; is it another quantity? \
-                 Name the right column with {}",
-                quoted(text),
-                dimension.name(),
+            (None, _) if any_spelled(text).is_some() => Err(message![
+                format!(
+                    "column {title} is in {} by its header, which is no unit of {}; is it another quantity? Name the right \
+                     column with ",
+                    quoted(text),
+                    dimension.name()
+                ),
                 named("columns")
-            )),
+            ]),
             (None, Some(given)) => Ok((given, UnitSource::Option)),
-            (None, None) => Err(format!(
-                "column {title} has the unit {}, which is not known; known are {}; convert the column, or give its unit \
-                 with {option}",
-                quoted(text),
-                dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", ")
-            )),
+            (None, None) => Err(message![
+                format!(
+                    "column {title} has the unit {}, which is not known; known are {}; convert the column, or give its unit \
+                     with ",
+                    quoted(text),
+                    dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", ")
+                ),
+                option
+            ]),
         }
     }
 
     /// Checks that the columns of one dimension all have units, or none has. A unit missing beside
     /// one that is not the default is not guessed.
-    pub(super) fn check_units_are_complete(&self, columns: &[Column]) -> Result<(), String> {
+    pub(super) fn check_units_are_complete(&self, columns: &[Column]) -> Result<(), Message> {
         for dimension in Dimension::ALL {
             let of = |source| {
                 columns.iter().filter(move |column| column.quantity.dimension() == dimension && column.source == source)
@@ -101,7 +111,8 @@ impl Header {
                 return Err(format!(
                     "column {title} is in {unit} by its header, but {open} {verb} without a unit; write the unit into \
                      the header of each"
-                ));
+                )
+                .into());
             }
         }
         Ok(())

@@ -24,7 +24,6 @@ pub use crate::recording::columns::Quantity;
 pub use crate::recording::columns::units::{
     AngleUnit, Dimension, ForceUnit, LengthUnit, RateUnit, SpeedUnit, TimeUnit, Unit,
 };
-use crate::recording::message::Dialect;
 pub(super) use choices::choices;
 pub use choices::{Axes, EmptyFields, Gravity, Missing, RateFrame};
 pub use formats::Format;
@@ -63,8 +62,6 @@ pub struct Conventions {
     pub fade_in: f64,
     /// True if the vehicle's position is needed.
     pub position: bool,
-    /// Notation of options in messages.
-    pub dialect: Dialect,
 }
 
 impl Default for Conventions {

@@ -5,8 +5,8 @@ use moris_washout::nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::message::{Remedy, given};
 use crate::option_values::numbers;
-use crate::recording::message::given;
 
 /// The sensor's orientation in the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -52,7 +52,7 @@ impl Mounting {
     }
 
     /// The options that find it and that give it, for messages.
-    pub fn options() -> [String; 2] {
+    pub fn options() -> [Remedy; 2] {
         ["auto", "ROLL,PITCH,YAW"].map(|value| given("mounting", value))
     }
 

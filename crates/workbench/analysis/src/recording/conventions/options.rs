@@ -11,7 +11,7 @@ use super::{
     AngleUnit, Axes, Conventions, Dimension, EmptyFields, ForceUnit, Format, Gravity, LengthUnit, Missing, Mounting,
     Quantity, RateFrame, RateUnit, SpeedUnit, TimeUnit,
 };
-use crate::recording::message::{Dialect, RecordingError};
+use crate::recording::message::RecordingError;
 
 /// Options that describe a recording.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
@@ -214,7 +214,6 @@ impl ConventionOptions {
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
             position: self.position,
-            dialect: Dialect::Command,
         }
     }
 }

@@ -1,10 +1,8 @@
-//! Messages about a recording: errors, the options that help, and quotations of the file.
+//! Errors of recordings, and quotations of the file.
 
 mod error;
-mod option;
 
 pub use error::RecordingError;
-pub use option::{Dialect, given, named};
 
 /// Longest text of a file that a message quotes \[characters\].
 const LONGEST_QUOTE: usize = 40;

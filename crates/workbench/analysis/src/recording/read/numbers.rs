@@ -1,6 +1,7 @@
 //! The numbers of a text file's fields.
 
-use crate::recording::message::{given, quoted};
+use crate::message::{Message, given, message};
+use crate::recording::message::quoted;
 
 /// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
 const LARGEST: f64 = 1e30;
@@ -56,7 +57,7 @@ impl Numbers {
     ///
     /// # Errors
     /// The reason why it is none.
-    pub fn parse(&mut self, field: Option<&str>) -> Result<f64, String> {
+    pub fn parse(&mut self, field: Option<&str>) -> Result<f64, Message> {
         let text = field.ok_or("is missing: the line has too few fields")?.trim();
         // Nearly all numbers are plain.
         let plain = text.parse::<f64>().ok().filter(|_| self.group.is_none() && self.mark != Some(','));
@@ -76,17 +77,20 @@ impl Numbers {
                 "is {}, but numbers before it have a decimal {}; write all with the same",
                 quoted(text),
                 if mark == ',' { "point" } else { "comma" }
-            ));
+            )
+            .into());
         }
         match number {
             Ok(number) if number.abs() <= LARGEST => Ok(number),
             Ok(number) if !number.is_nan() => {
-                Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)))
+                Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)).into())
             }
-            Ok(_) => Err(format!("is {}; {}", quoted(text), remedy())),
-            _ if text.is_empty() => Err(format!("is empty; {}", remedy())),
-            _ if is_empty(Some(text)) => Err(format!("is \"{}\", which is no value; {}", quoted(text), remedy())),
-            _ => Err(format!("is \"{}\", which is not a number", quoted(text))),
+            Ok(_) => Err(message![format!("is {}; ", quoted(text)), remedy()]),
+            _ if text.is_empty() => Err(message!["is empty; ", remedy()]),
+            _ if is_empty(Some(text)) => {
+                Err(message![format!("is \"{}\", which is no value; ", quoted(text)), remedy()])
+            }
+            _ => Err(format!("is \"{}\", which is not a number", quoted(text)).into()),
         }
     }
 
@@ -116,8 +120,8 @@ fn is_grouped(text: &str, mark: char) -> bool {
 }
 
 /// The remedy for a gap.
-fn remedy() -> String {
-    format!("cut this part off, fill the gap with plausible values, or use {}", given("empty-fields", "interpolate"))
+fn remedy() -> Message {
+    message!["cut this part off, fill the gap with plausible values, or use ", given("empty-fields", "interpolate")]
 }
 
 /// True for a field that holds nothing: empty, a word for a missing value, or signs such as - or ?.

@@ -7,6 +7,7 @@ use super::preamble::reader;
 use super::samples::Samples;
 use super::sheet::{Sheet, is_blank};
 use super::time;
+use crate::message::Message;
 use crate::recording::conventions::{Conventions, EmptyFields};
 use crate::recording::message::RecordingError;
 
@@ -43,7 +44,7 @@ impl Sheet {
                     if !is_cut || advance(&mut record)? {
                         return Err(error);
                     }
-                    samples.warnings.push(format!("The last line, {line}, is cut off and left out."));
+                    samples.warnings.push(format!("The last line, {line}, is cut off and left out.").into());
                 }
             }
         }
@@ -51,7 +52,7 @@ impl Sheet {
             return Err(self.refused("has fewer than two samples below its header"));
         }
         if self.is_cut {
-            samples.warnings.push("The file ends with zero bytes in place of lines, which are left out.".to_owned());
+            samples.warnings.push("The file ends with zero bytes in place of lines, which are left out.".into());
         }
         Ok(samples)
     }
@@ -96,7 +97,7 @@ impl Row<'_> {
         let mut total = 0.0;
         for term in sheet.time.iter().flatten() {
             let time = match record.get(term.place) {
-                Some(field) if sheet.has_written_times => time::parse(field),
+                Some(field) if sheet.has_written_times => time::parse(field).map_err(Message::from),
                 field => self.numbers.parse(field),
             };
             let column = || Some(sheet.header.shown(term.place));
@@ -109,9 +110,9 @@ impl Row<'_> {
     /// The values of a line.
     fn values(&mut self, record: &StringRecord, line: u64) -> Result<Vec<f64>, RecordingError> {
         let header = &self.sheet.header;
-        let refused = |column, reason| RecordingError::line(&self.sheet.file, line, column, reason);
+        let refused = |column, reason: Message| RecordingError::line(&self.sheet.file, line, column, reason);
         if record.iter().skip(header.width()).any(|field| !field.trim().is_empty()) {
-            return Err(refused(None, too_many_fields(record.len(), header.width())));
+            return Err(refused(None, too_many_fields(record.len(), header.width()).into()));
         }
         let value = |&place: &usize| match record.get(place) {
             field if self.may_be_empty && is_empty(field) => Ok(f64::NAN),

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::message::Message;
+
 /// Numbers, a line a sample.
 pub struct Samples {
     /// Times that are written out are in seconds.
@@ -12,7 +14,7 @@ pub struct Samples {
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Message>,
 }
 
 impl Samples {

@@ -9,9 +9,10 @@ use super::preamble::{self, Found, Separator, reader, separator_below, tabulated
 use super::text::{Text, text};
 use super::time::is_written_out;
 use super::{source, tagged, vbox};
+use crate::message::{Message, given, message};
 use crate::recording::columns::{Header, Term};
 use crate::recording::conventions::{Conventions, Quantity};
-use crate::recording::message::{RecordingError, given};
+use crate::recording::message::RecordingError;
 
 /// A CSV file in memory.
 pub struct Sheet {
@@ -44,9 +45,9 @@ impl Sheet {
         let Text { text, is_cut } = text(file)?;
         let text = vbox::as_csv(&text).or_else(|| tagged::as_csv(&text, conventions)).unwrap_or(text);
         let file = source::shown(file);
-        let whole = |reason: &str| RecordingError::whole(&file, reason);
+        let whole = |reason: Message| RecordingError::whole(&file, reason);
         let found = preamble::find(&text, conventions);
-        let Found { mut titles, separator, end, line } = found.ok_or_else(|| whole(without_header(&text)))?;
+        let Found { mut titles, separator, end, line } = found.ok_or_else(|| whole(without_header(&text).into()))?;
         let separator = separator_below(&text[end..], separator, titles.len());
         let (body, delimiter) = match separator {
             Separator::Sign(sign) => (text[end..].to_owned(), sign),
@@ -61,8 +62,8 @@ impl Sheet {
         let mut header = Header::new(titles.iter().map(String::as_str));
         let mut headings = vec![StringRecord::from(titles)];
         let first = descriptions(&body, delimiter, &mut header, &mut headings);
-        let first = first.map_err(|error| whole(&error.to_string()))?;
-        let time = header.terms(conventions.column(Quantity::Time)).map_err(|reason| whole(&reason))?;
+        let first = first.map_err(|error| whole(error.to_string().into()))?;
+        let time = header.terms(conventions.column(Quantity::Time)).map_err(whole)?;
         let mut time = time.filter(|_| conventions.rate.is_none());
         if let Some(terms) = time.as_mut().filter(|terms| terms.len() > 1) {
             header.scale_to_seconds(terms);
@@ -73,17 +74,15 @@ impl Sheet {
     }
 
     /// An error of the file as a whole.
-    pub fn refused(&self, reason: impl Into<String>) -> RecordingError {
+    pub fn refused(&self, reason: impl Into<Message>) -> RecordingError {
         RecordingError::whole(&self.file, reason)
     }
 
     /// The reason why the file has no time.
     pub fn without_time(&self, conventions: &Conventions) -> RecordingError {
-        self.refused(format!(
-            "there is no column {}; if its samples come at equal steps, use {}",
-            conventions.column(Quantity::Time),
-            given("rate", "HERTZ")
-        ))
+        let time = conventions.column(Quantity::Time);
+        let rate = given("rate", "HERTZ");
+        self.refused(message!["there is no column {time}; if its samples come at equal steps, use ", rate])
     }
 }
 

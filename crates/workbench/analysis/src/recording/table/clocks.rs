@@ -1,7 +1,7 @@
 //! Clocks that begin again, and times that are other numbers than seconds: HHMMSS, and days.
 
 use super::times::usual_step;
-use crate::recording::message::named;
+use crate::message::{Message, message, named};
 
 /// A day \[s\].
 const DAY: f64 = 86_400.0;
@@ -29,18 +29,21 @@ pub struct Clock<'a> {
 
 impl Clock<'_> {
     /// Brings the times to seconds that go on. Returns warnings.
-    pub fn into_seconds(self) -> Vec<String> {
+    pub fn into_seconds(self) -> Vec<Message> {
         let Clock { time, unit, is_open, is_written } = self;
         let mut warnings = Vec::new();
         if is_open && is_serial_days(time) {
             let first = time[0].floor();
             time.iter_mut().for_each(|time| *time = (*time - first) * DAY);
             let option = named("time-unit");
-            warnings
-                .push(format!("The times are read as days, as spreadsheets write dates; {option} gives another unit."));
+            warnings.push(message![
+                "The times are read as days, as spreadsheets write dates; ",
+                option,
+                " gives another unit."
+            ]);
         } else if !is_written && let Some(seconds) = of_digits(time, unit) {
             *time = seconds;
-            warnings.push("The times are read as HHMMSS: they leave out the seconds from 60 to 99.".to_owned());
+            warnings.push("The times are read as HHMMSS: they leave out the seconds from 60 to 99.".into());
             add_period(time, &PERIODS);
         } else {
             let counters = BITS.map(|bits| 2f64.powi(bits));
@@ -50,7 +53,8 @@ impl Clock<'_> {
                 PERIODS.map(|period| period / unit).into_iter().chain(micros).chain(millis).collect();
             let counted: &[f64] = if is_written { &[] } else { &counters };
             if let Some(sample) = add_period(time, &[&periods, counted].concat()).filter(|_| !is_written) {
-                warnings.push(format!("The clock begins again at sample {}; its times are continued.", sample + 1));
+                warnings
+                    .push(format!("The clock begins again at sample {}; its times are continued.", sample + 1).into());
             }
             time.iter_mut().for_each(|time| *time *= unit);
         }

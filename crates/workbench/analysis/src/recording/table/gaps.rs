@@ -29,9 +29,12 @@ pub fn fill(samples: &mut Samples, sheet: &Sheet, layout: &[Column]) -> Result<(
             let span = time[b] - time[a];
             if span > LONGEST_GAP && b - a > 1 {
                 let line = samples.lines[a];
-                samples.warnings.push(format!(
-                    "Column {name} is empty for {span:.2} s after line {line}; the gap is interpolated linearly."
-                ));
+                samples.warnings.push(
+                    format!(
+                        "Column {name} is empty for {span:.2} s after line {line}; the gap is interpolated linearly."
+                    )
+                    .into(),
+                );
             }
             for k in a + 1..b {
                 let t = if span > 0.0 { (time[k] - time[a]) / span } else { 0.0 };

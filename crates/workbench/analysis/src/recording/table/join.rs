@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::interpolation::{places, values};
 use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
+use crate::message::Message;
 use crate::recording::columns::{Column, period};
 use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
@@ -63,7 +64,7 @@ pub fn by_time(
 ) -> Result<Samples, RecordingError> {
     for part in &mut parts {
         if spreads_equal_times {
-            part.samples.warnings.extend(spread_equal_times(&mut part.samples.time));
+            part.samples.warnings.extend(spread_equal_times(&mut part.samples.time).map(Message::from));
         }
         part.check_order()?;
     }
@@ -92,7 +93,7 @@ pub fn by_time(
         let columns = part.samples.columns.iter();
         let columns = columns.map(|(place, column)| (*place, values(&places, column, period(layout, *place))));
         joined.columns.extend(columns);
-        joined.warnings.extend(part.samples.warnings.iter().cloned().chain(part.gap()));
+        joined.warnings.extend(part.samples.warnings.iter().cloned().chain(part.gap().map(Message::from)));
     }
     Ok(joined)
 }

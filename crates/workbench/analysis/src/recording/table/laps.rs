@@ -1,8 +1,9 @@
 //! Laps in one file, of which each starts with the time of the first.
 
 use super::Table;
+use crate::message::{given, message, named};
 use crate::recording::conventions::{Conventions, Quantity};
-use crate::recording::message::{RecordingError, given, named};
+use crate::recording::message::RecordingError;
 
 /// Least step back in time with which a lap begins \[s\].
 const RESTART: f64 = 1.0;
@@ -17,16 +18,18 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
     let laps = starts.len();
     let Some(lap) = conventions.lap else {
         let Some(&second) = starts.get(1) else { return Ok(()) };
-        let reason = format!(
-            "time starts again: there are {laps} laps; use {} to {} to read one of them",
+        let reason = message![
+            "time starts again: there are {laps} laps; use ",
             given("lap", 1),
-            given("lap", laps)
-        );
+            " to ",
+            given("lap", laps),
+            " to read one of them"
+        ];
         return Err(table.refused_at(second, Quantity::Time, reason));
     };
     let end = starts.get(lap).copied().unwrap_or(table.time.len());
     let Some(range) = starts.get(lap - 1).map(|&start| start..end).filter(|range| range.len() > 1) else {
-        let reason = format!("has no samples of lap {lap}: time starts {laps} times; give another {}", named("lap"));
+        let reason = message!["has no samples of lap {lap}: time starts {laps} times; give another ", named("lap")];
         return Err(table.refused(reason));
     };
     table.keep(range);

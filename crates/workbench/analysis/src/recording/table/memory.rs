@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::Table;
+use crate::message::Message;
 use crate::recording::columns::{Header, value_places};
 use crate::recording::conventions::{Conventions, Quantity};
 use crate::recording::message::{RecordingError, quoted};
@@ -19,7 +20,7 @@ pub fn of_columns(
     conventions: &Conventions,
 ) -> Result<Table, RecordingError> {
     let file = PathBuf::from(name);
-    let refused = |reason: String| RecordingError::whole(&file, reason);
+    let refused = |reason: Message| RecordingError::whole(&file, reason);
     let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
     let layout = header.columns(conventions, conventions.rate.is_some()).map_err(refused)?;
     let count = layout.first().and_then(|column| column.terms.first()).map_or(0, |term| columns[term.place].1.len());
@@ -36,13 +37,13 @@ pub fn of_columns(
         })
         .collect();
     if time.len() < 2 {
-        return Err(refused("has fewer than two samples".to_owned()));
+        return Err(refused("has fewer than two samples".into()));
     }
     for term in layout.iter().flat_map(|column| &column.terms) {
         let (title, values) = &columns[term.place];
         let (title, expected) = (quoted(title), time.len());
         if values.len() != expected {
-            return Err(refused(format!("column {title} has {} values, others have {expected}", values.len())));
+            return Err(refused(format!("column {title} has {} values, others have {expected}", values.len()).into()));
         }
         if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
             let reason = format!("is {}; cut this part off, or fill the gap with plausible values", values[sample]);

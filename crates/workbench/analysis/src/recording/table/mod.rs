@@ -24,6 +24,7 @@ use std::path::PathBuf;
 
 use moris_washout::interface::STANDARD_GRAVITY;
 
+use crate::message::Message;
 use crate::recording::columns::{Column, UnitSource};
 use crate::recording::conventions::{Conventions, Gravity, Quantity, Unit};
 use crate::recording::message::RecordingError;
@@ -45,7 +46,7 @@ pub struct Table {
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Message>,
 }
 
 impl Table {
@@ -78,7 +79,7 @@ impl Table {
         }
         if !missing.is_empty() {
             let names = missing.into_iter().map(Quantity::key).collect::<Vec<_>>().join(", ");
-            self.warnings.push(format!("The recording has no {names}: they are taken as at rest."));
+            self.warnings.push(format!("The recording has no {names}: they are taken as at rest.").into());
         }
     }
 
@@ -117,12 +118,12 @@ impl Table {
     }
 
     /// An error of the recording as a whole.
-    pub fn refused(&self, reason: impl Into<String>) -> RecordingError {
+    pub fn refused(&self, reason: impl Into<Message>) -> RecordingError {
         RecordingError::whole(&self.file, reason)
     }
 
     /// An error of a quantity at a sample.
-    pub fn refused_at(&self, sample: usize, quantity: Quantity, reason: impl Into<String>) -> RecordingError {
+    pub fn refused_at(&self, sample: usize, quantity: Quantity, reason: impl Into<Message>) -> RecordingError {
         RecordingError::line(&self.file, self.lines[sample], Some(quantity.key().to_owned()), reason)
     }
 }

@@ -2,9 +2,10 @@
 
 use moris_interface::shown;
 
+use crate::message::{Message, given, message};
 use crate::recording::columns::Column;
 use crate::recording::conventions::{Conventions, EmptyFields, Quantity};
-use crate::recording::message::{given, quoted};
+use crate::recording::message::quoted;
 use crate::recording::read::{Samples, Sheet};
 use crate::recording::signal::is_constant;
 
@@ -13,7 +14,7 @@ const LEAST: usize = 50;
 
 /// Warnings about columns in use with one value throughout, where another moves that is likely the
 /// quantity's.
-pub fn warnings(sheet: &Sheet, samples: &Samples, layout: &[Column], conventions: &Conventions) -> Vec<String> {
+pub fn warnings(sheet: &Sheet, samples: &Samples, layout: &[Column], conventions: &Conventions) -> Vec<Message> {
     if samples.time.len() < LEAST {
         return Vec::new();
     }
@@ -32,11 +33,12 @@ pub fn warnings(sheet: &Sheet, samples: &Samples, layout: &[Column], conventions
         let other = sheet.header.likely(column.quantity, layout).into_iter().find(moves)?;
         let (name, other) = (sheet.header.shown(term.place), sheet.header.name(other));
         let remedy = given("columns", format!("\"{}={other}\"", column.quantity.key()));
-        Some(format!(
-            "Column {name} is constant, {}, while {} changes: a logger's placeholder. Use {remedy}.",
-            shown(dead[0]),
-            quoted(other)
-        ))
+        let (value, other) = (shown(dead[0]), quoted(other));
+        Some(message![
+            "Column {name} is constant, {value}, while {other} changes: a logger's placeholder. Use ",
+            remedy,
+            "."
+        ])
     };
     layout.iter().filter(|column| column.quantity != Quantity::Time).filter_map(warning).collect()
 }

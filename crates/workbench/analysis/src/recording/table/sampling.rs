@@ -8,8 +8,9 @@ use super::interpolation::{orientations, places, values};
 use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
 use moris_interface::shown;
 
+use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
-use crate::recording::message::{RecordingError, given, named};
+use crate::recording::message::RecordingError;
 
 /// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
 /// times written with few digits.
@@ -29,9 +30,9 @@ const MOST_SAMPLES: f64 = 1e7;
 /// # Errors
 /// Time does not increase, the steps are unequal and interpolation is off, or the steps are too
 /// coarse or too fine for the unit of time.
-pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RecordingError> {
+pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Table, Vec<Message>), RecordingError> {
     if conventions.resample.is_some() {
-        table.warnings.extend(spread_equal_times(&mut table.time));
+        table.warnings.extend(spread_equal_times(&mut table.time).map(Message::from));
     }
     if let Some((wrong, reason)) = disorder(&table.time) {
         return Err(table.refused_at(wrong, Quantity::Time, reason));
@@ -47,11 +48,12 @@ fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let usual = usual_step(&table.time);
     let (unit, _) = table.unit(Quantity::Time);
     let reason = if usual > COARSEST {
-        format!(
-            "too coarse for a washout; if time is in ms or another unit, give it with {}; if it counts samples, use {}",
+        message![
+            "too coarse for a washout; if time is in ms or another unit, give it with ",
             named("time-unit"),
+            "; if it counts samples, use ",
             given("rate", "HERTZ")
-        )
+        ]
     } else if usual < FINEST {
         let others = TimeUnit::ALL.iter().map(|other| other.unit());
         let rate = |other: Unit| unit.in_si / (usual * other.in_si);
@@ -61,17 +63,18 @@ fn check_unit(table: &Table) -> Result<(), RecordingError> {
             .map(|other| format!("{} if it is in {}", shown(rate(other).round()), other.word))
             .collect();
         let fitting = if fitting.is_empty() { String::new() } else { format!(" ({})", fitting.join(", ")) };
-        format!(
-            "{:.0} samples a second are more than any recording has{fitting}; give the unit of time with {}, or its scale \
-             with {}",
-            1.0 / usual,
+        let rate = 1.0 / usual;
+        message![
+            "{rate:.0} samples a second are more than any recording has{fitting}; give the unit of time with ",
             named("time-unit"),
-            given("columns", format!("\"time={} * 1000\"", "NAME"))
-        )
+            ", or its scale with ",
+            given("columns", "\"time=NAME * 1000\"")
+        ]
     } else {
         return Ok(());
     };
-    Err(table.refused(format!("samples come every {usual} s if time is in {}: {reason}", unit.word)))
+    let unit = unit.word;
+    Err(table.refused(message!["samples come every {usual} s if time is in {unit}: ", reason]))
 }
 
 fn check_equal(table: &Table) -> Result<(), RecordingError> {
@@ -84,12 +87,12 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     // unusual step is named.
     let step_to = |k: usize| table.time[k] - table.time[k - 1];
     let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
-    let reason = format!(
-        "the samples do not come at equal steps: here {:.4} s after the one before, otherwise {usual:.4} s; {} \
-         interpolates them",
-        step_to(odd),
-        given("resample", format!("{:.0}", 1.0 / usual))
-    );
+    let step = step_to(odd);
+    let reason = message![
+        "the samples do not come at equal steps: here {step:.4} s after the one before, otherwise {usual:.4} s; ",
+        given("resample", format!("{:.0}", 1.0 / usual)),
+        " interpolates them"
+    ];
     Err(table.refused_at(odd, Quantity::Time, reason))
 }
 
@@ -99,7 +102,7 @@ fn step_to(table: &Table, sample: usize) -> f64 {
 }
 
 /// Linear interpolation at `rate` samples a second, with warnings about gaps.
-fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<String>), RecordingError> {
+fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<Message>), RecordingError> {
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
     let longest = (1..table.time.len()).max_by(|&a, &b| step_to(&table, a).total_cmp(&step_to(&table, b))).unwrap_or(1);
     let gap = step_to(&table, longest);
@@ -128,7 +131,7 @@ fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<String>), RecordingE
     }
     let lines = places.iter().map(|place| table.lines[place.after]).collect();
     let gap = |(step, line)| {
-        format!("Nothing was recorded for {step:.2} s after line {line}; the gap is interpolated linearly.")
+        format!("Nothing was recorded for {step:.2} s after line {line}; the gap is interpolated linearly.").into()
     };
     let warnings = gaps(&table.time, &table.lines, LONGEST_GAP).map(gap).collect();
     Ok((Table { time, columns, lines, ..table }, warnings))

@@ -2,7 +2,7 @@
 
 use moris_interface::shown;
 
-use crate::recording::message::given;
+use crate::message::{Message, given, message};
 use crate::recording::signal::median;
 
 /// Longest gap that is interpolated over without a warning \[s\].
@@ -28,22 +28,23 @@ pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
 }
 
 /// The first sample whose time is not after the one before, and the reason why it is refused.
-pub fn disorder(time: &[f64]) -> Option<(usize, String)> {
+pub fn disorder(time: &[f64]) -> Option<(usize, Message)> {
     let wrong = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
     let (before, after) = (time[wrong - 1], time[wrong]);
     let fault = if after < before { "goes back" } else { "stands still" };
     let remedy = remedy_for_equal_times(time, wrong);
-    Some((wrong, format!("time {fault}: {} s comes after {} s{remedy}", shown(after), shown(before))))
+    let (before, after) = (shown(before), shown(after));
+    Some((wrong, message!["time {fault}: {after} s comes after {before} s", remedy]))
 }
 
 /// The remedy where a sample has the time of the one before.
-fn remedy_for_equal_times(time: &[f64], sample: usize) -> String {
+fn remedy_for_equal_times(time: &[f64], sample: usize) -> Message {
     let duration = time[time.len() - 1] - time[0];
     if time[sample] != time[sample - 1] || duration <= 0.0 {
-        return String::new();
+        return Message::default();
     }
     let rate = (time.len() - 1) as f64 / duration;
-    format!("; if the times are rounded, {} spreads equal ones evenly", given("resample", format!("{rate:.0}")))
+    message!["; if the times are rounded, ", given("resample", format!("{rate:.0}")), " spreads equal ones evenly"]
 }
 
 /// The median step \[s\], which is insensitive to missing samples and outliers.

@@ -14,6 +14,7 @@ use moris_washout::nalgebra::Vector3;
 
 use super::blocks::{BLOCK, Blocks};
 use super::level::{Estimate, Level, sign};
+use crate::message::{Message, message};
 use crate::recording::conventions::Mounting;
 
 /// Largest standard error of a source that is used: it still tells forward from backward \[rad\].
@@ -37,7 +38,7 @@ pub struct Forward {
 ///
 /// # Errors
 /// No source tells it, or two contradict each other.
-pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
+pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
     let [auto, angles] = Mounting::options();
     let level = Level::new(blocks, up);
     let sources = [level.along_speed(&blocks.speeds), level.in_bends(), level.in_leaning_bends()];
@@ -47,10 +48,13 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
     let straight = level.straight_accelerations().filter(is_usable);
     let Some(best) = estimates.first() else {
         let axis = straight.ok_or_else(|| {
-            format!(
-                "{auto} finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so \
-                 forward is unknown; give {angles} in degrees"
-            )
+            message![
+                auto.clone(),
+                " finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so forward is \
+                 unknown; give ",
+                angles.clone(),
+                " in degrees"
+            ]
         })?;
         let (start, sign) = level.first_acceleration(blocks.first_rest(), &axis.direction);
         return Ok(Forward {
@@ -65,9 +69,12 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
         straight.map(|axis| Estimate { direction: axis.direction * sign(axis.direction.dot(&best.direction)), ..axis });
     if let Some(other) = estimates[1..].iter().chain(&straight).find(|other| contradicts(best, other)) {
         let (one, two, angle) = (best.evidence, other.evidence, best.direction.angle(&other.direction).to_degrees());
-        return Err(format!(
-            "{auto} finds forward from {one} and from {two}, {angle:.0} degrees apart; give {angles} in degrees"
-        ));
+        return Err(message![
+            auto,
+            " finds forward from {one} and from {two}, {angle:.0} degrees apart; give ",
+            angles,
+            " in degrees"
+        ]);
     }
     let (finest, evidence) = match &straight {
         Some(axis) if axis.error <= best.error => (axis, format!("{} and {}", axis.evidence, best.evidence)),

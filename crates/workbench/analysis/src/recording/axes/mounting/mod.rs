@@ -10,8 +10,8 @@ mod level;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::message::{Message, Remedy, given, message, named};
 use crate::recording::conventions::Mounting;
-use crate::recording::message::{given, named};
 use blocks::{Blocks, mean};
 use forward::Forward;
 
@@ -32,7 +32,7 @@ pub struct MountingEstimate {
     /// Rotation from the sensor's axes to the vehicle's.
     pub rotation: Matrix3<f64>,
     /// The angles and their evidence, in a sentence.
-    pub warning: String,
+    pub warning: Message,
 }
 
 /// Largest standard error of the forward direction \[rad\].
@@ -44,35 +44,43 @@ const LARGEST_ERROR: f64 = 15f64.to_radians();
 /// # Errors
 /// The recording contains no gravity, or forward is unknown, uncertain or contradictory. The
 /// message names the option that gives the mounting.
-pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, String> {
+pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, Message> {
     let [auto, angles] = Mounting::options();
     let blocks = Blocks::new(motion);
     let rest = blocks.rest_force();
     let gravity = rest.unwrap_or_else(|| mean(motion.forces));
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
         let (size, unit) = (gravity.norm(), named("force-unit"));
-        return Err(format!(
-            "{auto} finds no gravity: at rest the specific force is {size:.2} m/s2; check {unit}, or give {angles}"
-        ));
+        return Err(message![
+            auto,
+            " finds no gravity: at rest the specific force is {size:.2} m/s2; check ",
+            unit,
+            ", or give ",
+            angles
+        ]);
     }
     let up = gravity.normalize();
     let Forward { direction, error, evidence, may_be_backward } = forward::find(&blocks, &up)?;
     let rotation = axes(&up, &direction);
     let (option, degrees) = (option(&rotation), error.to_degrees());
     if error > LARGEST_ERROR {
-        return Err(format!(
-            "{auto} finds forward from {evidence}, but only to {degrees:.0} degrees; give {angles} in degrees, or take \
-             {option}"
-        ));
+        return Err(message![
+            auto,
+            " finds forward from {evidence}, but only to {degrees:.0} degrees; give ",
+            angles,
+            " in degrees, or take ",
+            option
+        ]);
     }
     let level = if rest.is_some() { "gravity" } else { "the mean force, as there is no second of rest" };
-    let mut warning = format!(
-        "The sensor's mounting was found, up from {level}, and forward to {degrees:.0} degrees from {evidence}: {option} \
-         gives the same."
-    );
+    let mut warning = message![
+        "The sensor's mounting was found, up from {level}, and forward to {degrees:.0} degrees from {evidence}: ",
+        option,
+        " gives the same."
+    ];
     if may_be_backward {
         let turned = self::option(&axes(&up, &-direction));
-        warning.push_str(&format!(" If that acceleration is a braking, forward is backward: use {turned}."));
+        warning.push(message![" If that acceleration is a braking, forward is backward: use ", turned, "."]);
     }
     Ok(MountingEstimate { rotation, warning })
 }
@@ -83,7 +91,7 @@ fn axes(up: &Vector3<f64>, forward: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// The option that gives a rotation.
-fn option(rotation: &Matrix3<f64>) -> String {
+fn option(rotation: &Matrix3<f64>) -> Remedy {
     let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(*rotation).euler_angles();
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
     given("mounting", format!("{roll:.1},{pitch:.1},{yaw:.1}"))

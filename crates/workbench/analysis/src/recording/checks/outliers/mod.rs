@@ -5,8 +5,9 @@ mod find;
 
 use moris_interface::shown;
 
+use crate::message::{Message, given, message};
 use crate::recording::conventions::Quantity;
-use crate::recording::message::{RecordingError, given};
+use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
 use find::{FLAT, error_values, flat_tops, spikes};
 
@@ -18,7 +19,7 @@ const MOST_LISTED: usize = 5;
 ///
 /// # Errors
 /// There are error values, and `repair` is not set.
-pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingError> {
+pub fn check(table: &mut Table, repair: bool) -> Result<Vec<Message>, RecordingError> {
     let mut warnings = Vec::new();
     let quantities: Vec<Quantity> = table.columns.keys().copied().collect();
     for quantity in quantities {
@@ -31,11 +32,11 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingEr
             spikes(quantity, values).into_iter().filter(|spike| errors.binary_search(spike).is_err()).collect();
         let is_sensor = matches!(quantity, Quantity::Force(_) | Quantity::Rate(_));
         let tops = if is_sensor { flat_tops(values) } else { Vec::new() };
-        warnings.extend(tops.iter().map(|tops| flat_top_warning(table, quantity, tops)));
+        warnings.extend(tops.iter().map(|tops| flat_top_warning(table, quantity, tops).into()));
         if repair && !(errors.is_empty() && spikes.is_empty()) {
             let mut wrong = [errors, spikes].concat();
             wrong.sort_unstable();
-            warnings.push(repair_warning(table, quantity, &wrong));
+            warnings.push(repair_warning(table, quantity, &wrong).into());
             let repaired = interpolated(values, &wrong);
             table.columns.insert(quantity, repaired);
         } else if !spikes.is_empty() {
@@ -45,13 +46,13 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingEr
     Ok(warnings)
 }
 
-fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> String {
-    format!(
-        "is {}, as loggers write it where they have no value, {}; use {} to interpolate over it, or cut this part off",
-        shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si),
-        times(table, errors),
-        given("repair", "True")
-    )
+fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> Message {
+    let (value, times) = (shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si), times(table, errors));
+    message![
+        "is {value}, as loggers write it where they have no value, {times}; use ",
+        given("repair", "True"),
+        " to interpolate over it, or cut this part off"
+    ]
 }
 
 fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> String {
@@ -72,16 +73,15 @@ fn repair_warning(table: &Table, quantity: Quantity, wrong: &[usize]) -> String 
     format!("Repaired: {samples} interpolated over, {}.", times(table, wrong))
 }
 
-fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> String {
+fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> Message {
     let values = spikes.iter().map(|&spike| table.value(quantity, spike));
     let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
-    format!(
-        "Column {} has isolated spikes of up to {largest:.1} in SI units, {}. If no blow caused them, use {} to \
-         interpolate over them.",
-        quantity.key(),
-        times(table, spikes),
-        given("repair", "True")
-    )
+    let (key, times) = (quantity.key(), times(table, spikes));
+    message![
+        "Column {key} has isolated spikes of up to {largest:.1} in SI units, {times}. If no blow caused them, use ",
+        given("repair", "True"),
+        " to interpolate over them."
+    ]
 }
 
 /// Times and lines of samples, for a message.
