@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use moris_fmu_host::{Fmu, Instance, Status};
-use moris_measures::LimitFlags;
+use moris_measures::Limits;
 
 use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};
@@ -100,7 +100,7 @@ impl References {
             legs: reals(instance, &self.legs)?,
             position: reals(instance, &self.position)?,
             tilt_rate: reals(instance, &self.tilt_rate)?,
-            limited: LimitFlags { tilt, soft, safety, actuator },
+            limited: Limits { tilt, soft, safety, actuator },
         })
     }
 }

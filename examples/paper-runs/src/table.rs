@@ -100,9 +100,9 @@ pub fn platform_table(traces: &[Trace]) -> Table {
             number(effort.shortest_leg, 3),
             number(effort.longest_leg, 3),
             number(effort.largest_tilt_rate.to_degrees(), 3),
-            number(100.0 * effort.tilt_limited, 1),
-            number(100.0 * effort.safety_active, 1),
-            number(100.0 * effort.actuator_limited, 1),
+            number(100.0 * effort.limited.tilt, 1),
+            number(100.0 * effort.limited.safety, 1),
+            number(100.0 * effort.limited.actuator, 1),
             number(1000.0 * effort.final_distance, 2),
         ]);
         row

@@ -1,7 +1,7 @@
 //! The trace of one simulated run.
 
 use moris_measures::effort::{Effort, effort};
-use moris_measures::{LimitFlags, Platform};
+use moris_measures::{Limits, Platform};
 
 /// Everything that the tables and figures need of one communication point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Sample {
     /// Rates of tilt coordination's roll and pitch \[rad/s\].
     pub tilt_rate: [f64; 2],
     /// Limits active during the step before this sample.
-    pub limited: LimitFlags,
+    pub limited: Limits<bool>,
 }
 
 /// One run with one set of parameters.

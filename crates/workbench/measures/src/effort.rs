@@ -1,6 +1,6 @@
 //! Effort of the platform: stroke used, time limited, tilt rate.
 
-use crate::run::{LimitFlags, Platform};
+use crate::run::{Limits, Platform};
 
 /// Effort of the platform in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,14 +14,8 @@ pub struct Effort {
     pub stroke_used: f64,
     /// Smallest distance of any actuator from either end of its stroke \[m\].
     pub smallest_margin: f64,
-    /// Fraction of the steps in which a limit of tilt coordination acted, 0 to 1.
-    pub tilt_limited: f64,
-    /// Fraction of the steps in which the soft limits changed the motion, 0 to 1.
-    pub soft_limited: f64,
-    /// Fraction of the steps in which a safety unit was active, 0 to 1.
-    pub safety_active: f64,
-    /// Fraction of the steps in which the actuator guard was active, 0 to 1.
-    pub actuator_limited: f64,
+    /// Fraction of the steps in which each limit acted, 0 to 1.
+    pub limited: Limits<f64>,
     /// Largest rate of tilt coordination in roll or pitch \[rad/s\].
     pub largest_tilt_rate: f64,
     /// Distance of the platform from neutral at the end \[m\].
@@ -39,10 +33,12 @@ pub fn effort(platform: &Platform) -> Effort {
         longest_leg,
         stroke_used: (longest_leg - shortest_leg) / (longest - shortest),
         smallest_margin: (shortest_leg - shortest).min(longest - longest_leg),
-        tilt_limited: fraction(platform.limited, |limited| limited.tilt),
-        soft_limited: fraction(platform.limited, |limited| limited.soft),
-        safety_active: fraction(platform.limited, |limited| limited.safety),
-        actuator_limited: fraction(platform.limited, |limited| limited.actuator),
+        limited: Limits {
+            tilt: fraction(platform.limited, |limited| limited.tilt),
+            soft: fraction(platform.limited, |limited| limited.soft),
+            safety: fraction(platform.limited, |limited| limited.safety),
+            actuator: fraction(platform.limited, |limited| limited.actuator),
+        },
         largest_tilt_rate: platform.tilt_rate.iter().flatten().fold(0.0, |largest, rate| rate.abs().max(largest)),
         final_distance: platform.displacement.last().map_or(0.0, |[x, y, z]| (x * x + y * y + z * z).sqrt()),
     }
@@ -50,7 +46,7 @@ pub fn effort(platform: &Platform) -> Effort {
 
 /// Fraction of the steps in which a limit was active, 0 to 1. The first sample is
 /// none: no step led to it.
-pub fn fraction(limited: &[LimitFlags], at_work: impl Fn(&LimitFlags) -> bool) -> f64 {
+pub fn fraction(limited: &[Limits<bool>], at_work: impl Fn(&Limits<bool>) -> bool) -> f64 {
     match limited {
         [] | [_] => 0.0,
         [_, steps @ ..] => steps.iter().filter(|limited| at_work(limited)).count() as f64 / steps.len() as f64,
@@ -63,7 +59,7 @@ mod tests {
 
     #[test]
     fn the_effort_is_counted_over_the_steps() {
-        let limited = |tilt, soft, safety, actuator| LimitFlags { tilt, soft, safety, actuator };
+        let limited = |tilt, soft, safety, actuator| Limits { tilt, soft, safety, actuator };
         let mut legs = [[1.3; 6]; 5];
         legs[2][2] = 1.1;
         legs[3][0] = 1.5;
@@ -84,8 +80,7 @@ mod tests {
         assert_eq!((effort.shortest_leg, effort.longest_leg), (1.1, 1.5));
         assert!((effort.stroke_used - 0.4 / 0.6).abs() < 1e-12);
         assert!((effort.smallest_margin - 0.1).abs() < 1e-12);
-        assert_eq!((effort.tilt_limited, effort.soft_limited), (0.75, 0.5));
-        assert_eq!((effort.safety_active, effort.actuator_limited), (0.25, 0.0));
+        assert_eq!(effort.limited, Limits { tilt: 0.75, soft: 0.5, safety: 0.25, actuator: 0.0 });
         assert_eq!(effort.largest_tilt_rate, 0.05);
         assert!((effort.final_distance - 0.13).abs() < 1e-12);
     }

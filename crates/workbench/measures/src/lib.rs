@@ -39,4 +39,4 @@ mod zero_phase;
 
 pub use listing::{Better, Row, all_rows, bound_rows};
 pub use measures::{Axes, Measures, References, Rider};
-pub use run::{LimitFlags, Platform, Run, RunError};
+pub use run::{Limits, Platform, Run, RunError};

@@ -7,7 +7,7 @@ use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
 use crate::measures::{Axes, Measures, Rider};
-use crate::run::{LimitFlags, Platform, Run};
+use crate::run::{Limits, Platform, Run};
 use crate::shape::{AxisShape, Shape};
 
 /// The better of two values of a measure.
@@ -105,7 +105,7 @@ pub fn all_rows() -> Vec<Row> {
             stroke: [0.5, 1.5],
             displacement: &still,
             tilt_rate: &vec![[0.0; 2]; moving.len()],
-            limited: &vec![LimitFlags::default(); moving.len()],
+            limited: &vec![Limits::default(); moving.len()],
         },
     };
     Measures::of(&run).expect("the run has equal series of numbers").rows()
@@ -285,16 +285,16 @@ fn effort_rows(effort: &Effort) -> [Row; 8] {
             .defined("Smallest distance of any actuator from either end of its stroke."),
         on.row("largest tilt rate", Better::Neither, effort.largest_tilt_rate.to_degrees(), "°/s")
             .defined("Largest rate of tilt coordination in roll or pitch."),
-        on.row("tilt limited", Better::Less, 100.0 * effort.tilt_limited, "%").defined(
+        on.row("tilt limited", Better::Less, 100.0 * effort.limited.tilt, "%").defined(
             "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
              least 0.1 s at its acceleration limit.",
         ),
-        on.row("soft limits active", Better::Less, 100.0 * effort.soft_limited, "%").defined(
+        on.row("soft limits active", Better::Less, 100.0 * effort.limited.soft, "%").defined(
             "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.",
         ),
-        on.row("safety units active", Better::Less, 100.0 * effort.safety_active, "%")
+        on.row("safety units active", Better::Less, 100.0 * effort.limited.safety, "%")
             .defined("Fraction of the steps in which a safety unit limited the platform."),
-        on.row("actuators limited", Better::Less, 100.0 * effort.actuator_limited, "%")
+        on.row("actuators limited", Better::Less, 100.0 * effort.limited.actuator, "%")
             .defined("Fraction of the steps in which the actuator guard limited an actuator."),
         on.row("final distance from neutral", Better::Less, effort.final_distance, "m")
             .defined("Distance of the platform from neutral at the end."),
@@ -324,7 +324,7 @@ mod tests {
                 stroke: [1.0, 1.6],
                 displacement: &[[0.0; 3]; COUNT],
                 tilt_rate: &[[0.0; 2]; COUNT],
-                limited: &[LimitFlags::default(); COUNT],
+                limited: &[Limits::default(); COUNT],
             },
         };
         Measures::of(&run).unwrap().rows()

@@ -144,7 +144,7 @@ impl SensedSignal<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{LimitFlags, Platform};
+    use crate::{Limits, Platform};
 
     use super::*;
 
@@ -175,7 +175,7 @@ mod tests {
                     stroke: [1.0, 1.6],
                     displacement: &rest,
                     tilt_rate: &vec![[0.0; 2]; count],
-                    limited: &vec![LimitFlags::default(); count],
+                    limited: &vec![Limits::default(); count],
                 },
             };
             let measures = Measures::with(&run, &mut references).unwrap();

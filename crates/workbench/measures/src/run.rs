@@ -37,20 +37,20 @@ pub struct Platform<'a> {
     /// Rates of tilt coordination's roll and pitch \[rad/s\].
     pub tilt_rate: &'a [[f64; 2]],
     /// Limits active during the step before each sample.
-    pub limited: &'a [LimitFlags],
+    pub limited: &'a [Limits<bool>],
 }
 
-/// Which of the washout's limits were active.
+/// A value for each of the washout's limits: a flag that it was active, or a fraction of time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LimitFlags {
+pub struct Limits<T> {
     /// Tilt coordination.
-    pub tilt: bool,
+    pub tilt: T,
     /// The soft limits in front of the safety units and the actuator guard.
-    pub soft: bool,
+    pub soft: T,
     /// The safety units.
-    pub safety: bool,
+    pub safety: T,
     /// The actuator guard.
-    pub actuator: bool,
+    pub actuator: T,
 }
 
 /// Why nothing can be measured of a run.

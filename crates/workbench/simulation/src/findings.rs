@@ -153,12 +153,12 @@ pub fn fit(outcome: &Evaluated) -> Option<bool> {
 
 /// True if neither a safety unit nor an actuator's limit was active.
 pub fn fits_the_rig(measures: &Measures) -> bool {
-    measures.effort.safety_active == 0.0 && measures.effort.actuator_limited == 0.0
+    measures.effort.limited.safety == 0.0 && measures.effort.limited.actuator == 0.0
 }
 
 /// True if soft limits, which keep these from acting, were hardly ever active, either.
 pub(crate) fn fits_freely(measures: &Measures) -> bool {
-    fits_the_rig(measures) && measures.effort.soft_limited <= SELDOM
+    fits_the_rig(measures) && measures.effort.limited.soft <= SELDOM
 }
 
 /// True if no channel is worse than on a platform at rest.
@@ -259,7 +259,7 @@ fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
 
 /// Time in which limits of tilt coordination acted, limit by limit.
 fn tilt(outcome: &Evaluated) -> Option<Finding> {
-    let fraction = outcome.measures.effort.tilt_limited;
+    let fraction = outcome.measures.effort.limited.tilt;
     if fraction < LEAST_TILT_LIMITED {
         return None;
     }

@@ -1,6 +1,6 @@
 //! The measures of a simulation.
 
-use moris_measures::{LimitFlags, Measures, Platform, References, Run, RunError};
+use moris_measures::{Limits, Measures, Platform, References, Run, RunError};
 use moris_washout::{Input, Output};
 
 use crate::Simulation;
@@ -21,7 +21,7 @@ pub fn measures_with(simulation: &Simulation, references: &mut References) -> Re
     let inputs = |value: fn(&Input) -> [f64; 3]| simulation.inputs.iter().map(value).collect::<Vec<_>>();
     let outputs = |value: fn(&Output) -> [f64; 3]| simulation.outputs.iter().map(value).collect::<Vec<_>>();
     let tilt_limits = simulation.tilt_limits();
-    let limited = |(sample, output): (usize, &Output)| LimitFlags {
+    let limited = |(sample, output): (usize, &Output)| Limits {
         tilt: tilt_limits.iter().flatten().any(|flags| flags[sample]),
         soft: output.soft_limited,
         safety: output.safety_active,

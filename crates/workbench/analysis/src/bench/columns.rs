@@ -50,11 +50,11 @@ pub const COLUMNS: [Column; 30] = [
     column("sick on the platform [%]", 2, |of| Some(of.measures.rider.sick[1])),
     column("stroke used [%]", 1, |of| fit(of).map(|_| 100.0 * of.measures.effort.stroke_used)),
     column("soft limits [%]", 2, |of| {
-        of.simulation.foreign.is_none().then_some(100.0 * of.measures.effort.soft_limited)
+        of.simulation.foreign.is_none().then_some(100.0 * of.measures.effort.limited.soft)
     }),
     column("limited [%]", 2, |of| {
         let effort = &of.measures.effort;
-        fit(of).map(|_| 100.0 * effort.safety_active.max(effort.actuator_limited))
+        fit(of).map(|_| 100.0 * effort.limited.safety.max(effort.limited.actuator))
     }),
 ];
 

@@ -2,7 +2,7 @@
 
 pub mod targets;
 
-use moris_measures::Measures;
+use moris_measures::{Limits, Measures};
 use moris_setup::Setup;
 use moris_simulation::channels::{ChannelFigures, channels};
 use moris_simulation::preview::Previewer;
@@ -24,7 +24,7 @@ pub struct MeasuredRecording {
     pub channels: Vec<ChannelFigures>,
     /// Fractions of the steps in which tilt coordination was limited, and in which the soft limits,
     /// a safety unit and the actuator guard were active.
-    pub limits: [f64; 4],
+    pub limits: Limits<f64>,
     /// Fraction of the steps in which a safety unit or the actuator guard limited the platform.
     pub limited: f64,
     /// Fraction of the stroke used.
@@ -55,7 +55,7 @@ impl MeasuredRecording {
             name: recording.name.clone(),
             duration: recording.manoeuvre.duration(),
             channels: channels(&outcome.evaluated()),
-            limits: [effort.tilt_limited, effort.soft_limited, effort.safety_active, effort.actuator_limited],
+            limits: effort.limited,
             limited: limited.count() as f64 / steps as f64,
             stroke_used: effort.stroke_used,
         })

@@ -128,10 +128,10 @@ fn comfort_cell(comfort: &Comfort) -> String {
 fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
     let columns: [Column<MeasuredRecording>; 7] = [
         ("limited, % of the steps", |recording| recording.name.clone()),
-        ("tilt", |recording| percent(recording.limits[0])),
-        ("soft limits", |recording| percent(recording.limits[1])),
-        ("safety units", |recording| percent(recording.limits[2])),
-        ("actuator guard", |recording| percent(recording.limits[3])),
+        ("tilt", |recording| percent(recording.limits.tilt)),
+        ("soft limits", |recording| percent(recording.limits.soft)),
+        ("safety units", |recording| percent(recording.limits.safety)),
+        ("actuator guard", |recording| percent(recording.limits.actuator)),
         ("units or guard", |recording| percent(recording.limited)),
         ("stroke used %", |recording| percent(recording.stroke_used)),
     ];

@@ -54,13 +54,13 @@ impl Entry {
     fn new(name: String, recording: &Recording, outcome: &Outcome, page: &Path) -> Self {
         let measures = &outcome.measures;
         let effort = &measures.effort;
-        let limited = effort.safety_active.max(effort.actuator_limited);
+        let limited = effort.limited.safety.max(effort.limited.actuator);
         let errors = measures.sensed_force.each_ref().map(|axis| axis.as_ref().map(|fidelity| fidelity.rms_error));
         let error = errors.iter().flatten().map(|error| error * error).sum::<f64>().sqrt();
         let figure = |value: Option<f64>| or_undefined(value.map(|value| format!("{value:.2}")));
         let limits = [
             format!("{:.1}", 100.0 * limited),
-            format!("{:.1}", 100.0 * effort.soft_limited),
+            format!("{:.1}", 100.0 * effort.limited.soft),
             format!("{:.0}", 100.0 * effort.stroke_used),
         ];
         // The largest of the axes.

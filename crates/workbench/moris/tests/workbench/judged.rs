@@ -112,7 +112,7 @@ fn poses_and_legs_have_the_felt_forces_and_the_limits() {
             }
         }
         let [own, other] = [&own, &other].map(|outcome| outcome.measures.effort);
-        assert!((own.stroke_used - other.stroke_used).abs() < 1e-6 && other.actuator_limited == 0.0, "{other:?}");
+        assert!((own.stroke_used - other.stroke_used).abs() < 1e-6 && other.limited.actuator == 0.0, "{other:?}");
     }
 }
 
@@ -135,7 +135,7 @@ fn finer_poses_are_judged_within_steps_and_beyond_the_rig() {
     assert_eq!(outcome.simulation.felt_within_steps.len(), 5 * (samples - 1) + 1);
     let finding = &outcome.evaluated().findings()[0].text;
     assert!(finding.starts_with("The motion exceeds the rig for") && finding.contains("long at"), "{finding}");
-    assert!(outcome.measures.effort.actuator_limited > 0.1 && outcome.measures.effort.smallest_margin < 0.0);
+    assert!(outcome.measures.effort.limited.actuator > 0.1 && outcome.measures.effort.smallest_margin < 0.0);
 }
 
 #[test]
