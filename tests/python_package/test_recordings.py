@@ -170,7 +170,7 @@ DAMAGES = [
     ({"ay": lambda ay: ay + 7.0, "az": lambda az: az - 3.0}, {}, 'mounting="auto"'),
     ({"ax": lambda ax: ax + 2.0}, {"fade_in": 0.0}, "fade_in=1"),
     ({"ax": lambda ax: np.where(np.arange(len(ax)) == 300, 40.0, ax)}, {}, "repair=True"),
-    ({"ax": lambda ax: np.where(np.arange(len(ax)) == 300, np.nan, ax)}, {}, 'empty_fields="interpolate"'),
+    ({"ax": lambda ax: np.where(np.arange(len(ax)) == 300, np.nan, ax)}, {}, "is NaN; cut this part off"),
     ({"wz": lambda wz: 600 * wz}, {}, 'rate_unit="deg/s"'),
     ({"ax": lambda ax: ax}, {"columns": {"ax": "wx"}}, "with columns"),
 ]
