@@ -1,6 +1,8 @@
 //! Commands of a person: lines on standard input.
 
 use std::io::{ErrorKind, Read};
+use std::thread;
+use std::time::Duration;
 
 use moris_live::{Event, Legs};
 use rtrb::Producer;
@@ -46,8 +48,9 @@ fn take(line: &[u8], commands: &mut Producer<Order>) {
     let order = Event::of_person(word).map(Order::Event).or_else(|| Legs::of_person(word).map(Order::Legs));
     match order {
         Some(order) => {
-            if commands.push(order).is_err() {
-                console::line("the loop has not taken the last commands yet");
+            // The loop takes them in its next step: none is lost, least of all a stop.
+            while commands.push(order).is_err() && !commands.is_abandoned() {
+                thread::sleep(Duration::from_millis(1));
             }
         }
         None if word.is_empty() => (),
@@ -71,6 +74,19 @@ mod tests {
             self.1 = !self.1;
             if self.1 { Err(ErrorKind::Interrupted.into()) } else { self.0.read(out) }
         }
+    }
+
+    /// More lines at once than the loop's ring has room for, as from a clipboard.
+    #[test]
+    fn a_stop_behind_many_lines_is_not_lost() {
+        let (commands, mut taken) = RingBuffer::new(8);
+        let input = [b"engage\n".repeat(100), b"stop\n".to_vec()].concat();
+        let reader = thread::spawn(move || read(&input[..], commands));
+        let mut found = Vec::new();
+        while !reader.is_finished() || !taken.is_empty() {
+            found.extend(taken.pop());
+        }
+        assert_eq!((found.len(), found.last()), (101, Some(&Order::Event(Event::Stop))));
     }
 
     #[test]

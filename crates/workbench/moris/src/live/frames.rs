@@ -473,7 +473,12 @@ pub struct Sender<'a> {
     asked: Option<Duration>,
     /// Answers on a serial line.
     answers: Lines,
+    /// A loss that is not reported yet.
+    owed: Option<Loss>,
 }
+
+/// Answers of the device that are taken at a time: a flood of them delays no frame.
+const MOST_ANSWERS: u32 = 64;
 
 /// Time between questions for the legs' lengths.
 const ASKS: Duration = Duration::from_millis(200);
@@ -506,6 +511,7 @@ impl<'a> Sender<'a> {
             sent: Sent::default(),
             asked: None,
             answers: Lines::default(),
+            owed: None,
         }
     }
 
@@ -541,6 +547,9 @@ impl<'a> Sender<'a> {
                     self.sent.passage.take(now.saturating_sub(arrival));
                 }
                 self.listen(fault, &mut packet);
+            }
+            if let Some(loss) = self.owed {
+                self.report(loss);
             }
             if ended {
                 return self.end();
@@ -624,22 +633,24 @@ impl<'a> Sender<'a> {
             let _ = self.sink.send(&self.bytes);
         }
         let is_line = self.sink.is_line();
-        while let Some(answer) = self.sink.receive(packet) {
-            let orders = &mut self.orders;
-            let mut take = |answer: &[u8]| {
-                if let Some(lengths) = reported(answer) {
-                    let _ = orders.push(Order::Report(lengths));
-                }
-            };
+        let mut newest = None;
+        for _ in 0..MOST_ANSWERS {
+            let Some(answer) = self.sink.receive(packet) else { break };
+            let mut take = |answer: &[u8]| newest = reported(answer).or(newest);
             if is_line { self.answers.take(answer, take) } else { take(answer) }
+        }
+        if let Some(lengths) = newest {
+            // A later answer follows where there is no room.
+            let _ = self.orders.push(Order::Report(lengths));
         }
     }
 
     /// Takes what the device answers.
     fn listen(&mut self, mut fault: Option<Event>, packet: &mut [u8]) {
-        while self.device.answers()
-            && let Some(answer) = self.sink.receive(packet)
-        {
+        // Only a sink that answers does not wait for one.
+        let most = if self.device.answers() { MOST_ANSWERS } else { 0 };
+        for _ in 0..most {
+            let Some(answer) = self.sink.receive(packet) else { break };
             fault = self.device.receive(answer).or(fault);
         }
         // Nobody answers what is printed.
@@ -648,8 +659,9 @@ impl<'a> Sender<'a> {
         }
     }
 
+    /// Reports a loss, later if the loop has not taken what was reported before.
     fn report(&mut self, loss: Loss) {
-        let _ = self.orders.push(Order::Lost(loss));
+        self.owed = self.orders.push(Order::Lost(loss)).is_err().then_some(loss);
     }
 
     fn end(&mut self) {
@@ -725,6 +737,46 @@ mod tests {
         assert!(speeds[0] > 0.3 && speeds.last().unwrap().abs() < 1e-3, "{speeds:?}");
         assert!(speeds.windows(2).all(|pair| (-1e-3..0.03).contains(&(pair[0] - pair[1]))), "{speeds:?}");
     }
+
+    /// The loop is busy, and a report waits for it.
+    #[test]
+    fn a_loss_that_the_loop_has_no_room_for_is_reported_later() {
+        let (mut orders, mut reported) = RingBuffer::new(1);
+        orders.push(Order::Report([1.3; 6])).unwrap();
+        let shared = Shared::default();
+        let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
+        let (ring, messages) = RingBuffer::new(1);
+        let mut sender = Sender::new(messages, Device::moog(), Sink::Dry, orders, (0.01, actuators), &shared);
+        sender.report(Loss::Device);
+        drop(ring);
+        assert!(matches!(reported.pop(), Ok(Order::Report(_))));
+        sender.run();
+        assert!(matches!(reported.pop(), Ok(Order::Lost(Loss::Device))));
+    }
+
+    /// Whoever sends to the controller's socket without end.
+    #[test]
+    fn a_flood_of_answers_delays_no_frame() {
+        let device = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
+        sink.listen_if_it_can().unwrap();
+        let Sink::Udp(socket) = &sink else { unreachable!() };
+        let address = format!("127.0.0.1:{}", socket.local_addr().unwrap().port());
+        (0..200).for_each(|_| _ = device.send_to(b"legs,1.3,1.3,1.3,1.3,1.3,1.3\n", &address).unwrap());
+        let encoder = Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
+        let (orders, mut reported) = RingBuffer::new(64);
+        let shared = Shared::default();
+        let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
+        let device_of = Device::Template(Box::new(encoder));
+        let mut sender = Sender::new(RingBuffer::new(1).1, device_of, sink, orders, (0.01, actuators), &shared);
+        let mut packet = [0; 256];
+        sender.ask(&mut packet);
+        // One report of many, and most of the flood is left for later.
+        assert!(reported.pop().is_ok() && reported.pop().is_err());
+        let left = (0..200).take_while(|_| sender.sink.receive(&mut packet).is_some()).count();
+        assert!(left >= 100, "{left}");
+    }
+
     /// The sender's counts and what it reports, after so many frames to this sink.
     fn sent_to(sink: Sink, device: Device, frames: u32, shared: &Shared) -> (Sent, Vec<Order>) {
         let (mut ring, messages) = RingBuffer::new(256);
