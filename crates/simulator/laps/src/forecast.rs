@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::smooth::{LAG, LATEST_LAG};
+use crate::smooth::{LAG, LATEST, LATEST_LAG};
 use crate::ticks::TICK;
 
 /// Times ahead: the preview's elements, and one more to interpolate.
@@ -30,14 +30,18 @@ const CARRIED: [f64; 2] = [0.0, 1.0];
 /// Time constants with which a mean squared error follows larger and smaller ones \[s\]. The first
 /// is that of a forecast that proves itself, too.
 const ERROR_TIMES: [f64; 2] = [2.0, 8.0];
+/// Time constant of the mean squared error at present \[s\].
+const NOW_TIME: f64 = 0.5;
 /// A forecast proves itself where its squared error now is below this part of that without memory.
 const PROVED: f64 = 0.25;
 /// Elements whose errors count: 0.4, 1 and 2 s ahead.
 const COMPARED: [usize; 3] = [1, 4, 9];
+/// Forecasts without memory.
+const PLAIN: usize = 4;
 /// Squared error added to the least one without memory \[(m/s2)^2\].
-const FLOOR: f64 = 0.01;
+const FLOOR: f64 = 0.002;
 /// Ratio of the squared errors at which the forecast has half of the trust.
-const HALF: f64 = 0.8;
+const HALF: f64 = 0.6;
 
 /// A forecast, kept until its times have come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -51,9 +55,9 @@ struct Made {
     difference: f64,
     /// The forecast at the compared times \[m/s2\].
     forces: [f64; COMPARED.len()],
-    /// Force at the time of the forecast \[m/s2\], and its slope \[m/s3\].
-    held: f64,
-    slope: f64,
+    present: Present,
+    /// What a wave was expected to be at the compared times \[m/s2\].
+    waves: [f64; COMPARED.len()],
 }
 
 /// Time ahead of an element \[s\].
@@ -83,6 +87,44 @@ impl Fit {
     }
 }
 
+/// Present force \[m/s2\], its slope, and that of 0.2 s ago \[m/s3\].
+type Present = [f64; 3];
+
+/// Least squares of the force at a time ahead on the present one and its slopes, good for waves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Wave {
+    /// Sums of products of the present values with each other, and with the force that came.
+    squares: [Present; 3],
+    products: Present,
+}
+
+impl Wave {
+    fn learn(&mut self, keep: f64, present: &Present, truth: f64) {
+        for i in 0..3 {
+            for j in 0..=i {
+                self.squares[i][j] = keep * self.squares[i][j] + present[i] * present[j];
+            }
+            self.products[i] = keep * self.products[i] + present[i] * truth;
+        }
+    }
+
+    /// The forecast, by L D L' of the sums with a prior.
+    fn forecast(&self, present: &Present) -> f64 {
+        let s = &self.squares;
+        let d0 = s[0][0] + PRIOR;
+        let [l1, l2] = [s[1][0] / d0, s[2][0] / d0];
+        let d1 = s[1][1] + PRIOR - l1 * s[1][0];
+        let m2 = (s[2][1] - l1 * s[2][0]) / d1;
+        let d2 = s[2][2] + PRIOR - l2 * s[2][0] - m2 * m2 * d1;
+        let solved = |v: &Present| {
+            let y1 = v[1] - l1 * v[0];
+            [v[0], y1, v[2] - l2 * v[0] - m2 * y1]
+        };
+        let ([p0, p1, p2], [q0, q1, q2]) = (solved(&self.products), solved(present));
+        p0 * q0 / d0 + p1 * q1 / d1 + p2 * q2 / d2
+    }
+}
+
 /// The forecasts of an axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
@@ -90,11 +132,13 @@ pub struct Record {
     made: Vec<Made>,
     latest: usize,
     fits: [Fit; AHEAD],
-    /// Mean squared error of the forecasts \[(m/s2)^2\].
+    /// Mean squared error of the forecasts, and of the passes at present \[(m/s2)^2\].
     error: f64,
+    error_now: f64,
     /// Those without memory, at each of the compared times: of the present force held, of no force,
-    /// and of a trend.
-    plain: [[f64; 3]; COMPARED.len()],
+    /// of a trend, and of a wave.
+    plain: [[f64; PLAIN]; COMPARED.len()],
+    waves: [Wave; COMPARED.len()],
 }
 
 impl Default for Record {
@@ -104,7 +148,9 @@ impl Default for Record {
             latest: 0,
             fits: [Fit::default(); AHEAD],
             error: 0.0,
-            plain: [[0.0; 3]; COMPARED.len()],
+            error_now: 0.0,
+            plain: [[0.0; PLAIN]; COMPARED.len()],
+            waves: [Wave::default(); COMPARED.len()],
         }
     }
 }
@@ -126,13 +172,17 @@ impl Record {
     ) -> Option<[f64; AHEAD]> {
         self.latest = (self.latest + 1) % KEPT;
         self.compare(truth);
-        self.made[self.latest] = Made { is_known: true, held, slope, ..Made::default() };
+        let before = &self.made[(self.latest + KEPT - LATEST) % KEPT];
+        let present = [held, slope, if before.is_known { before.present[1] } else { slope }];
+        let waves = self.waves.map(|wave| wave.forecast(&present));
+        self.made[self.latest] = Made { is_known: true, present, waves, ..Made::default() };
         let (passes, now) = passes?;
         let difference = held - now;
+        self.error_now += TICK / NOW_TIME * (difference * difference - self.error_now);
         let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried(LASTING[k]) * difference);
         let forces = COMPARED.map(|k| forecast[k]);
         self.made[self.latest] =
-            Made { is_known: true, is_made: true, passes: *passes, difference, forces, held, slope };
+            Made { is_known: true, is_made: true, passes: *passes, difference, forces, present, waves };
         Some(forecast)
     }
 
@@ -149,16 +199,20 @@ impl Record {
         let [mut square, mut without, mut count] = [0.0; 3];
         for (k, element) in COMPARED.into_iter().enumerate() {
             let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
-            let plain = [made.held, 0.0, made.held + made.slope * TRENDS[k]];
+            let [held, slope, _] = made.present;
+            let plain = [held, 0.0, held + slope * TRENDS[k], made.waves[k]];
             let squares = plain.map(|forecast| (forecast - truth) * (forecast - truth));
             if made.is_made {
-                let best = (0..3).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);
+                let best = (0..PLAIN).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);
                 without += squares[best];
                 square += (made.forces[k] - truth) * (made.forces[k] - truth);
                 count += 1.0;
             }
-            for (error, square) in self.plain[k].iter_mut().zip(squares) {
-                *error += falling * (square - *error);
+            if made.is_known {
+                self.waves[k].learn(keep, &made.present, truth);
+                for (error, square) in self.plain[k].iter_mut().zip(squares) {
+                    *error += falling * (square - *error);
+                }
             }
         }
         if count > 0.0 {
@@ -172,13 +226,14 @@ impl Record {
 
     /// The weight that the forecast deserves against those without memory, from 0 to 1.
     pub fn trust(&self) -> f64 {
-        let ratio = self.error / (HALF * (self.error_without_memory() + FLOOR));
+        let ratio = self.error.max(self.error_now) / (HALF * (self.error_without_memory() + FLOOR));
         1.0 / (1.0 + ratio * ratio * ratio * ratio)
     }
 
     /// Mean squared error of the best forecast without memory: the present force held, no force,
-    /// or a trend \[(m/s2)^2\].
+    /// a trend, or a wave \[(m/s2)^2\].
     pub fn error_without_memory(&self) -> f64 {
-        self.plain.iter().map(|[held, none, trend]| held.min(*none).min(*trend)).sum::<f64>() / COMPARED.len() as f64
+        self.plain.iter().map(|errors| errors.iter().copied().fold(f64::INFINITY, f64::min)).sum::<f64>()
+            / COMPARED.len() as f64
     }
 }

@@ -23,7 +23,7 @@ const ALIKE: f64 = 0.05;
 /// Parts of the differences of the pace that are left at the times ahead.
 static FADES: LazyLock<[f64; AHEAD]> = LazyLock::new(|| std::array::from_fn(|k| fade(time_ahead(k))));
 /// Trust from which on there is a preview, and below which there is none any more.
-const GIVEN: [f64; 2] = [0.4, 0.1];
+const GIVEN: [f64; 2] = [0.5, 0.2];
 
 /// A memory of the road, and the preview by it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -16,7 +16,7 @@ const WIDTH: usize = 2 * LAG;
 /// Weights of the ticks: the triangle at their middles.
 const WEIGHTS: [f64; WIDTH] = [0.03125, 0.09375, 0.15625, 0.21875, 0.21875, 0.15625, 0.09375, 0.03125];
 /// Ticks of the latest force.
-const LATEST: usize = 4;
+pub const LATEST: usize = 4;
 /// Time by which it lags \[s\].
 pub const LATEST_LAG: f64 = 0.5 * LATEST as f64 * TICK;
 /// Ticks over which a position is averaged.

@@ -5,10 +5,10 @@ use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Parameters, Washout, presets};
 
 use crate::motorcycle;
-use crate::track::{LAP, STEP, busy_laps, laps, mirrored};
+use crate::track::{LAP, STEP, busy_laps};
 
 /// The previews beside a ride.
-fn previews(samples: &[Sample]) -> Vec<Preview> {
+pub fn previews(samples: &[Sample]) -> Vec<Preview> {
     let mut memory = Laps::new();
     let step = |sample: &Sample| {
         memory.step(sample);
@@ -30,8 +30,18 @@ fn errors(samples: &[Sample], previews: Option<&[Preview]>) -> Vec<f64> {
 
 /// Squared error of surge and sway together at each sample.
 fn squares(inputs: Vec<Input>, parameters: &Parameters, previews: Option<&[Preview]>) -> Vec<f64> {
+    let desired = inputs.clone();
+    let felt = felt(inputs, parameters, previews);
+    let error = |([x, y], input): (&[f64; 2], &Input)| {
+        (x - input.specific_force.x).powi(2) + (y - input.specific_force.y).powi(2)
+    };
+    felt.iter().zip(&desired[1..]).map(error).collect()
+}
+
+/// Felt force of surge and sway at each sample but the first.
+pub fn felt(inputs: Vec<Input>, parameters: &Parameters, previews: Option<&[Preview]>) -> Vec<[f64; 2]> {
     let mut washout = Washout::new(parameters).unwrap().starting_with(&inputs[0]);
-    let mut squares = Vec::new();
+    let mut felt = Vec::new();
     Replay::new(&Manoeuvre::new(STEP, inputs)).run_part(
         0..usize::MAX,
         &mut washout,
@@ -41,24 +51,13 @@ fn squares(inputs: Vec<Input>, parameters: &Parameters, previews: Option<&[Previ
             }
         },
         |_| (),
-        |input, output| {
-            let error = output.felt_specific_force - input.specific_force;
-            squares.push(error.x * error.x + error.y * error.y);
-        },
+        |_, output| felt.push([output.felt_specific_force.x, output.felt_specific_force.y]),
     );
-    squares
+    felt
 }
 
 fn rms(squares: &[f64]) -> f64 {
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
-}
-
-/// Forces in stretches of 9 s in another order, at the same positions.
-fn shuffled(samples: &[Sample]) -> Vec<Sample> {
-    let stretch = (9.0 / STEP) as usize;
-    let count = samples.len() / stretch;
-    let force = |k: usize| samples[(k / stretch * 7 % count * stretch + k % stretch) % samples.len()].force;
-    samples.iter().enumerate().map(|(k, sample)| Sample { force: force(k), ..*sample }).collect()
 }
 
 #[test]
@@ -106,30 +105,4 @@ fn the_automatic_scale_is_larger_once_the_road_is_known() {
         sum / samples.len() as f64
     });
     assert!(factors[1] > 1.3 * factors[0], "{factors:?}");
-}
-
-#[test]
-fn forces_that_do_not_belong_to_their_places_are_felt_no_worse_than_without_memory() {
-    let whole = laps(4.0, 1.0);
-    let mirror_from = |lap: f64| {
-        let from = (lap * LAP / STEP) as usize;
-        move |(k, sample): (usize, &Sample)| if k < from { *sample } else { mirrored(*sample) }
-    };
-    let alternating = |(k, sample): (usize, &Sample)| {
-        let is_odd = (k as f64 * STEP / LAP) as usize % 2 == 1;
-        let sign = if is_odd { -1.0 } else { 1.0 };
-        Sample { force: sample.force.map(|force| sign * force), ..*sample }
-    };
-    let rides: [(&str, Vec<Sample>); 4] = [
-        ("as it is", whole.clone()),
-        ("shuffled", shuffled(&whole)),
-        ("mirrored", whole.iter().enumerate().map(mirror_from(1.0)).collect()),
-        ("alternating", whole.iter().enumerate().map(alternating).collect()),
-    ];
-    for (name, samples) in rides {
-        let rms = |laps: Vec<f64>| laps.iter().map(|error| error * error).sum::<f64>().sqrt();
-        let plain = rms(errors(&samples, None));
-        let learned = rms(errors(&samples, Some(&previews(&samples))));
-        assert!(learned <= 1.02 * plain, "{name}: {learned} {plain}");
-    }
 }

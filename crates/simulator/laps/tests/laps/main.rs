@@ -4,3 +4,5 @@ mod felt;
 mod memory;
 mod motorcycle;
 mod track;
+mod trust;
+mod wrong;
