@@ -5,7 +5,7 @@ use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Parameters, Washout, presets};
 
 use crate::motorcycle;
-use crate::track::{LAP, STEP, busy_laps};
+use crate::track::{LAP, STEP, busy_laps, laps, mirrored};
 
 /// The previews beside a ride.
 pub fn previews(samples: &[Sample]) -> Vec<Preview> {
@@ -105,4 +105,38 @@ fn the_automatic_scale_is_larger_once_the_road_is_known() {
         sum / samples.len() as f64
     });
     assert!(factors[1] > 1.3 * factors[0], "{factors:?}");
+}
+
+/// Forces in stretches of 9 s in another order, at the same positions.
+fn shuffled(samples: &[Sample]) -> Vec<Sample> {
+    let stretch = (9.0 / STEP) as usize;
+    let count = samples.len() / stretch;
+    let force = |k: usize| samples[(k / stretch * 7 % count * stretch + k % stretch) % samples.len()].force;
+    samples.iter().enumerate().map(|(k, sample)| Sample { force: force(k), ..*sample }).collect()
+}
+
+#[test]
+fn forces_that_do_not_belong_to_their_places_are_felt_no_worse_than_without_memory() {
+    let whole = laps(4.0, 1.0);
+    let mirror_from = |lap: f64| {
+        let from = (lap * LAP / STEP) as usize;
+        move |(k, sample): (usize, &Sample)| if k < from { *sample } else { mirrored(*sample) }
+    };
+    let alternating = |(k, sample): (usize, &Sample)| {
+        let is_odd = (k as f64 * STEP / LAP) as usize % 2 == 1;
+        let sign = if is_odd { -1.0 } else { 1.0 };
+        Sample { force: sample.force.map(|force| sign * force), ..*sample }
+    };
+    let rides: [(&str, Vec<Sample>); 4] = [
+        ("as it is", whole.clone()),
+        ("shuffled", shuffled(&whole)),
+        ("mirrored", whole.iter().enumerate().map(mirror_from(1.0)).collect()),
+        ("alternating", whole.iter().enumerate().map(alternating).collect()),
+    ];
+    for (name, samples) in rides {
+        let rms = |laps: Vec<f64>| laps.iter().map(|error| error * error).sum::<f64>().sqrt();
+        let plain = rms(errors(&samples, None));
+        let learned = rms(errors(&samples, Some(&previews(&samples))));
+        assert!(learned <= 1.02 * plain, "{name}: {learned} {plain}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use moris_laps::{Laps, Sample};
 
-use crate::track::{LAP, STEP, laps, mirrored};
+use crate::track::{LAP, STEP, busy_laps, laps, laps_with_pulses, mirrored};
 
 /// Samples per lap.
 const PER_LAP: usize = (LAP / STEP) as usize;
@@ -39,7 +39,7 @@ fn error_ahead(samples: &[Sample], from: usize) -> (f64, f64) {
 
 #[test]
 fn the_second_lap_is_forecast_through_the_crossing_at_any_rate() {
-    let samples = laps(2.5, 1.0);
+    let samples = busy_laps(2.5);
     let (error, given) = error_ahead(&samples, PER_LAP + 250);
     assert!(error < 0.2, "{error}");
     assert!(given > 0.97, "{given}");
@@ -58,7 +58,7 @@ fn the_second_lap_is_forecast_through_the_crossing_at_any_rate() {
 
 #[test]
 fn a_height_and_any_origin_change_nothing() {
-    let samples = laps(1.5, 1.0);
+    let samples = busy_laps(1.5);
     let moved = samples.iter().map(|sample| {
         let [x, y, _] = sample.position;
         Sample { position: [x + 4e5, y - 5e6, 0.1 * x], ..*sample }
@@ -94,7 +94,7 @@ fn a_curve_driven_at_another_pace_has_its_lateral_force_by_the_square() {
 
 #[test]
 fn a_difference_of_the_present_force_lasts_for_the_next_half_second() {
-    let samples = laps(1.5, 1.0);
+    let samples = laps_with_pulses(2.0);
     let (past, now) = samples.split_at(samples.len() - 10);
     let pushed = |push: f64| {
         let mut memory = after(past);
@@ -112,7 +112,7 @@ fn a_vehicle_much_faster_than_ever_here_is_expected_to_slow_down() {
         step: STEP,
         position: [x, beside, 0.0],
         speed: Some(speed),
-        force: [2.0 * (0.4 * x).sin(), 0.0],
+        force: [1.2 * (0.4 * x).sin() + 1.2 * (0.11 * x).sin() + (0.27 * x).cos(), 0.0],
     };
     let surge = |last_speed: f64| {
         let mut memory = Laps::new();
@@ -159,7 +159,7 @@ fn nothing_is_known_in_the_first_lap_and_on_another_track() {
 
 #[test]
 fn after_a_jump_a_gap_and_values_that_are_no_numbers_it_goes_on() {
-    let samples = laps(2.4, 1.0);
+    let samples = busy_laps(2.4);
     let half = samples.len() - PER_LAP / 2;
     let wrong = |sample: Sample| {
         [
@@ -197,7 +197,7 @@ fn a_vehicle_at_rest_has_no_preview() {
 
 #[test]
 fn a_saved_memory_goes_on_to_the_bit() {
-    let samples = laps(2.0, 1.0);
+    let samples = busy_laps(2.0);
     let (past, future) = samples.split_at(PER_LAP + 1234);
     let mut memory = after(past);
     let mut restored: Laps = postcard::from_bytes(&postcard::to_allocvec(&memory).unwrap()).unwrap();
@@ -284,7 +284,7 @@ fn a_text_that_is_no_memory_is_refused_with_its_line() {
 
 #[test]
 fn an_interruption_forgets_the_present_place_alone() {
-    let samples = laps(2.4, 1.0);
+    let samples = busy_laps(2.4);
     let half = samples.len() - PER_LAP / 2;
     let mut memory = after(&samples[..half]);
     assert!(memory.preview().count == 20 && memory.passes() > 0);

@@ -23,18 +23,24 @@ pub fn laps(count: f64, variation: f64) -> Vec<Sample> {
 }
 
 /// The same with the force of kerbs, chicanes and brakes: short pulses that belong to places.
-pub fn busy_laps(count: f64) -> Vec<Sample> {
-    let mut samples = laps(count, 1.0);
-    let mut way = 0.0;
-    for (k, sample) in samples.iter_mut().enumerate() {
+pub fn laps_with_pulses(count: f64) -> Vec<Sample> {
+    let pulses = |sample: Sample| {
         let [x, y, _] = sample.position;
         let place = (x / 31.0).sin() + (y / 23.0).cos();
         let beside = (x / 19.0 + y / 41.0).sin();
+        Sample { force: [2.0 * (3.0 * place).tanh(), 2.0 * (4.0 * beside).tanh()], ..sample }
+    };
+    laps(count, 1.0).into_iter().map(pulses).collect()
+}
+
+/// The same with vibrations.
+pub fn busy_laps(count: f64) -> Vec<Sample> {
+    let mut samples = laps_with_pulses(count);
+    let mut way = 0.0;
+    for (k, sample) in samples.iter_mut().enumerate() {
         way += 0.3;
-        sample.force = [
-            2.0 * (3.0 * place).tanh() + 0.3 * (0.9 * way + k as f64).sin(),
-            2.0 * (4.0 * beside).tanh() + 0.3 * (0.7 * way).sin(),
-        ];
+        sample.force[0] += 0.3 * (0.9 * way + k as f64).sin();
+        sample.force[1] += 0.3 * (0.7 * way).sin();
     }
     samples
 }
