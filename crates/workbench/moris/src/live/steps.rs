@@ -137,7 +137,8 @@ impl Steps<'_> {
                 self.start(&mut summary);
                 self.engage(&mut summary);
             }
-            let is_open = !self.session.is_located() || self.session.state() == State::Off;
+            // The last word of a session that ends is no question.
+            let is_open = !ending && (!self.session.is_located() || self.session.state() == State::Off);
             self.shared.asks.store(is_open && self.place.wants_report(), Ordering::Relaxed);
             let commands = *self.session.step();
             summary.steps += 1;
