@@ -440,6 +440,25 @@ fn means_and_flat_tops_are_not_blamed_on_the_sensor() {
     });
     assert!(bends.contains("along y is 1.00 m/s2 on average: the bends are mostly to one side"), "{bends}");
     assert!(!bends.contains("uphill") && !bends.contains("end of its range"), "{bends}");
+    // A computed drive that brakes and bends evenly, and stands still between; at any rate.
+    for every in [1, 5] {
+        let rise = |t: f64, from: f64| {
+            let u = ((t - from) / 1.2).clamp(0.0, 1.0);
+            u * u * (3.0 - 2.0 * u)
+        };
+        let even = |t: f64| rise(t, 2.0) - rise(t, 6.0);
+        let text: String = (0..3000)
+            .step_by(every)
+            .map(|k| {
+                let t = 0.01 * f64::from(k);
+                let yaw_rate = 0.3 * even(t);
+                format!("{t},{},{},{GRAVITY},0,0,{yaw_rate}\n", -3.0 * even(t - 12.0), 10.0 * yaw_rate)
+            })
+            .collect();
+        let text = format!("time,ax,ay,az,wx,wy,wz\n{text}");
+        let warnings = words::warnings(&read(&text, &plain()).unwrap()).join(" ");
+        assert!(!warnings.contains("end of its range"), "{warnings}");
+    }
 }
 
 /// A roll that passes half a turn is interpolated the short way.

@@ -20,6 +20,8 @@ const QUANTILE: f64 = 1.645;
 pub const FLAT: usize = 4;
 /// The same in lengths of the longest run of any other value, which signals of few digits have.
 const FLAT_RUNS: usize = 3;
+/// Samples in which what slows down towards a flat top of its own comes to rest, at most.
+const SLOWED: f64 = 2.0;
 /// Least distance of a flat top from the values at rest \[fractions of the signal's range\].
 const AWAY: f64 = 0.1;
 
@@ -70,7 +72,24 @@ fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
     sizes[sizes.len() * 9 / 10] / QUANTILE
 }
 
-/// First samples of the runs of the greatest, and of the least value.
+/// True if the values before or after a run would not have come to rest at its value. A sensor at
+/// the end of its range stops them, and what is computed slows down before.
+fn is_cut(values: &[f64], first: usize, length: usize) -> bool {
+    let is_stopped = |near: f64, farther: f64, farthest: f64| {
+        let (last, earlier) = ((farther - near).abs(), (farthest - farther).abs());
+        last > 0.0 && last > SLOWED * (earlier - last)
+    };
+    let before = |k: usize| first.checked_sub(k).map(|k| values[k]);
+    let after = |k: usize| values.get(first + length - 1 + k).copied();
+    let at = |value: &dyn Fn(usize) -> Option<f64>| {
+        let (Some(near), Some(farther), Some(farthest)) = (value(1), value(2), value(3)) else { return false };
+        is_stopped(near, farther, farthest)
+    };
+    at(&before) || at(&after)
+}
+
+/// First samples of the runs of the greatest, and of the least value, at which a sensor would have
+/// been cut off.
 pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
     let (least, greatest) = extremes(values.iter().copied());
     let mut start = 0;
@@ -87,7 +106,7 @@ pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
         let near = |value: f64| (extreme - value).abs() < AWAY * (greatest - least);
         near(usual) || near(0.0) || near(STANDARD_GRAVITY)
     };
-    let is_extreme = |first: usize| values[first] == least || values[first] == greatest;
+    let is_extreme = |first: usize| [least, greatest].contains(&values[first]) && !is_rest(&values[first]);
     let longest = runs.iter().filter(|(first, _)| !is_extreme(*first)).map(|(_, length)| *length).max();
     // A signal of one or two values is not measured.
     let Some(longest) = longest else { return Vec::new() };
@@ -95,7 +114,9 @@ pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
         let is_flat = |&&(first, length): &&(usize, usize)| {
             values[first] == extreme && length >= FLAT && length >= FLAT_RUNS * longest
         };
-        runs.iter().filter(is_flat).map(|(first, _)| *first).collect()
+        let flat: Vec<(usize, usize)> = runs.iter().filter(is_flat).copied().collect();
+        let is_any_cut = flat.iter().any(|&(first, length)| is_cut(values, first, length));
+        flat.into_iter().filter(|_| is_any_cut).map(|(first, _)| first).collect()
     };
     [least, greatest]
         .into_iter()
