@@ -9,4 +9,4 @@ from conftest import ROOT
 def test_every_plug_can_be_pulled():
     out = subprocess.run([sys.executable, ROOT / "tests" / "live" / "plugs.py"], capture_output=True, text=True, timeout=300)
     assert out.returncode == 0, out.stdout + out.stderr
-    assert out.stdout.count(" frames\n") == 17 and "kill -9: " in out.stdout, out.stdout
+    assert out.stdout.count(" frames; last ") == 18 and "kill -9: " in out.stdout, out.stdout
