@@ -52,11 +52,12 @@ impl Error {
 
 /// An error without its sources, in a face's words.
 pub fn worded(error: &(dyn StdError + 'static), words: Words) -> String {
-    if let Some(Error::Recording(error)) = error.downcast_ref() {
-        error.worded(words)
-    } else if let Some(Error::Message(message)) = error.downcast_ref() {
-        message.worded(words)
-    } else if let Some(error) = error.downcast_ref::<RecordingError>() {
+    let error: &(dyn StdError + 'static) = match error.downcast_ref() {
+        Some(Error::Recording(error)) => error,
+        Some(Error::Message(message)) => message,
+        _ => error,
+    };
+    if let Some(error) = error.downcast_ref::<RecordingError>() {
         error.worded(words)
     } else if let Some(error) = error.downcast_ref::<TuneError>() {
         error.worded(words)
