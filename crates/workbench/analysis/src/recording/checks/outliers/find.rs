@@ -75,17 +75,14 @@ fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
 /// True if the values before or after a run would not have come to rest at its value. A sensor at
 /// the end of its range stops them, and what is computed slows down before.
 fn is_cut(values: &[f64], first: usize, length: usize) -> bool {
-    let is_stopped = |near: f64, farther: f64, farthest: f64| {
+    // The three values next to an end of the run, the nearest first.
+    let is_stopped = |beside: [Option<f64>; 3]| {
+        let [Some(near), Some(farther), Some(farthest)] = beside else { return false };
         let (last, earlier) = ((farther - near).abs(), (farthest - farther).abs());
         last > 0.0 && last > SLOWED * (earlier - last)
     };
-    let before = |k: usize| first.checked_sub(k).map(|k| values[k]);
-    let after = |k: usize| values.get(first + length - 1 + k).copied();
-    let at = |value: &dyn Fn(usize) -> Option<f64>| {
-        let (Some(near), Some(farther), Some(farthest)) = (value(1), value(2), value(3)) else { return false };
-        is_stopped(near, farther, farthest)
-    };
-    at(&before) || at(&after)
+    is_stopped([1, 2, 3].map(|k| first.checked_sub(k).map(|k| values[k])))
+        || is_stopped([0, 1, 2].map(|k| values.get(first + length + k).copied()))
 }
 
 /// First samples of the runs of the greatest, and of the least value, at which a sensor would have
@@ -115,8 +112,10 @@ pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
             values[first] == extreme && length >= FLAT && length >= FLAT_RUNS * longest
         };
         let flat: Vec<(usize, usize)> = runs.iter().filter(is_flat).copied().collect();
-        let is_any_cut = flat.iter().any(|&(first, length)| is_cut(values, first, length));
-        flat.into_iter().filter(|_| is_any_cut).map(|(first, _)| first).collect()
+        if !flat.iter().any(|&(first, length)| is_cut(values, first, length)) {
+            return Vec::new();
+        }
+        flat.into_iter().map(|(first, _)| first).collect()
     };
     [least, greatest]
         .into_iter()
