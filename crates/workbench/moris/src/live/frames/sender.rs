@@ -1,0 +1,273 @@
+//! The thread that sends frames, and follows what the device answers.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use moris_live::Event;
+use moris_live::frame::{Values, reported};
+use rtrb::{Consumer, Producer};
+
+use super::super::contact::Contact;
+use super::super::lateness::Lateness;
+use super::super::lines::Lines;
+use super::super::page::Order;
+use super::super::watch::Part;
+use super::super::wire::{Actuators, Wire};
+use super::super::{Shared, pace};
+use super::{Device, Loss, Message, Sending, Sink};
+
+/// Numbers of frames.
+#[derive(Clone, Debug, Default)]
+pub struct Sent {
+    /// Taken by the socket.
+    pub sent: u64,
+    /// Refused by it.
+    pub failed: u64,
+    /// Left out because a newer one was there.
+    pub skipped: u64,
+    /// Time from a sample's arrival to the next frame.
+    pub passage: Lateness,
+    /// Time from the loop's step to the frame's leaving.
+    pub late: Lateness,
+    /// Longest time between two frames.
+    pub gap: Duration,
+    /// Lengths of the last frame \[m\].
+    pub last: Option<[f64; 6]>,
+}
+
+/// The thread that sends.
+pub struct Sender<'a> {
+    pub ring: Consumer<Sending>,
+    pub device: Device,
+    pub sink: Sink,
+    /// Losses of the controller, for the loop.
+    pub orders: Producer<Order>,
+    pub wire: Wire,
+    pub contact: Contact,
+    /// The controller's own time-out.
+    pub time_out: Option<Duration>,
+    pub shared: &'a Shared,
+    bytes: Vec<u8>,
+    running: bool,
+    last: Values,
+    sent: Sent,
+    /// Time of the last question for the legs' lengths.
+    asked: Option<Duration>,
+    /// Answers on a serial line.
+    answers: Lines,
+    /// A loss that is not reported yet.
+    owed: Option<Loss>,
+}
+
+/// Answers of the device that are taken at a time: a flood of them delays no frame.
+const MOST_ANSWERS: u32 = 64;
+
+/// Time between questions for the legs' lengths.
+const ASKS: Duration = Duration::from_millis(200);
+
+/// Errors of this program after which the sending thread ends.
+const MOST_ERRORS: u32 = 10;
+
+impl<'a> Sender<'a> {
+    /// A sender of frames at this interval \[s\] to these actuators.
+    pub fn new(
+        ring: Consumer<Sending>,
+        device: Device,
+        sink: Sink,
+        orders: Producer<Order>,
+        (interval, actuators): (f64, Actuators),
+        shared: &'a Shared,
+    ) -> Self {
+        Sender {
+            ring,
+            device,
+            sink,
+            orders,
+            wire: Wire::new(interval, actuators),
+            contact: Contact::new(interval),
+            time_out: None,
+            shared,
+            bytes: Vec::with_capacity(4096),
+            running: false,
+            last: Values::default(),
+            sent: Sent::default(),
+            asked: None,
+            answers: Lines::default(),
+            owed: None,
+        }
+    }
+
+    /// Sends messages until the loop has ended. If the loop ends without a stop string, by a panic,
+    /// sends it. An error of this program costs a message, and is a failure of the session.
+    pub fn run(mut self) -> Sent {
+        for _ in 0..MOST_ERRORS {
+            if catch_unwind(AssertUnwindSafe(|| self.work())).is_ok() {
+                break;
+            }
+            self.shared.failed.add(Part::Frames);
+        }
+        self.sent
+    }
+
+    /// A device that is slower than the frames gets the newest ones.
+    fn work(&mut self) {
+        let mut packet = [0; 256];
+        loop {
+            // Seen before the ring is empty: what comes after it has been looked at.
+            let ended = self.ring.is_abandoned();
+            while let Ok(sending) = self.ring.pop() {
+                let Sending { message, values, arrival, made } = sending;
+                if message == Message::Frame && self.ring.peek().is_ok_and(|next| next.message == Message::Frame) {
+                    self.sent.skipped += 1;
+                    continue;
+                }
+                let fault = self.take(message, &values);
+                let now = pace::now();
+                self.sent.late.take(now.saturating_sub(made));
+                self.shared.show_late(now.saturating_sub(made));
+                if let Some(arrival) = arrival {
+                    self.sent.passage.take(now.saturating_sub(arrival));
+                }
+                self.listen(fault, &mut packet);
+            }
+            if let Some(loss) = self.owed {
+                self.report(loss);
+            }
+            if ended {
+                return self.end();
+            }
+            if self.shared.asks.load(Ordering::Relaxed) {
+                self.ask(&mut packet);
+            }
+            std::thread::park_timeout(Duration::from_millis(20));
+        }
+    }
+
+    /// Sends a message. A fault, if the device reports one.
+    fn take(&mut self, message: Message, values: &Values) -> Option<Event> {
+        self.running = message != Message::Stop;
+        let now = pace::now();
+        if matches!(message, Message::Start | Message::Begin) {
+            self.contact.renew();
+        }
+        if message == Message::Begin {
+            self.wire.begin_anew();
+        }
+        if self.contact.is_lost() && message != Message::Stop {
+            // What comes back without a person who clears it would jump.
+            return None;
+        }
+        let mut values = *values;
+        if message == Message::Stop {
+            // The legs stay where the last frame has them.
+            values = if self.wire.gap(now).is_some() { self.last } else { values };
+        } else {
+            if message == Message::Frame
+                && let Some(gap) = self.wire.gap(now)
+            {
+                self.sent.gap = self.sent.gap.max(gap);
+                let loss = Loss::Gap(gap.as_secs_f64());
+                let is_long = loss.is_of_place() && !matches!(self.sink, Sink::Dry);
+                if is_long || self.time_out.is_some_and(|time_out| gap >= time_out) {
+                    self.wire.lose();
+                    self.report(loss);
+                }
+                if is_long {
+                    self.contact.lose();
+                    return None;
+                }
+            }
+            values = self.wire.pass(now, &values);
+            self.last = values;
+            self.sent.last = Some(values.length);
+        }
+        self.deliver(message, &values)
+    }
+
+    fn deliver(&mut self, message: Message, values: &Values) -> Option<Event> {
+        let fault = self.device.bytes(message, values, &mut self.bytes);
+        let mut taken = Ok(());
+        for _ in 0..self.device.copies(message) {
+            taken = taken.and(self.sink.send(&self.bytes));
+        }
+        self.sent.sent += u64::from(taken.is_ok() && !self.bytes.is_empty());
+        self.sent.failed += u64::from(taken.is_err());
+        // Nobody follows what is printed.
+        if !matches!(self.sink, Sink::Dry)
+            && let Some(kind) = self.contact.take(&taken, pace::now())
+        {
+            self.wire.lose();
+            self.report(Loss::Refused(kind));
+        }
+        fault
+    }
+
+    /// Asks for the legs' lengths now and then, and passes answers on.
+    fn ask(&mut self, packet: &mut [u8]) {
+        if !self.device.asks() {
+            return;
+        }
+        let now = pace::now();
+        if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= ASKS) {
+            self.asked = Some(now);
+            self.device.ask(&mut self.bytes);
+            // A controller that is not there is seen by its frames.
+            let _ = self.sink.send(&self.bytes);
+        }
+        let is_line = self.sink.is_line();
+        let mut newest = None;
+        for _ in 0..MOST_ANSWERS {
+            let Some(answer) = self.sink.receive(packet) else { break };
+            let mut take = |answer: &[u8]| newest = reported(answer).or(newest);
+            if is_line { self.answers.take(answer, take) } else { take(answer) }
+        }
+        if let Some(lengths) = newest {
+            // A later answer follows where there is no room.
+            let _ = self.orders.push(Order::Report(lengths));
+        }
+    }
+
+    /// Takes what the device answers.
+    fn listen(&mut self, mut fault: Option<Event>, packet: &mut [u8]) {
+        // Only a sink that answers does not wait for one.
+        let most = if self.device.answers() { MOST_ANSWERS } else { 0 };
+        for _ in 0..most {
+            let Some(answer) = self.sink.receive(packet) else { break };
+            fault = self.device.receive(answer).or(fault);
+        }
+        // Nobody answers what is printed.
+        if fault.is_some() && !matches!(self.sink, Sink::Dry) {
+            self.report(Loss::Device);
+        }
+    }
+
+    /// Reports a loss, later if the loop has not taken what was reported before.
+    fn report(&mut self, loss: Loss) {
+        self.owed = self.orders.push(Order::Lost(loss)).is_err().then_some(loss);
+    }
+
+    fn end(&mut self) {
+        if self.running {
+            let mut last = self.last;
+            for frame in 1..=REST_FRAMES {
+                let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
+                    break;
+                };
+                self.deliver(Message::Frame, &values);
+                self.sent.last = Some(values.length);
+                last = Values { velocity: [0.0; 6], ..values };
+                std::thread::sleep(REST_INTERVAL);
+            }
+            self.deliver(Message::Stop, &last);
+            self.running = false;
+        }
+    }
+}
+
+/// Time between frames of a platform that comes to rest, and their number.
+const REST_INTERVAL: Duration = Duration::from_millis(10);
+const REST_FRAMES: u32 = 100;
+
+#[cfg(test)]
+mod tests;

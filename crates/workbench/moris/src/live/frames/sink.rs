@@ -1,0 +1,143 @@
+//! Places to which frames go: an address, a serial line, or standard output.
+
+#[cfg(feature = "serial")]
+use std::cell::RefCell;
+#[cfg(feature = "serial")]
+use std::io::Read as _;
+use std::io::{self, Write, stdout};
+use std::net::UdpSocket;
+#[cfg(feature = "serial")]
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+#[cfg(feature = "serial")]
+use serialport::SerialPort as _;
+
+/// Time in which a serial line must take a frame.
+#[cfg(feature = "serial")]
+const LINE_TIME: Duration = Duration::from_millis(100);
+
+/// A serial line.
+#[cfg(all(feature = "serial", unix))]
+type Line = serialport::TTYPort;
+#[cfg(all(feature = "serial", not(unix)))]
+type Line = serialport::COMPort;
+
+/// Place to which frames go.
+pub enum Sink {
+    /// Address of a device.
+    Udp(UdpSocket),
+    /// A serial line.
+    #[cfg(feature = "serial")]
+    Serial(RefCell<Line>),
+    /// Standard output.
+    Dry,
+    /// One with an error of this program in its third and fifth message.
+    #[cfg(test)]
+    Panicking(std::cell::Cell<u32>),
+}
+
+impl Sink {
+    /// The device at `udp:HOST:PORT` or `serial:LINE:BAUD`.
+    ///
+    /// # Errors
+    /// There is no such host or line.
+    pub fn open(target: &str) -> Result<Sink> {
+        if let Some(line) = target.strip_prefix("serial:") {
+            return Sink::open_serial(line);
+        }
+        let address = target.strip_prefix("udp:").context("--to is udp:HOST:PORT or serial:LINE:BAUD")?;
+        let socket = UdpSocket::bind(("0.0.0.0", 0)).context("cannot open a socket")?;
+        socket.connect(address).with_context(|| format!("cannot send to {address}"))?;
+        Ok(Sink::Udp(socket))
+    }
+
+    #[cfg(feature = "serial")]
+    fn open_serial(line: &str) -> Result<Sink> {
+        let (line, baud) = line.rsplit_once(':').context("--to is serial:LINE:BAUD")?;
+        let baud = baud.parse().context("--to is serial:LINE:BAUD")?;
+        let port = serialport::new(line, baud).timeout(LINE_TIME).open_native();
+        Ok(Sink::Serial(RefCell::new(port.with_context(|| format!("cannot open {line}"))?)))
+    }
+
+    #[cfg(not(feature = "serial"))]
+    fn open_serial(_: &str) -> Result<Sink> {
+        bail!("moris was built without serial lines; build it with --features serial")
+    }
+
+    /// A packet that a device has sent, if there is one; only after [`Sink::listen`]. Of a line,
+    /// some bytes.
+    pub fn receive<'a>(&self, packet: &'a mut [u8]) -> Option<&'a [u8]> {
+        let length = match self {
+            Sink::Udp(socket) => socket.recv(packet).ok()?,
+            #[cfg(feature = "serial")]
+            Sink::Serial(port) => {
+                let mut port = port.borrow_mut();
+                // A read of nothing would wait.
+                let waiting = port.bytes_to_read().ok()?.min(packet.len() as u32) as usize;
+                port.read(&mut packet[..waiting]).ok().filter(|length| *length > 0)?
+            }
+            _ => return None,
+        };
+        Some(&packet[..length])
+    }
+
+    /// True for a way on which answers are lines, in parts as they come.
+    pub fn is_line(&self) -> bool {
+        #[cfg(feature = "serial")]
+        return matches!(self, Sink::Serial(_));
+        #[cfg(not(feature = "serial"))]
+        false
+    }
+
+    /// Lets [`Sink::receive`] not wait.
+    ///
+    /// # Errors
+    /// The device cannot be asked.
+    pub fn listen(&self) -> Result<()> {
+        match self {
+            Sink::Udp(socket) => Ok(socket.set_nonblocking(true)?),
+            Sink::Dry => Ok(()),
+            #[cfg(test)]
+            Sink::Panicking(_) => Ok(()),
+            #[cfg(feature = "serial")]
+            Sink::Serial(_) => bail!("this device answers by UDP: --to udp:HOST:PORT"),
+        }
+    }
+
+    /// As [`Sink::listen`], on a way that has answers.
+    ///
+    /// # Errors
+    /// The device cannot be asked.
+    pub fn listen_if_it_can(&self) -> Result<()> {
+        match self {
+            Sink::Udp(_) => self.listen(),
+            _ => Ok(()),
+        }
+    }
+
+    pub fn send(&self, bytes: &[u8]) -> io::Result<()> {
+        match self {
+            _ if bytes.is_empty() => Ok(()),
+            Sink::Udp(socket) => socket.send(bytes).map(drop),
+            #[cfg(feature = "serial")]
+            Sink::Serial(port) => port.borrow_mut().write_all(bytes),
+            // The reader of the output may be gone.
+            Sink::Dry => stdout().write_all(shown(bytes).as_bytes()),
+            #[cfg(test)]
+            Sink::Panicking(sends) => {
+                sends.set(sends.get() + 1);
+                assert!(!matches!(sends.get(), 3 | 5), "deliberate");
+                Ok(())
+            }
+        }
+    }
+}
+
+/// A frame as a line: text as it is, other bytes in hexadecimal digits.
+pub fn shown(bytes: &[u8]) -> String {
+    match str::from_utf8(bytes) {
+        Ok(text) if text.chars().all(|c| !c.is_control() || c == '\n') => format!("{}\n", text.trim_end()),
+        _ => bytes.iter().map(|byte| format!("{byte:02X} ")).collect::<String>().trim_end().to_owned() + "\n",
+    }
+}
