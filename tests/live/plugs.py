@@ -221,7 +221,8 @@ def ride(seconds, picture):
         assert "panicked" not in "".join(one.live.said)
         one.vehicle.ended.set()
         one.controller.ended.set()
-        print(f"Ctrl-C: {', '.join(one.controller.words)}; the recording's error is the exit status\n{printed}")
+        said = (word + f" ({count} times)" * (count > 1) for word, count in Counter(one.controller.words).items())
+        print(f"Ctrl-C: {', '.join(said)}; the recording's error is the exit status\n{printed}")
         one.judge()
         print(f"{one.controller.frames} frames, of which legs change by at most {one.controller.step / STEP:.2f} of what is allowed")
         if picture:

@@ -53,6 +53,51 @@ fn a_line_that_is_pulled_is_a_fault_and_an_exit_status() {
     assert!(!live.end().0.success());
 }
 
+/// The line of a link, as the system names an adapter anew when it comes back.
+#[test]
+#[cfg(unix)]
+fn a_line_that_comes_back_takes_frames_from_where_the_legs_are() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name);
+    std::fs::write(path("amc.toml"), TEMPLATE.replace("stop =", "ask = \"'legs?' 0A\"\nstop =")).unwrap();
+    let (mut master, line) = pair();
+    std::os::unix::fs::symlink(line, path("line")).unwrap();
+    let to = format!("serial:{}:250000", path("line").display());
+    let arguments = ["--format", "csv", "--frames", "amc.toml", "--settled"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.command("start");
+    live.wait_for("homing");
+    assert!(master.read(&mut [0; 4096]).unwrap() > 0);
+    drop(master);
+    live.wait_for("fault");
+    let (mut master, line) = pair();
+    std::fs::remove_file(path("line")).unwrap();
+    std::os::unix::fs::symlink(line, path("line")).unwrap();
+    // The line is open again with a question. Four answers say that the legs are at rest.
+    let read_until = |master: &mut File, word: &[u8]| {
+        let (mut bytes, mut part) = (Vec::new(), [0; 4096]);
+        while !bytes.windows(word.len()).any(|found: &[u8]| found == word) {
+            let count = master.read(&mut part).unwrap();
+            bytes.extend_from_slice(&part[..count]);
+        }
+    };
+    for _ in 0..4 {
+        read_until(&mut master, b"legs?\n");
+        master.write_all(b"legs,1.3,1.3,1.3,1.3,1.3,1.3\r\n").unwrap();
+    }
+    thread::sleep(Duration::from_millis(100));
+    live.command("clear");
+    live.wait_for("legs: as the controller reports");
+    read_until(&mut master, &[0xFF, 0xFF]);
+    let controller = thread::spawn(move || while master.read(&mut [0; 4096]).is_ok_and(|count| count > 0) {});
+    live.interrupt();
+    live.wait_for("off");
+    // The fault is in the exit status.
+    assert!(!live.end().0.success());
+    controller.join().unwrap();
+}
+
 #[test]
 fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
     let directory = tempfile::tempdir().unwrap();

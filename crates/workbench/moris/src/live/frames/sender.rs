@@ -150,6 +150,7 @@ impl<'a> Sender<'a> {
         let now = pace::now();
         if matches!(message, Message::Start | Message::Begin) {
             self.contact.renew();
+            self.sink.reopen();
         }
         if message == Message::Begin {
             self.wire.begin_anew();
@@ -198,6 +199,7 @@ impl<'a> Sender<'a> {
             && let Some(kind) = self.contact.take(&taken, pace::now())
         {
             self.wire.lose();
+            self.sink.close();
             self.report(Loss::Refused(kind));
         }
         fault
@@ -211,6 +213,7 @@ impl<'a> Sender<'a> {
         let now = pace::now();
         if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= ASKS) {
             self.asked = Some(now);
+            self.sink.reopen();
             self.device.ask(&mut self.bytes);
             // A controller that is not there is seen by its frames.
             let _ = self.sink.send(&self.bytes);

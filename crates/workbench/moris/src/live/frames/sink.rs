@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 #[cfg(feature = "serial")]
-use serialport::SerialPort as _;
+use serialport::{SerialPort as _, SerialPortBuilder};
 
 /// Time in which a serial line must take a frame.
 #[cfg(feature = "serial")]
@@ -23,13 +23,19 @@ type Line = serialport::TTYPort;
 #[cfg(all(feature = "serial", not(unix)))]
 type Line = serialport::COMPort;
 
+/// A serial line; closed once it is pulled, so that its name is free for the one that comes back.
+#[cfg(feature = "serial")]
+pub struct Serial {
+    settings: SerialPortBuilder,
+    line: RefCell<Option<Line>>,
+}
+
 /// Place to which frames go.
 pub enum Sink {
     /// Address of a device.
     Udp(UdpSocket),
-    /// A serial line.
     #[cfg(feature = "serial")]
-    Serial(RefCell<Line>),
+    Serial(Serial),
     /// Standard output.
     Dry,
     /// One with an error of this program in its third and fifth message.
@@ -56,8 +62,9 @@ impl Sink {
     fn open_serial(line: &str) -> Result<Sink> {
         let (line, baud) = line.rsplit_once(':').context("--to is serial:LINE:BAUD")?;
         let baud = baud.parse().context("--to is serial:LINE:BAUD")?;
-        let port = serialport::new(line, baud).timeout(LINE_TIME).open_native();
-        Ok(Sink::Serial(RefCell::new(port.with_context(|| format!("cannot open {line}"))?)))
+        let settings = serialport::new(line, baud).timeout(LINE_TIME);
+        let open = settings.clone().open_native().with_context(|| format!("cannot open {line}"))?;
+        Ok(Sink::Serial(Serial { settings, line: RefCell::new(Some(open)) }))
     }
 
     #[cfg(not(feature = "serial"))]
@@ -71,8 +78,9 @@ impl Sink {
         let length = match self {
             Sink::Udp(socket) => socket.recv(packet).ok()?,
             #[cfg(feature = "serial")]
-            Sink::Serial(port) => {
-                let mut port = port.borrow_mut();
+            Sink::Serial(serial) => {
+                let mut line = serial.line.borrow_mut();
+                let port = line.as_mut()?;
                 // A read of nothing would wait.
                 let waiting = port.bytes_to_read().ok()?.min(packet.len() as u32) as usize;
                 port.read(&mut packet[..waiting]).ok().filter(|length| *length > 0)?
@@ -105,6 +113,24 @@ impl Sink {
         }
     }
 
+    /// Closes a line that takes no frames.
+    pub fn close(&self) {
+        #[cfg(feature = "serial")]
+        if let Sink::Serial(serial) = self {
+            serial.line.replace(None);
+        }
+    }
+
+    /// Opens a closed line, if it has come back.
+    pub fn reopen(&self) {
+        #[cfg(feature = "serial")]
+        if let Sink::Serial(Serial { settings, line }) = self
+            && line.borrow().is_none()
+        {
+            line.replace(settings.clone().open_native().ok());
+        }
+    }
+
     /// As [`Sink::listen`], on a way that has answers.
     ///
     /// # Errors
@@ -121,7 +147,10 @@ impl Sink {
             _ if bytes.is_empty() => Ok(()),
             Sink::Udp(socket) => socket.send(bytes).map(drop),
             #[cfg(feature = "serial")]
-            Sink::Serial(port) => port.borrow_mut().write_all(bytes),
+            Sink::Serial(serial) => match &mut *serial.line.borrow_mut() {
+                Some(line) => line.write_all(bytes),
+                None => Err(io::ErrorKind::NotConnected.into()),
+            },
             // The reader of the output may be gone.
             Sink::Dry => stdout().write_all(shown(bytes).as_bytes()),
             #[cfg(test)]
