@@ -27,7 +27,7 @@ PROGRAM = ".exe" if os.name == "nt" else ""
 MATURIN = "maturin>=1.9,<2"
 FMPY = "fmpy==0.3.32"
 # Packages that others can use without this repository. The rest reads files of the workspace, or is a tool of it.
-CRATES = ["moris-interface", "moris-washout", "moris-fmi", "moris-measures", "moris-motorcycle", "moris-stewart-platform", "moris-laps", "moris-live"]
+CRATES = ["moris-interface", "moris-washout", "moris-fmi", "moris-simulation", "moris-motorcycle", "moris-stewart-platform", "moris-laps", "moris-live"]
 CHECKSUMS = "SHA256SUMS"
 CYCLONEDX = "cyclonedx-python-lib[json-validation]==11.12.0"
 VALIDATION = """

@@ -75,7 +75,7 @@ def pytest(options, processes, *arguments):
         "OPENBLAS_NUM_THREADS": "1",
         "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
         "CARGO_ALIAS_MORIS": " ".join(["run", "--bin", "moris", *features(options), "--"]),
-        "CARGO_ALIAS_HUNTER": "run --bin moris-hunter --",
+        "CARGO_ALIAS_HUNTER": "run --bin hunter --",
     }
     run(*command, allowed=allowed, at_once=options.beside, **environment)
 

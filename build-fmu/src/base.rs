@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use moris_bounded_files::unpack;
 use moris_fmi::{Overrides, SectionError, embedded};
+use moris_fmu_host::files::unpack;
 use quick_xml::de::from_str;
 use serde::Deserialize;
 
@@ -43,7 +43,7 @@ impl Base {
     /// The file is no FMU of this program's models, of another version, damaged, or put
     /// together from several FMUs.
     pub fn open(file: &Path) -> Result<Self, Error> {
-        let bytes = moris_bounded_files::bytes(file, LARGEST)
+        let bytes = moris_fmu_host::files::bytes(file, LARGEST)
             .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
         Self::read(&bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })
     }

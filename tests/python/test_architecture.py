@@ -69,13 +69,15 @@ def test_the_table_of_uses_has_what_the_manifests_have():
 def test_analysis_and_simulation_know_no_command_line():
     """What the command and Python share prints nothing; clap is there for the command alone, as a feature."""
     shown = {"clap", "clap_complete", "clap_mangen", "ctrlc", "httparse", "indicatif", "moris", "moris-live", "pyo3", "rtrb"}
-    for name in ("analysis", "pages", "simulation", "measures"):
+    for name in ("analysis", "pages", "simulation"):
         table = tomllib.loads((ROOT / "crates" / "workbench" / name / "Cargo.toml").read_text())
         optional = {one for one, of in table["dependencies"].items() if of.get("optional")}
         assert not (table["dependencies"].keys() - optional) & shown, name
         assert not table.get("features", {}).get("default"), name
         for file in (ROOT / "crates" / "workbench" / name / "src").glob("**/*.rs"):
             assert not re.search(r"\be?print(ln)?!|\bstd::net\b|IsTerminal", file.read_text()), file
+    for file in (ROOT / "crates" / "workbench" / "simulation" / "src" / "measures").glob("**/*.rs"):
+        assert "crate::" not in file.read_text(), f"{file}: measures are made of series alone, and know no replay"
     html = {"moris-pages", "base64"}
     table = tomllib.loads((ROOT / "crates" / "workbench" / "simulation" / "Cargo.toml").read_text())
     assert not table["dependencies"].keys() & html

@@ -36,7 +36,7 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
 /// # Errors
 /// The file cannot be read, or is no path. Its values are checked with all start values.
 pub fn path_values(file: &Path) -> Result<NamedValues, Error> {
-    let text = moris_bounded_files::text(file, moris_bounded_files::TEXT)
+    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT)
         .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
     let path = from_csv(&text).map_err(|reason| Error::Path { file: file.to_owned(), reason })?;
     Ok(changed(&path))

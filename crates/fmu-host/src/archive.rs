@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use moris_bounded_files::{ArchiveError, TEXT, check_unpacked, open_archive};
+use crate::files::{ArchiveError, TEXT, check_unpacked, open_archive};
 use tempfile::TempDir;
 
 use crate::HostError;
@@ -26,7 +26,7 @@ pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
 
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, HostError> {
-    moris_bounded_files::text(path, TEXT).map_err(|source| HostError::File { path: path.into(), source })
+    crate::files::text(path, TEXT).map_err(|source| HostError::File { path: path.into(), source })
 }
 
 /// Where the shared library for this platform lies in an unpacked FMU.

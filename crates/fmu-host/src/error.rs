@@ -10,7 +10,7 @@ pub enum HostError {
     #[error("cannot read {path}", path = path.display())]
     File { path: PathBuf, source: std::io::Error },
     #[error("cannot unpack {path}", path = path.display())]
-    Archive { path: PathBuf, source: moris_bounded_files::ArchiveError },
+    Archive { path: PathBuf, source: crate::files::ArchiveError },
     #[error("modelDescription.xml: {0}")]
     Description(String),
     #[error("the FMU has no shared library for this platform, {0}")]

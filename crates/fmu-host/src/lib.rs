@@ -2,6 +2,8 @@
 //! sets and gets variables, and steps them, as a simulation tool does. It is independent of the
 //! crates that make the FMUs.
 //!
+//! [`files`] reads what others wrote, FMUs and texts, up to a bound.
+//!
 //! ```no_run
 //! # fn main() -> Result<(), moris_fmu_host::HostError> {
 //! let fmu = moris_fmu_host::Fmu::open("MorisWashout.fmu".as_ref())?;
@@ -19,6 +21,7 @@ mod archive;
 mod description;
 mod error;
 mod example;
+pub mod files;
 pub mod fmi3;
 mod fmu;
 mod instance;

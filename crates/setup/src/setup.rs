@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use moris_bounded_files::TEXT;
+use moris_fmu_host::files::TEXT;
 use moris_interface::{Group, Row};
 use moris_washout::{Parameters, check, presets};
 
@@ -81,7 +81,7 @@ pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
 }
 
 fn text(file: &Path) -> Result<String, Error> {
-    moris_bounded_files::text(file, TEXT).map_err(|reason| Error::Read { file: file.to_owned(), reason })
+    moris_fmu_host::files::text(file, TEXT).map_err(|reason| Error::Read { file: file.to_owned(), reason })
 }
 
 /// The name of a set; of a file that without directory and extension.

@@ -18,12 +18,11 @@ const MODULES: [(&str, &str); 2] =
 const PROFILE: &str = "page-simulation";
 
 /// Directories of the workspace whose files the modules are compiled of.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 9] = [
     "src",
     "crates/interface",
     "crates/simulator/laps",
     "crates/simulator/motorcycle",
-    "crates/workbench/measures/src",
     "crates/workbench/pages/modules",
     "crates/workbench/pages/src",
     "crates/workbench/simulation",

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use moris_fmu_host::{Fmu, Instance, Status};
-use moris_measures::Limits;
+use moris_simulation::measures::Limits;
 
 use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use moris_measures::fidelity::fidelity;
+use moris_simulation::measures::fidelity::fidelity;
 
 use crate::trace::{Sample, Trace};
 

@@ -1,7 +1,7 @@
 //! The trace of one simulated run.
 
-use moris_measures::effort::{Effort, effort};
-use moris_measures::{Limits, Platform};
+use moris_simulation::measures::effort::{Effort, effort};
+use moris_simulation::measures::{Limits, Platform};
 
 /// Everything that the tables and figures need of one communication point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

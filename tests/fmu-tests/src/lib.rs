@@ -1,6 +1,8 @@
-//! Shared parts of the libraries' tests: a hostile host for the washout's library.
+//! Shared parts of the libraries' tests: a hostile host for any of them, and the hunter, which
+//! searches for a broken limit of the washout.
 
 pub mod hostile;
+pub mod hunter;
 /// The calling sequence of FMI 2.0.
 #[path = "../../../crates/fmi/tests/fmi2/standard.rs"]
 pub mod standard2;

@@ -8,8 +8,8 @@ use std::path::Path;
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-use crate::read::refused;
-use crate::size::shown;
+use super::read::refused;
+use super::size::shown;
 
 /// Errors of unpacking an archive.
 #[derive(Debug, thiserror::Error)]

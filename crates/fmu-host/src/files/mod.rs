@@ -3,8 +3,6 @@
 //! Some files would fill the memory or the disk: devices without an end, sparse files, and small
 //! archives that unpack to many gigabytes. They are refused with the reason.
 
-#![forbid(unsafe_code)]
-
 mod archive;
 mod read;
 mod size;

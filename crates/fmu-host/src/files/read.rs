@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-use crate::size::shown;
+use super::size::shown;
 
 /// Largest text that a person writes, such as a rig or parameters \[bytes\].
 pub const TEXT: u64 = 16_000_000;

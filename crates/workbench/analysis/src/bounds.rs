@@ -1,8 +1,8 @@
 //! The bound on each axis: how well the recording's specific force could be felt at best on this
 //! rig.
 
-use moris_measures::Axes;
-use moris_measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
+use moris_simulation::measures::Axes;
+use moris_simulation::measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;

@@ -3,9 +3,9 @@
 use std::error::Error as StdError;
 
 use moris_fmu_host::HostError;
-use moris_measures::RunError;
-use moris_measures::bound::BoundError;
 use moris_simulation::foreign::ForeignError;
+use moris_simulation::measures::RunError;
+use moris_simulation::measures::bound::BoundError;
 use moris_washout::ParameterError;
 
 use crate::message::{Message, Words};

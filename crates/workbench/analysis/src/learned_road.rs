@@ -57,7 +57,7 @@ pub fn load(file: &Path) -> Result<Laps> {
     if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
     }
-    match moris_bounded_files::text(file, LARGEST) {
+    match moris_fmu_host::files::text(file, LARGEST) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
             let text = text.about(|| file.display().to_string())?;

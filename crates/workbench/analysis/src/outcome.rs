@@ -1,10 +1,10 @@
 //! A recording on a rig with one set of parameters: the simulation, its measures and bounds.
 
-use moris_measures::bound::BoundError;
-use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
 use moris_simulation::advice::Advice;
 use moris_simulation::foreign::ForeignMotion;
+use moris_simulation::measures::bound::BoundError;
+use moris_simulation::measures::{Axes, Measures};
 use moris_simulation::preview::Previewer;
 use moris_simulation::{Evaluated, Simulation, measures};
 use moris_washout::Parameters;

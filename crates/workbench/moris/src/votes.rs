@@ -29,7 +29,7 @@ pub struct Vote {
 /// It cannot be read, has no vote, or a line is none.
 pub fn read(file: &Path) -> Result<Vec<Vote>> {
     let text =
-        moris_bounded_files::text(file, moris_bounded_files::TEXT).with_context(|| file.display().to_string())?;
+        moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT).with_context(|| file.display().to_string())?;
     let vote = |(place, line): (usize, &str)| -> Result<Vote> {
         let here = || format!("{}, line {}", file.display(), place + 1);
         let vote: Vote = serde_json::from_str(line)

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_measures::{Better, Row};
 use moris_pages::report::{Chart, LimitHistory, Line, Report, Run, Thinning, Vehicle, html, run};
+use moris_simulation::measures::{Better, Row};
 use moris_simulation::{Evaluated, Finding, Manoeuvre, Replay, Simulation, Weight};
 use moris_washout::{Input, Parameters, presets};
 use serde_json::json;

@@ -9,10 +9,10 @@ use std::cell::RefCell;
 use std::ops::Range;
 
 use moris_interface::{Group, Reader, slot_count};
-use moris_measures::{References, Row};
 use moris_pages::memory::{group, respond, with_numbers};
 use moris_pages::report::{Event, Rig, Thinning, events, felt_chart, run};
 use moris_simulation::capabilities::{AxisAlone, Capabilities};
+use moris_simulation::measures::{References, Row};
 use moris_simulation::{Evaluated, Finding, Limits, Simulation, Unfinished, measures_with};
 use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::interface::StructureParameters;

@@ -1,7 +1,7 @@
 //! The largest scale that a rig gives the right way round.
 
-use moris_measures::shape::Shape;
 use moris_simulation::fit::{Aims, Candidate, Search};
+use moris_simulation::measures::shape::Shape;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -15,8 +15,9 @@ use crate::setup::{self, Given};
 use crate::simulation::{check_preview, host};
 
 /// All measures of a sweep, on every axis: subject, name and unit.
-static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> =
-    LazyLock::new(|| moris_measures::all_rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect());
+static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock::new(|| {
+    moris_simulation::measures::all_rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect()
+});
 
 /// The measures of a sweep: subject, name and unit.
 #[pyfunction]

@@ -1,12 +1,12 @@
 //! The bound on the surge of the default rig. The desired specific force is read from standard
 //! input, one number a line:
 //!
-//!     cargo run --release --package moris-measures --example bound -- <seconds between samples> <seconds an interval>
+//!     cargo run --release --package moris-simulation --example bound -- <seconds between samples> <seconds an interval>
 
 use std::error::Error;
 use std::io::{Read, stdin};
 
-use moris_measures::bound::{AxisLimits, TiltLimits, bound};
+use moris_simulation::measures::bound::{AxisLimits, TiltLimits, bound};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let numbers: Vec<f64> =

@@ -1,7 +1,7 @@
 //! Advice for the findings: another scale, with and without a preview.
 
 use crate::Manoeuvre;
-use moris_measures::shape::Shape;
+use crate::measures::shape::Shape;
 use moris_washout::interface::{AutomaticScale, StrategyKind};
 use moris_washout::{ParameterError, Parameters};
 
@@ -81,7 +81,7 @@ impl Advice {
 mod tests {
     use std::f64::consts::TAU;
 
-    use moris_measures::shape::{AxisShape, Shape};
+    use crate::measures::shape::{AxisShape, Shape};
     use moris_washout::{Input, presets};
 
     use super::*;

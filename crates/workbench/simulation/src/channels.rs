@@ -1,9 +1,9 @@
 //! One channel of a recording: desired and felt signals, and errors.
 
-use moris_measures::comfort::Comfort;
-use moris_measures::cues::Cues;
-use moris_measures::fidelity::Fidelity;
-use moris_measures::shape::AxisShape;
+use crate::measures::comfort::Comfort;
+use crate::measures::cues::Cues;
+use crate::measures::fidelity::Fidelity;
+use crate::measures::shape::AxisShape;
 use moris_washout::platform::reach::Axis;
 
 use crate::Evaluated;

@@ -1,6 +1,6 @@
 //! A simulation with its measures: rows and findings.
 
-use moris_measures::{Axes, Measures, Row, bound_rows};
+use crate::measures::{Axes, Measures, Row, bound_rows};
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::Simulation;

@@ -1,9 +1,9 @@
 //! Findings of a simulation, in sentences.
 
-use moris_measures::Measures;
-use moris_measures::comfort::{Comfort, Excess};
-use moris_measures::fidelity::Fidelity;
-use moris_measures::shape::AxisShape;
+use crate::measures::Measures;
+use crate::measures::comfort::{Comfort, Excess};
+use crate::measures::fidelity::Fidelity;
+use crate::measures::shape::AxisShape;
 use moris_washout::Output;
 use moris_washout::interface::TiltParameters;
 use moris_washout::platform::reach::Axis;
@@ -358,8 +358,8 @@ impl ChannelFigures {
 
 #[cfg(test)]
 mod tests {
+    use crate::measures::cues::Cues;
     use moris_interface::Group as _;
-    use moris_measures::cues::Cues;
 
     use super::*;
 

@@ -5,8 +5,8 @@
 //! does not change. Heave has a factor of its own. The search simulates with longer internal steps
 //! than the set, as the cues are below 2 Hz, and confirms its result with the set's own.
 
+use crate::measures::shape::{Desired, Shape, below_cue_frequency};
 use crate::{Manoeuvre, Replay};
-use moris_measures::shape::{Desired, Shape, below_cue_frequency};
 use moris_washout::interface::{STANDARD_GRAVITY, StrategyKind};
 use moris_washout::{ParameterError, Parameters, Washout};
 
@@ -230,7 +230,7 @@ impl<'a> Search<'a> {
         let Some(desired) = &self.heave else { return Ok(1.0) };
         let mean_square = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
         let asked = mean_square(&mut desired.iter().copied());
-        if asked.sqrt() <= moris_measures::shape::LEAST_DESIRED * (desired.len() as f64).sqrt() {
+        if asked.sqrt() <= crate::measures::shape::LEAST_DESIRED * (desired.len() as f64).sqrt() {
             return Ok(1.0);
         }
         for heave in HEAVE {

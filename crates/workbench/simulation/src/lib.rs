@@ -1,4 +1,4 @@
-//! Simulation of a recording with its measures and findings.
+//! Simulation of a recording with its measures and findings, and the measures themselves.
 //!
 //! The workbench and the report's page use it. The page has it as WebAssembly, so that both have
 //! the same numbers and sentences: no threads, no files.
@@ -12,6 +12,8 @@
 //! - [`channels`] are the figures of each channel.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
+//! - [`mod@measures`] are those of motion-cue quality, and a bound of what a rig permits. They
+//!   are made of series alone, and know no replay.
 //! - [`Evaluated`] has the measures and the sentences about them.
 
 #![forbid(unsafe_code)]
@@ -31,6 +33,7 @@ mod headline;
 mod limits;
 mod manoeuvre;
 mod measured;
+pub mod measures;
 pub mod preview;
 pub mod replay;
 mod simulation;

@@ -1,6 +1,6 @@
 //! The measures of a simulation.
 
-use moris_measures::{Limits, Measures, Platform, References, Run, RunError};
+use crate::measures::{Limits, Measures, Platform, References, Run, RunError};
 use moris_washout::{Input, Output};
 
 use crate::Simulation;

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use moris_measures::bound::{AxisLimits, Bound, BoundError, TiltLimits, Trajectory, bound};
+use moris_simulation::measures::bound::{AxisLimits, Bound, BoundError, TiltLimits, Trajectory, bound};
 
 const STEP: f64 = 0.01;
 

@@ -1,4 +1,4 @@
-//! `moris-hunter`, the command.
+//! The hunter's command.
 
 use std::fs::File;
 use std::io::{BufWriter, IsTerminal, Write};
@@ -7,11 +7,11 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use clap::{Parser, ValueEnum};
-use moris_hunter::episode::Episode;
-use moris_hunter::run::Runner;
-use moris_hunter::search::{Failure, FoundEpisode, Plan, Summary, search};
-use moris_hunter::target::{CrateTarget, FmuTarget, Target, Traced};
-use moris_hunter::variables::Variables;
+use moris_fmu_tests::hunter::episode::Episode;
+use moris_fmu_tests::hunter::run::Runner;
+use moris_fmu_tests::hunter::search::{Failure, FoundEpisode, Plan, Summary, search};
+use moris_fmu_tests::hunter::target::{CrateTarget, FmuTarget, Target, Traced};
+use moris_fmu_tests::hunter::variables::Variables;
 
 /// Search for a machine, inputs and parameter changes with which the washout breaks a limit.
 ///
@@ -21,7 +21,7 @@ use moris_hunter::variables::Variables;
 /// shrunk to a short episode and printed. Exit status: 0 without a breach, 1 with one, 2 when the
 /// search cannot be made.
 #[derive(Parser)]
-#[command(name = "moris-hunter", version)]
+#[command(name = "hunter", version)]
 struct Arguments {
     /// Communication steps to make, as 2000000 or 2e6
     #[arg(long, value_name = "N", default_value = "1e7", value_parser = count)]
@@ -179,7 +179,7 @@ fn report(arguments: &Arguments, number: usize, found: &FoundEpisode) -> Result<
 
 /// Repeats an episode. True without a breach.
 fn replay(arguments: &Arguments, file: &Path) -> Result<bool> {
-    let text = moris_bounded_files::text(file, moris_bounded_files::TEXT)
+    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT)
         .with_context(|| format!("reading {}", file.display()))?;
     let episode = Episode::from_toml(&text)?;
     match arguments.through {

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::random::bits_at;
-use crate::reach::Reach;
+use super::random::bits_at;
+use super::reach::Reach;
 
 /// An attacker, as data. The same attacker makes the same trials in the same situation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

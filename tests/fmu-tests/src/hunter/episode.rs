@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 
-use crate::attacker::Attacker;
-use crate::preview::Previews;
-use crate::random::fraction_at;
-use crate::signal::Signal;
+use super::attacker::Attacker;
+use super::preview::Previews;
+use super::random::fraction_at;
+use super::signal::Signal;
 
 /// Values by the names of the washout's variables.
 pub type Values = BTreeMap<String, f64>;
@@ -118,7 +118,7 @@ pub enum Scope {
     Memory,
     /// It goes through bytes, where the washout is driven through the C functions.
     Bytes,
-    /// A trial's own: where an [attacker](crate::attacker) goes back to.
+    /// A trial's own: where an [attacker](super::attacker) goes back to.
     Trial,
 }
 

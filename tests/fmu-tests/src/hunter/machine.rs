@@ -4,16 +4,16 @@ use anyhow::Result;
 use moris_interface::{Kind, Row, Variability};
 use moris_setup::{changed, rig_file};
 
-use crate::episode::Values;
-use crate::random::Random;
-use crate::variables::Variables;
+use super::episode::Values;
+use super::random::Random;
+use super::variables::Variables;
 
 /// The rigs shipped with the workbench.
 const RIGS: [&str; 4] = [
-    include_str!("../../../examples/rigs/default.toml"),
-    include_str!("../../../examples/rigs/compact.toml"),
-    include_str!("../../../examples/rigs/long-stroke.toml"),
-    include_str!("../../../examples/rigs/narrow.toml"),
+    include_str!("../../../../examples/rigs/default.toml"),
+    include_str!("../../../../examples/rigs/compact.toml"),
+    include_str!("../../../../examples/rigs/long-stroke.toml"),
+    include_str!("../../../../examples/rigs/narrow.toml"),
 ];
 
 /// Values of log-uniform draws with tails: lowest, low, high, highest.

@@ -14,8 +14,6 @@
 //! | [`oracle`] | what is promised, and how it is judged |
 //! | [`run`], [`shrink`], [`search`] | one episode, its shortest form, many episodes |
 
-#![forbid(unsafe_code)]
-
 pub mod attacker;
 pub mod episode;
 pub mod machine;

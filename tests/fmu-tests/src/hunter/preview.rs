@@ -4,7 +4,7 @@ use moris_washout::Preview;
 use moris_washout::interface::PREVIEW_SAMPLES;
 use serde::{Deserialize, Serialize};
 
-use crate::random::{bits_at, fraction_at};
+use super::random::{bits_at, fraction_at};
 
 /// Previews by the number of the step. Any may contradict the inputs and the previews before it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
 //! Distance of a sample from the limits of legs and axes.
 
-use crate::oracle::{MachineLimits, Safety, Sample};
+use super::oracle::{MachineLimits, Safety, Sample};
 
 /// The part of the limits that a sample leaves unused. Legs and axes count alike.
 #[derive(Clone, Copy, Debug, PartialEq)]

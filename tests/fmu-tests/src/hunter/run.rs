@@ -4,13 +4,13 @@ use anyhow::{Context, Result};
 use moris_washout::Preview;
 use moris_washout::interface::GravityRemoval;
 
-use crate::attacker::Attacker;
-use crate::episode::{Action, Episode, Rest, SCOPES, Scope, Values};
-use crate::oracle::{Breach, MachineLimits, NEUTRAL_TOLERANCE, Oracle, Quantity, Safety, Sample, Worst};
-use crate::reach::Reach;
-use crate::signal::{Seen, Signal, VELOCITIES};
-use crate::target::{Inputs, Target};
-use crate::variables::{REAL_INPUTS, Variables};
+use super::attacker::Attacker;
+use super::episode::{Action, Episode, Rest, SCOPES, Scope, Values};
+use super::oracle::{Breach, MachineLimits, NEUTRAL_TOLERANCE, Oracle, Quantity, Safety, Sample, Worst};
+use super::reach::Reach;
+use super::signal::{Seen, Signal, VELOCITIES};
+use super::target::{Inputs, Target};
+use super::variables::{REAL_INPUTS, Variables};
 
 /// Result of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

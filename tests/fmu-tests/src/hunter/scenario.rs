@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 
 use moris_interface::Variability;
 
-use crate::attacker::{Aim, Attacker};
-use crate::episode::{Action, Episode, Event, Rest, Scope, Steps, Values};
-use crate::machine::Machines;
-use crate::preview::{Forces, Previews};
-use crate::random::Random;
-use crate::signal::{Signal, VELOCITIES};
-use crate::variables::{REAL_INPUTS, Variables};
+use super::attacker::{Aim, Attacker};
+use super::episode::{Action, Episode, Event, Rest, Scope, Steps, Values};
+use super::machine::Machines;
+use super::preview::{Forces, Previews};
+use super::random::Random;
+use super::signal::{Signal, VELOCITIES};
+use super::variables::{REAL_INPUTS, Variables};
 
 /// Largest number of steps of an episode, and largest mean number of internal steps in a step.
 const MOST_STEPS: usize = 4000;

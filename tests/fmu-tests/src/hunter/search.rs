@@ -9,14 +9,14 @@ use anyhow::Result;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use crate::episode::Episode;
-use crate::machine::Machines;
-use crate::oracle::{Breach, Quantity, Worst};
-use crate::random::Random;
-use crate::run::{Outcome, Runner};
-use crate::scenario::Scenarios;
-use crate::shrink::{is_geometry, shrink};
-use crate::target::Target;
+use super::episode::Episode;
+use super::machine::Machines;
+use super::oracle::{Breach, Quantity, Worst};
+use super::random::Random;
+use super::run::{Outcome, Runner};
+use super::scenario::Scenarios;
+use super::shrink::{is_geometry, shrink};
+use super::target::Target;
 
 /// Extent of a search.
 #[derive(Clone, Copy, Debug)]

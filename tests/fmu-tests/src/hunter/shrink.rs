@@ -2,11 +2,11 @@
 
 use anyhow::Result;
 
-use crate::episode::{Action, Episode, Steps};
-use crate::oracle::{Breach, Quantity};
-use crate::run::Runner;
-use crate::signal::Signal;
-use crate::target::Target;
+use super::episode::{Action, Episode, Steps};
+use super::oracle::{Breach, Quantity};
+use super::run::Runner;
+use super::signal::Signal;
+use super::target::Target;
 
 /// Largest number of runs for shrinking.
 const MOST_RUNS: usize = 4000;

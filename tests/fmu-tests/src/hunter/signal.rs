@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::random::{bits_at, fraction_at};
-use crate::reach::Reach;
+use super::random::{bits_at, fraction_at};
+use super::reach::Reach;
 
 /// The course of one input over time.
 ///

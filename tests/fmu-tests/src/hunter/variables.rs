@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use moris_interface::{Causality, Group, Identity, Kind, Model, Row, SlotModel, Variability};
 use moris_washout::{Preview, Washout};
 
-use crate::episode::Values;
+use super::episode::Values;
 
 /// The washout's interface.
 pub const IDENTITY: Identity = Washout::IDENTITY;

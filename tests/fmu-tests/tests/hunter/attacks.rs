@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use anyhow::Result;
-use moris_hunter::attacker::{Aim, Attacker};
-use moris_hunter::episode::{Episode, Rest, Scope, Steps, Values};
-use moris_hunter::oracle::{MachineLimits, Quantity, Safety, Sample};
-use moris_hunter::preview::{Forces, Previews};
-use moris_hunter::reach::Reach;
-use moris_hunter::run::{Outcome, Runner};
-use moris_hunter::signal::Signal;
-use moris_hunter::target::{CrateTarget, Inputs, Target};
+use moris_fmu_tests::hunter::attacker::{Aim, Attacker};
+use moris_fmu_tests::hunter::episode::{Episode, Rest, Scope, Steps, Values};
+use moris_fmu_tests::hunter::oracle::{MachineLimits, Quantity, Safety, Sample};
+use moris_fmu_tests::hunter::preview::{Forces, Previews};
+use moris_fmu_tests::hunter::reach::Reach;
+use moris_fmu_tests::hunter::run::{Outcome, Runner};
+use moris_fmu_tests::hunter::signal::Signal;
+use moris_fmu_tests::hunter::target::{CrateTarget, Inputs, Target};
 use moris_washout::Preview;
 
 /// The washout with a record of what it is given and what it answers.

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 /// Runs the command in the repository's root.
 fn hunter(arguments: &[&str]) -> Output {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-    Command::new(env!("CARGO_BIN_EXE_moris-hunter")).args(arguments).current_dir(root).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_hunter")).args(arguments).current_dir(root).output().unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -28,7 +28,7 @@ fn a_search_ends_with_a_summary() {
 #[test]
 fn a_file_is_repeated_with_a_table_of_outputs() {
     let table = std::env::temp_dir().join(format!("hunter-{}.csv", std::process::id()));
-    let episode = "tests/hunter/episodes/slow-machine-bang-bang.toml";
+    let episode = "tests/fmu-tests/episodes/slow-machine-bang-bang.toml";
     let output = hunter(&["--replay", episode, "--trace", table.to_str().unwrap()]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout), "no breach in 4500 steps\n");

@@ -1,6 +1,6 @@
 //! The oracle against motions of which it is known what they keep and break.
 
-use moris_hunter::oracle::{Breach, Derivative, MachineLimits, Oracle, Quantity, Safety, Sample, Worst};
+use moris_fmu_tests::hunter::oracle::{Breach, Derivative, MachineLimits, Oracle, Quantity, Safety, Sample, Worst};
 
 const MACHINE: MachineLimits =
     MachineLimits { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, longest_step: 1.0 };

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use crate::cases::cases;
 use anyhow::Result;
-use moris_hunter::episode::{Episode, Scope};
-use moris_hunter::oracle::{Quantity, Sample};
-use moris_hunter::run::Runner;
-use moris_hunter::search::{Failure, Plan, search};
-use moris_hunter::target::{CrateTarget, Inputs, Target};
+use moris_fmu_tests::hunter::episode::{Episode, Scope};
+use moris_fmu_tests::hunter::oracle::{Quantity, Sample};
+use moris_fmu_tests::hunter::run::Runner;
+use moris_fmu_tests::hunter::search::{Failure, Plan, search};
+use moris_fmu_tests::hunter::target::{CrateTarget, Inputs, Target};
 use moris_washout::Preview;
 
 /// The washout with something added to its outputs.

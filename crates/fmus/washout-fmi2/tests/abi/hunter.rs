@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use moris_hunter::episode::Episode;
-use moris_hunter::oracle::Sample;
-use moris_hunter::run::Runner;
-use moris_hunter::search::{Plan, search};
-use moris_hunter::target::{CrateTarget, FmuTarget, Target};
-use moris_hunter::variables::Variables;
+use moris_fmu_tests::hunter::episode::Episode;
+use moris_fmu_tests::hunter::oracle::Sample;
+use moris_fmu_tests::hunter::run::Runner;
+use moris_fmu_tests::hunter::search::{Plan, search};
+use moris_fmu_tests::hunter::target::{CrateTarget, FmuTarget, Target};
+use moris_fmu_tests::hunter::variables::Variables;
 
 use crate::fixture::library;
 
@@ -85,7 +85,7 @@ fn previews_and_attackers_work_as_they_do_on_the_crate() {
 #[test]
 fn no_known_episode_breaks_a_limit() {
     let (runner, mut target) = (Runner::new().unwrap(), target());
-    let episodes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/hunter/episodes");
+    let episodes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/fmu-tests/episodes");
     let mut count = 0;
     for file in fs::read_dir(episodes).unwrap() {
         let file = file.unwrap().path();

@@ -1,7 +1,7 @@
 //! Rides on which earlier passes are no forecast, felt with and without the memory.
 
 use moris_laps::Sample;
-use moris_measures::shape::below_cue_frequency;
+use moris_simulation::measures::shape::below_cue_frequency;
 use moris_washout::{Input, Parameters, presets};
 
 use crate::felt::{felt, previews};

@@ -1,7 +1,7 @@
 //! Telemetry of a computed vehicle, delivered at given times, and what is felt.
 
 use moris_live::{Event, STEP, Sample, Session, Settings, State};
-use moris_measures::comfort::comfort;
+use moris_simulation::measures::comfort::comfort;
 use moris_washout::Parameters;
 
 /// A packet: when it arrives, and its content.

@@ -10,7 +10,7 @@ use std::sync::Mutex;
 
 use moris_live::log::{self, Digest, Entry, Happening};
 use moris_live::{Commands, Event, STEP, Sample, Session, Settings, State};
-use moris_measures::comfort::comfort;
+use moris_simulation::measures::comfort::comfort;
 use moris_washout::interface::StrategyKind;
 use moris_washout::platform::{Geometry, leg_lengths};
 use moris_washout::{Parameters, presets};

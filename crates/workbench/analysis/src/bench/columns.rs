@@ -1,8 +1,8 @@
 //! The measures of the bench, in their order.
 
-use moris_measures::comfort::Excess;
 use moris_simulation::Evaluated;
 use moris_simulation::findings::fit;
+use moris_simulation::measures::comfort::Excess;
 
 /// A measure: its name with its unit, its decimals, and its value where it is defined.
 pub struct Column {
@@ -72,7 +72,7 @@ fn sensed(of: &Evaluated, axis: usize) -> Option<f64> {
 
 /// The largest excess of the axes: shake, jolt or peak.
 fn largest(of: &Evaluated, which: usize) -> Option<f64> {
-    let of_axis = |comfort: &moris_measures::comfort::Comfort| {
+    let of_axis = |comfort: &moris_simulation::measures::comfort::Comfort| {
         let value = |excess: Option<Excess>| excess.map(|excess| excess.value);
         [value(comfort.shake), value(comfort.jolt), Some(comfort.peak.value)][which]
     };

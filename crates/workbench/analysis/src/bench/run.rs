@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use moris_measures::Axes;
 use moris_setup::Setup;
 use moris_simulation::Simulation;
 use moris_simulation::drives::bench::{Drive, FRAME};
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
+use moris_simulation::measures::Axes;
 use moris_washout::Parameters;
 use moris_washout::interface::{AutomaticScale, StrategyKind};
 use moris_washout::platform::Pose;

@@ -2,9 +2,9 @@
 
 pub mod targets;
 
-use moris_measures::{Limits, Measures};
 use moris_setup::Setup;
 use moris_simulation::channels::{ChannelFigures, channels};
+use moris_simulation::measures::{Limits, Measures};
 use moris_simulation::preview::Previewer;
 
 use crate::bounds;

@@ -25,10 +25,10 @@
 
 use std::sync::OnceLock;
 
-use moris_measures::comfort::{Reference, divisions};
-use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
-use moris_measures::shape::{AxisShape, Desired, Shape};
-use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
+use moris_simulation::measures::comfort::{Reference, divisions};
+use moris_simulation::measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
+use moris_simulation::measures::shape::{AxisShape, Desired, Shape};
+use moris_simulation::measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, ParameterError, Parameters, Washout};

@@ -1,7 +1,7 @@
 //! Error and comfort of what is felt, on a ride and over all rides.
 
-use moris_measures::comfort::Reference;
-use moris_measures::fidelity::rms_error;
+use moris_simulation::measures::comfort::Reference;
+use moris_simulation::measures::fidelity::rms_error;
 use moris_washout::nalgebra::Vector3;
 
 use super::commands::Commands;

@@ -1,9 +1,9 @@
 //! Curves of size against shape, as SVG.
 
 use moris_analysis::fit::{Fitted, Strategy};
-use moris_measures::shape::Shape;
 use moris_pages::report::escaped;
 use moris_simulation::fit::Fit;
+use moris_simulation::measures::shape::Shape;
 
 const COLOURS: [&str; 6] = ["#1f6fb4", "#c2571a", "#2c8c4a", "#8a4fb0", "#b03a5b", "#6b6b6b"];
 /// Size of a panel and its margins \[px\].

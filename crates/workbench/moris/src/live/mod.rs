@@ -256,7 +256,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(file) = &options.replay {
         return replay(
             options,
-            &moris_bounded_files::text(file, LARGEST_SESSION).with_context(|| file.display().to_string())?,
+            &moris_fmu_host::files::text(file, LARGEST_SESSION).with_context(|| file.display().to_string())?,
             out,
         );
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_bounded_files::TEXT;
+use moris_fmu_host::files::TEXT;
 use moris_live::{format, frame, moog};
 
 /// Lists of tables.
@@ -67,7 +67,7 @@ fn text(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<Str
     match shipped(option, name, tables) {
         Ok(text) => Ok(text.to_owned()),
         Err(_) if name.ends_with(".toml") => {
-            moris_bounded_files::text(Path::new(name), TEXT).with_context(|| name.to_owned())
+            moris_fmu_host::files::text(Path::new(name), TEXT).with_context(|| name.to_owned())
         }
         Err(error) => Err(error),
     }

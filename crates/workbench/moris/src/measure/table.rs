@@ -3,11 +3,11 @@
 use moris_analysis::host::{Host, Inputs};
 use moris_analysis::measure::MeasuredRecording;
 use moris_analysis::measure::targets::{Missed, Targets, geometric_mean, wrong_cues};
-use moris_measures::comfort::{Comfort, Excess};
 use moris_setup::Setup;
 use moris_simulation::capitalised;
 use moris_simulation::channels::ChannelFigures;
 use moris_simulation::frequency_response::channel::name;
+use moris_simulation::measures::comfort::{Comfort, Excess};
 use moris_washout::platform::reach::Axis;
 
 use crate::text_table::{Column, TextTable, or_undefined};

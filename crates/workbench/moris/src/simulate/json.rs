@@ -63,7 +63,7 @@ fn fits_schema(_: &mut SchemaGenerator) -> Schema {
 
 /// Each measure with its unit and definition.
 fn measures_schema(_: &mut SchemaGenerator) -> Schema {
-    let measure = |row: moris_measures::Row| {
+    let measure = |row: moris_simulation::measures::Row| {
         json!({
             "description": row.definition,
             "properties": {
@@ -76,7 +76,7 @@ fn measures_schema(_: &mut SchemaGenerator) -> Schema {
             "additionalProperties": false,
         })
     };
-    let measures: Vec<Value> = moris_measures::all_rows().into_iter().map(measure).collect();
+    let measures: Vec<Value> = moris_simulation::measures::all_rows().into_iter().map(measure).collect();
     json_schema!({ "type": "array", "items": { "type": "object", "oneOf": measures } })
 }
 
@@ -97,7 +97,7 @@ pub fn recording(recording: &Recording, outcomes: &[Outcome], files: &[PathBuf])
 
 fn result(outcome: &Outcome) -> SetResult {
     let measures = outcome.evaluated().measured_rows().into_iter();
-    let measure = |row: moris_measures::Row| json!({ "subject": row.subject, "name": row.name, "value": row.value, "unit": row.unit });
+    let measure = |row: moris_simulation::measures::Row| json!({ "subject": row.subject, "name": row.name, "value": row.value, "unit": row.unit });
     SetResult {
         rig: outcome.setup.rig_name.clone(),
         parameters: outcome.setup.parameters_name.clone(),

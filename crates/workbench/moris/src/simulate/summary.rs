@@ -1,6 +1,6 @@
 //! Summary of a simulation on the terminal.
 
-use moris_measures::comfort::{Comfort, Excess};
+use moris_simulation::measures::comfort::{Comfort, Excess};
 
 use moris_simulation::channels::{ChannelFigures, channels};
 

@@ -105,7 +105,7 @@ fn with(progress: &Mutex<Progress>, call: impl FnOnce(&mut Progress)) {
 
 /// The default platform with the values of a parameter file.
 fn read_platform(file: &Path) -> Result<Platform> {
-    let text = moris_bounded_files::text(file, moris_bounded_files::TEXT)
+    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT)
         .with_context(|| format!("cannot read {}", file.display()))?;
     Ok(overlaid(&Platform::default(), &parameter_file::read(&text, &file.display().to_string(), Platform::ROWS)?))
 }

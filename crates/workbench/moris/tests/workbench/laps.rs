@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use moris_measures::shape::below_cue_frequency;
+use moris_simulation::measures::shape::below_cue_frequency;
 
 /// Duration of a round \[s\].
 const ROUND: f64 = 30.0;

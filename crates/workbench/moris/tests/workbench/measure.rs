@@ -124,7 +124,7 @@ fn comfort_is_that_of_the_felt_force_within_the_steps() {
         washout.follow(InputCourse::Between(&pair[0], &pair[1]), STEP, |force| felt.push(force.x));
     }
     let desired: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
-    let [shake, jolt, peak] = moris_measures::comfort::comfort(&desired, &felt, 0.0, STEP).values();
+    let [shake, jolt, peak] = moris_simulation::measures::comfort::comfort(&desired, &felt, 0.0, STEP).values();
     let largest = felt.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     assert!((peak - (largest - 8.0).max(0.0)).abs() < 1e-9 && jolt > 0.0);
     let expected = format!("{shake:.2}/{jolt:.1}/{peak:.1}");

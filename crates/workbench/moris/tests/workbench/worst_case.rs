@@ -12,7 +12,7 @@ use moris_analysis::worst_case::figures::{Desired, Measure, over_rides};
 use moris_analysis::worst_case::machine::real_motion;
 use moris_analysis::worst_case::points::{Point, points};
 use moris_analysis::worst_case::study::Study;
-use moris_measures::comfort::comfort;
+use moris_simulation::measures::comfort::comfort;
 use moris_stewart_platform::{Input, Model, Parameters as Platform, StewartPlatform};
 use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;

@@ -3,7 +3,7 @@
 //! All quantities are in SI units and in the frames of the washout: x forward, y left, z up;
 //! positive pitch is nose down. Every series of a [`Run`] has one value for each of its times.
 
-use moris_measures::Row;
+use moris_simulation::measures::Row;
 use moris_simulation::{Finding, Limits, TiltFlags};
 use moris_washout::Parameters;
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use std::array;
 
-use moris_measures::Row;
+use moris_simulation::measures::Row;
 use moris_simulation::{Evaluated, Simulation, capitalised};
 use moris_washout::Output;
 

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use moris_measures::comfort::comfort;
-use moris_measures::fidelity::rms_error;
+use moris_simulation::measures::comfort::comfort;
+use moris_simulation::measures::fidelity::rms_error;
 use moris_washout::Input;
 use serde::Serialize;
 

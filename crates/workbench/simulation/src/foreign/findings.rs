@@ -1,6 +1,6 @@
 //! Findings on a foreign motion: its limits, and what is wrong with what was given.
 
-use moris_measures::Row;
+use crate::measures::Row;
 
 use super::limits::{Excess, Limit};
 use super::{Foreign, Suspicion};

@@ -2,15 +2,15 @@
 
 use std::array::from_fn;
 
-use crate::comfort::{Comfort, Reference, divisions};
-use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
-use crate::effort::{Effort, effort};
-use crate::fidelity::{Fidelity, fidelity};
-use crate::incongruence::{Incongruence, incongruence};
-use crate::run::{Run, RunError, axis};
-use crate::shape::{Desired, Shape};
-use crate::sickness::{dose, share_sick};
-use crate::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
+use super::comfort::{Comfort, Reference, divisions};
+use super::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
+use super::effort::{Effort, effort};
+use super::fidelity::{Fidelity, fidelity};
+use super::incongruence::{Incongruence, incongruence};
+use super::run::{Run, RunError, axis};
+use super::shape::{Desired, Shape};
+use super::sickness::{dose, share_sick};
+use super::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
 
 /// Standard gravity, at which the otoliths are at rest \[m/s2\].
 const STANDARD_GRAVITY: f64 = 9.80665;
@@ -144,8 +144,7 @@ impl SensedSignal<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Limits, Platform};
-
+    use super::super::{Limits, Platform};
     use super::*;
 
     #[test]

@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-use crate::zero_phase::zero_phase;
+use super::zero_phase::zero_phase;
 
 /// Frequency above which a felt force is shaking \[Hz\].
 pub const SHAKE_FREQUENCY: f64 = 8.0;

@@ -6,7 +6,7 @@
 
 use realfft::RealFftPlanner;
 
-use crate::statistics::{CONSTANT, correlation, mean};
+use super::statistics::{CONSTANT, correlation, mean};
 
 /// Longest delay considered, of either sign \[s\].
 const LONGEST_DELAY: f64 = 2.0;

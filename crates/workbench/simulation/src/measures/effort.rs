@@ -1,6 +1,6 @@
 //! Effort of the platform: stroke used, time limited, tilt rate.
 
-use crate::run::{Limits, Platform};
+use super::run::{Limits, Platform};
 
 /// Effort of the platform in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Fidelity with which one signal follows another: errors, correlation and delay.
 
-use crate::delay::delay;
-use crate::statistics::{CONSTANT, correlation, is_constant};
+use super::delay::delay;
+use super::statistics::{CONSTANT, correlation, is_constant};
 
 /// Fidelity of a felt signal to the desired one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use crate::comfort::Comfort;
-use crate::cues::Cues;
-use crate::effort::Effort;
-use crate::fidelity::Fidelity;
-use crate::measures::{Axes, Measures, Rider};
-use crate::run::{Limits, Platform, Run};
-use crate::shape::{AxisShape, Shape};
+use super::all::{Axes, Measures, Rider};
+use super::comfort::Comfort;
+use super::cues::Cues;
+use super::effort::Effort;
+use super::fidelity::Fidelity;
+use super::run::{Limits, Platform, Run};
+use super::shape::{AxisShape, Shape};
 
 /// The better of two values of a measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -19,8 +19,7 @@
 //! Frames and signs are those of the washout: x forward, y left, z up; all
 //! quantities are in SI units.
 
-#![forbid(unsafe_code)]
-
+mod all;
 pub mod bound;
 pub mod comfort;
 pub mod cues;
@@ -29,7 +28,6 @@ pub mod effort;
 pub mod fidelity;
 pub mod incongruence;
 mod listing;
-mod measures;
 mod run;
 pub mod shape;
 pub mod sickness;
@@ -37,6 +35,6 @@ pub mod statistics;
 pub mod vestibular;
 mod zero_phase;
 
+pub use all::{Axes, Measures, References, Rider};
 pub use listing::{Better, Row, all_rows, bound_rows};
-pub use measures::{Axes, Measures, References, Rider};
 pub use run::{Limits, Platform, Run, RunError};

@@ -7,10 +7,10 @@
 use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use crate::cues::FORCE_THRESHOLDS;
-use crate::run::axis;
-use crate::statistics::correlation;
-use crate::zero_phase::zero_phase;
+use super::cues::FORCE_THRESHOLDS;
+use super::run::axis;
+use super::statistics::correlation;
+use super::zero_phase::zero_phase;
 
 /// Frequency below which a force is a cue of the vehicle's manoeuvre \[Hz\].
 pub const CUE_FREQUENCY: f64 = 2.0;

@@ -5,9 +5,9 @@ use moris_interface::{Group, Reader, SlotModel};
 use moris_washout::{Input, Output, Preview, Washout};
 
 use super::{Inputs, Target};
-use crate::episode::{SCOPES, Scope};
-use crate::oracle::{Derivative, Sample};
-use crate::variables::REAL_INPUTS;
+use crate::hunter::episode::{SCOPES, Scope};
+use crate::hunter::oracle::{Derivative, Sample};
+use crate::hunter::variables::REAL_INPUTS;
 
 /// A washout with what a host keeps beside it.
 #[derive(Default)]

@@ -9,9 +9,9 @@ use moris_washout::interface::PREVIEW_SAMPLES;
 use moris_washout::{Preview, Washout};
 
 use super::{Inputs, Target};
-use crate::episode::Scope;
-use crate::oracle::{Derivative, Sample};
-use crate::variables::{IDENTITY, REAL_INPUTS, Variables};
+use crate::hunter::episode::Scope;
+use crate::hunter::oracle::{Derivative, Sample};
+use crate::hunter::variables::{IDENTITY, REAL_INPUTS, Variables};
 
 /// An instance with what a host keeps beside it. Fields are dropped in their order.
 pub struct FmuTarget {

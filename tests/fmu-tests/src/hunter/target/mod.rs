@@ -11,9 +11,9 @@ pub use crate_target::CrateTarget;
 pub use fmu_target::FmuTarget;
 pub use traced::Traced;
 
-use crate::episode::Scope;
-use crate::oracle::Sample;
-use crate::variables::REAL_INPUTS;
+use crate::hunter::episode::Scope;
+use crate::hunter::oracle::Sample;
+use crate::hunter::variables::REAL_INPUTS;
 
 /// Values of all inputs: the real ones, and whether the washout is engaged.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@ use anyhow::Result;
 use moris_washout::Preview;
 
 use super::{Inputs, Target};
-use crate::episode::Scope;
-use crate::oracle::Sample;
+use crate::hunter::episode::Scope;
+use crate::hunter::oracle::Sample;
 
 /// A target with a table of its outputs, as CSV: a line for the outputs before the first
 /// step and one after each.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use moris_bounded_files::TEXT;
 use moris_fmu_host::Running;
+use moris_fmu_host::files::TEXT;
 use moris_live::Sample;
 use moris_live::format::{FieldAddress, Format, Vehicle as Kind};
 use moris_pages::report::Vehicle as Shape;
@@ -60,7 +60,7 @@ impl Fmu {
     /// # Errors
     /// The map or the FMU cannot be used, or the FMU lacks a variable of the map.
     pub fn open(file: &Path, map: &Path) -> Result<Self> {
-        let text = moris_bounded_files::text(map, TEXT).with_context(|| map.display().to_string())?;
+        let text = moris_fmu_host::files::text(map, TEXT).with_context(|| map.display().to_string())?;
         let mut table: toml::Table = text.parse().with_context(|| map.display().to_string())?;
         let [start, step, controls] = OWN.map(|word| table.remove(word));
         for (word, value) in DEFAULTS {
