@@ -12,9 +12,10 @@ use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 const PACKAGE: &str = "moris-pages";
-/// Examples of the package that are modules, and what is missing without one.
-const MODULES: [(&str, &str); 2] =
-    [("page_simulation", "the report's page will not simulate"), ("page_ride", "there will be no ride")];
+/// Examples of the package that are modules, the feature that each takes, and what is missing
+/// without one.
+const MODULES: [(&str, &str, &str); 2] =
+    [("page_simulation", "", "the report's page will not simulate"), ("page_ride", "ride", "there will be no ride")];
 const PROFILE: &str = "page-simulation";
 
 /// Directories of the workspace whose files the modules are compiled of.
@@ -53,8 +54,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rustc-env=MORIS_VERSION={version}");
     // The modules themselves are compiled with this package, too.
     let is_wanted = variable("TARGET")? != TARGET && is_installed()?;
-    for (name, missing) in MODULES {
-        let module = if is_wanted { compile(&root, &out, name, missing)? } else { Vec::new() };
+    for (name, feature, missing) in MODULES {
+        let is_wanted = is_wanted && (feature.is_empty() || env::var_os("CARGO_FEATURE_RIDE").is_some());
+        let module = if is_wanted { compile(&root, &out, [name, feature], missing)? } else { Vec::new() };
         fs::write(out.join(name).with_extension("wasm"), module)?;
     }
     Ok(())
@@ -118,12 +120,13 @@ fn is_installed() -> Result<bool, Box<dyn Error>> {
 
 /// A module, compiled in a directory of its own, because this build holds the lock of its
 /// own. All profiles share it.
-fn compile(root: &Path, out: &Path, name: &str, missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+fn compile(root: &Path, out: &Path, [name, feature]: [&str; 2], missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
     let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
     let mut command = Command::new(variable("CARGO")?);
     command.current_dir(root).args(["rustc", "--locked", "--offline", "--package", PACKAGE, "--profile", PROFILE]);
     // Alone this kind of library is optimised as a whole.
+    command.args(["--no-default-features", "--features", feature]);
     command.args(["--example", name, "--target", TARGET, "--target-dir"]).arg(&directory);
     for name in OF_THE_HOST {
         command.env_remove(name);

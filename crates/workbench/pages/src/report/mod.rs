@@ -18,6 +18,7 @@ mod tables;
 mod thinning;
 
 /// Parts of the page that all pages have.
+#[cfg(feature = "ride")]
 pub(crate) mod shared {
     pub use crate::report::encode::bytes;
     pub use crate::report::page::{COMPILED, Head, assembled};
