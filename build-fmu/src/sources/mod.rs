@@ -1,7 +1,9 @@
 //! A model in C99, for tools that compile FMUs themselves.
 //!
+//! Nothing but `--sources` uses this folder: a reader of the FMU's shared library may skip it.
+//!
 //! The model's library is compiled to WebAssembly, with the functions of FMI as its exports. wasm2c
-//! turns that into C. The files in `build-fmu/c` are the rest: a runtime, and the functions of FMI
+//! turns that into C. The files in `c/` are the rest: a runtime, and the functions of FMI
 //! that copy arguments into the module's memory and back.
 
 use std::ops::Range;
@@ -15,7 +17,7 @@ use crate::archive::Contents;
 use crate::{Error, FmiVersion, FmuModel, Start, compile, library, tools, workspace};
 
 const TARGET: &str = "wasm32-unknown-unknown";
-/// The version of WABT whose output the runtime in `build-fmu/c` serves.
+/// The version of WABT whose output the runtime in `c/` serves.
 const WASM2C: &str = "1.0.32";
 /// Places of the module's two files in an FMU.
 const DECLARATIONS: &str = "sources/module.h";
@@ -115,21 +117,21 @@ impl Sources {
 
     /// The files in an FMU.
     pub(crate) fn files(&self, model: &FmuModel, fmi: FmiVersion) -> Contents {
-        let functions = fmi.choose(include_str!("../c/fmi2.h"), include_str!("../c/fmi3.h"));
+        let functions = fmi.choose(include_str!("c/fmi2.h"), include_str!("c/fmi3.h"));
         let file = Sources::file(model);
         let mut files = Contents::new();
         let mut add = |path: &str, text: &str| files.insert(path.to_owned(), text.as_bytes().to_vec());
-        add(&format!("sources/{file}"), &include_str!("../c/model.c").replace("MODEL_NAME", model.name));
+        add(&format!("sources/{file}"), &include_str!("c/model.c").replace("MODEL_NAME", model.name));
         add("sources/functions.h", functions);
-        add("sources/instance.h", include_str!("../c/instance.h"));
-        add("sources/wasm-rt.h", include_str!("../c/wasm-rt.h"));
+        add("sources/instance.h", include_str!("c/instance.h"));
+        add("sources/wasm-rt.h", include_str!("c/wasm-rt.h"));
         add(DECLARATIONS, &self.declarations);
         add(CODE, &self.code);
-        add("documentation/licenses/wabt.txt", include_str!("../c/wabt.txt"));
+        add("documentation/licenses/wabt.txt", include_str!("c/wabt.txt"));
         if let FmiVersion::Fmi3(_) = fmi {
             add(
                 "sources/buildDescription.xml",
-                &include_str!("../c/buildDescription.xml").replace("MODEL_NAME", model.name),
+                &include_str!("c/buildDescription.xml").replace("MODEL_NAME", model.name),
             );
         }
         files
