@@ -3,6 +3,7 @@
 
 use moris_simulation::measures::Axes;
 use moris_simulation::measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
+use moris_simulation::measures::statistics::rms;
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
@@ -23,7 +24,7 @@ pub struct AxisBound {
 impl AxisBound {
     /// RMS of the desired specific force as a deviation from rest \[m/s2\].
     pub fn desired_rms(&self) -> f64 {
-        (self.desired.iter().map(|force| force * force).sum::<f64>() / self.desired.len() as f64).sqrt()
+        rms(self.desired.iter().copied())
     }
 }
 

@@ -1,5 +1,6 @@
 //! A simulation with its measures: rows and findings.
 
+use crate::measures::statistics::rms;
 use crate::measures::{Axes, Measures, Row, bound_rows};
 use moris_washout::interface::STANDARD_GRAVITY;
 
@@ -51,11 +52,6 @@ impl Evaluated<'_> {
     pub fn desired_rate_rms(&self, axis: usize) -> f64 {
         rms(self.simulation.desired_rates().iter().map(|rate| rate[axis]))
     }
-}
-
-fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = values.len() as f64;
-    (values.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
 /// A text with its first letter in upper case.

@@ -3,6 +3,7 @@
 use moris_simulation::Evaluated;
 use moris_simulation::findings::fit;
 use moris_simulation::measures::comfort::Excess;
+use moris_simulation::measures::statistics::mean;
 
 /// A measure: its name with its unit, its decimals, and its value where it is defined.
 pub struct Column {
@@ -42,10 +43,10 @@ pub const COLUMNS: [Column; 30] = [
     column("shake [m/s2]", 3, |of| largest(of, 0)),
     column("jolt [m/s2]", 3, |of| largest(of, 1)),
     column("peak [m/s2]", 3, |of| largest(of, 2)),
-    column("false force cues [%]", 2, |of| Some(100.0 * mean(of.measures.force_cues.map(|cues| cues.false_cues)))),
-    column("missing force cues [%]", 2, |of| Some(100.0 * mean(of.measures.force_cues.map(|cues| cues.missing_cues)))),
-    column("false rate cues [%]", 2, |of| rates(of, mean(of.measures.rate_cues.map(|cues| cues.false_cues)))),
-    column("missing rate cues [%]", 2, |of| rates(of, mean(of.measures.rate_cues.map(|cues| cues.missing_cues)))),
+    column("false force cues [%]", 2, |of| Some(100.0 * mean(&of.measures.force_cues.map(|cues| cues.false_cues)))),
+    column("missing force cues [%]", 2, |of| Some(100.0 * mean(&of.measures.force_cues.map(|cues| cues.missing_cues)))),
+    column("false rate cues [%]", 2, |of| rates(of, mean(&of.measures.rate_cues.map(|cues| cues.false_cues)))),
+    column("missing rate cues [%]", 2, |of| rates(of, mean(&of.measures.rate_cues.map(|cues| cues.missing_cues)))),
     column("sick in the vehicle [%]", 2, |of| Some(of.measures.rider.sick[0])),
     column("sick on the platform [%]", 2, |of| Some(of.measures.rider.sick[1])),
     column("stroke used [%]", 1, |of| fit(of).map(|_| 100.0 * of.measures.effort.stroke_used)),
@@ -83,8 +84,4 @@ fn largest(of: &Evaluated, which: usize) -> Option<f64> {
 fn rates(of: &Evaluated, value: f64) -> Option<f64> {
     let has_rate = of.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_rate);
     has_rate.then_some(100.0 * value)
-}
-
-fn mean(values: [f64; 3]) -> f64 {
-    values.iter().sum::<f64>() / 3.0
 }

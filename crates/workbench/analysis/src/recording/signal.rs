@@ -1,5 +1,7 @@
 //! Statistics of signals.
 
+pub use moris_simulation::measures::statistics::median;
+
 /// Correlation above which two signals count as correlated.
 const TOGETHER: f64 = 0.7;
 /// Time constant of the smoothing before turns are detected \[s\].
@@ -10,12 +12,6 @@ pub fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values
-}
-
-/// The median of at least one value; the upper one of two in the middle.
-pub fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let values = sorted(values);
-    values[values.len() / 2]
 }
 
 /// The least and the greatest value.

@@ -23,6 +23,7 @@
 //! rest scores 1 on any recording, so that scaling everything down to zero
 //! gains nothing. False cues on channels with no desired motion count as they are sensed.
 
+use moris_simulation::measures::statistics::rms;
 use std::sync::OnceLock;
 
 use moris_simulation::measures::comfort::{Reference, divisions};
@@ -417,5 +418,5 @@ fn channels(force: Vector3<f64>, rate: Vector3<f64>) -> Channels<f64> {
 fn sensed_rms(k: usize, signal: &[f64], step: f64) -> f64 {
     let (organ, threshold) = if k < 3 { (&OTOLITHS, FORCE_THRESHOLDS[k]) } else { (&CANALS, RATE_THRESHOLDS[k - 3]) };
     let sensed = sensed(organ, signal, 0.0, step);
-    (sensed.iter().map(|value| value * value).sum::<f64>() / sensed.len() as f64).sqrt() / threshold
+    rms(sensed.iter().copied()) / threshold
 }

@@ -3,6 +3,7 @@
 use moris_interface::{Group as _, Kind, Row};
 use moris_setup::{Setup, all};
 use moris_simulation::frequency_response::channel::name;
+use moris_simulation::measures::statistics::mean_of_any;
 use moris_washout::Parameters;
 use moris_washout::platform::reach::Axis;
 
@@ -327,18 +328,12 @@ fn counting(results: &[RecordingResult]) -> Vec<Cost> {
     if unseen.is_empty() { results.iter().filter_map(|result| result.tuned).collect() } else { unseen }
 }
 
-/// Mean of a measure; none of nothing.
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
-    (count > 0).then(|| sum / f64::from(count))
-}
-
 /// Index of the strategy with the least mean error on recordings that were not tuned on, or where
 /// there are none on those that were. None where no strategy has a result.
 pub fn winner(strategies: &[OfStrategy]) -> Option<usize> {
     let error = |index: usize| {
         let costs = counting(strategies[index].results.as_ref()?);
-        Some((index, mean(costs.iter().map(|cost| cost.error))?))
+        Some((index, mean_of_any(costs.iter().map(|cost| cost.error))?))
     };
     let least = |best: (usize, f64), next: (usize, f64)| if next.1 < best.1 { next } else { best };
     (0..strategies.len()).filter_map(error).reduce(least).map(|(index, _)| index)
@@ -351,14 +346,15 @@ pub fn strategies(strategies: &[OfStrategy]) -> String {
             return [strategy.name.as_str(), "none found", "", "", "", "", ""].map(str::to_owned);
         };
         let error = |of: fn(&RecordingResult) -> Option<Cost>| {
-            let mean = mean(results.iter().filter_map(of).map(|cost| cost.error));
+            let mean = mean_of_any(results.iter().filter_map(of).map(|cost| cost.error));
             or_undefined(mean.map(|error| format!("{error:.3}")))
         };
         let costs = counting(results);
         let axes = || costs.iter().flat_map(|cost| cost.shape.axes).flatten();
-        let shape = mean(axes().map(|axis| axis.shape)).map(|shape| format!("{shape:.2}"));
-        let inverted = mean(axes().map(|axis| axis.inverted)).map(|inverted| format!("{:.1} %", 100.0 * inverted));
-        let size = mean(axes().map(|axis| axis.size.ln())).map(|size| format!("{:.2}", size.exp()));
+        let shape = mean_of_any(axes().map(|axis| axis.shape)).map(|shape| format!("{shape:.2}"));
+        let inverted =
+            mean_of_any(axes().map(|axis| axis.inverted)).map(|inverted| format!("{:.1} %", 100.0 * inverted));
+        let size = mean_of_any(axes().map(|axis| axis.size.ln())).map(|size| format!("{:.2}", size.exp()));
         [
             strategy.name.clone(),
             error(|result| Some(result.before)),

@@ -1,5 +1,6 @@
 //! The rows of the bench as a page.
 
+use moris_simulation::measures::statistics::mean_of_any;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -8,7 +9,7 @@ use moris_analysis::bench::columns::COLUMNS;
 use moris_analysis::bench::run::Row;
 use moris_pages::report::{PageTable, tables_html};
 
-use super::table::{Figure, HEADS, groups, mean, means};
+use super::table::{Figure, HEADS, groups, means};
 use crate::text_table::or_undefined;
 
 /// Writes the page: means over all, then the errors by drive and by rig, with the bound and the
@@ -47,7 +48,7 @@ fn by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl Fn(&Row)
     let line = |group: &[&Row], figure: Figure| -> Vec<String> {
         let of = |one: &&str| {
             let errors = group.iter().filter(|row| name(row) == *one).filter_map(|row| horizontal(row, figure));
-            or_undefined(mean(errors).map(|error| format!("{error:.2}")))
+            or_undefined(mean_of_any(errors).map(|error| format!("{error:.2}")))
         };
         names.iter().map(of).collect()
     };

@@ -1,5 +1,6 @@
 //! The rows of the bench as CSV, and their means for the terminal.
 
+use moris_simulation::measures::statistics::mean_of_any;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -145,11 +146,11 @@ fn line(group: &[&Row], error: Figure) -> Vec<String> {
         ratio(Figure::Rest),
         ratio(Figure::Bound),
         ratio(Figure::Best),
-        own(number(mean(both(["shape x", "shape y"])), 2)),
+        own(number(mean_of_any(both(["shape x", "shape y"])), 2)),
         own(number(geometric_mean(both(["size x", "size y"]).filter(|size| *size > 0.0)), 2)),
-        own(percent(mean(both(["inverted x [%]", "inverted y [%]"])))),
-        own(number(mean(one("jolt [m/s2]")), 2)),
-        own(percent(mean(one("limited [%]")))),
+        own(percent(mean_of_any(both(["inverted x [%]", "inverted y [%]"])))),
+        own(number(mean_of_any(one("jolt [m/s2]")), 2)),
+        own(percent(mean_of_any(one("limited [%]")))),
     ]
 }
 
@@ -159,12 +160,6 @@ const BEST: [&str; 3] = ["best x [m/s2]", "best y [m/s2]", "best z [m/s2]"];
 /// Least desired force, or bound, with which a ratio means anything \[m/s2\].
 const LEAST: f64 = 0.03;
 
-/// The arithmetic mean; none of no values.
-pub fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-    (count > 0.0).then(|| sum / count)
-}
-
 fn geometric_mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    mean(values.map(|value| value.max(1e-9).ln())).map(f64::exp)
+    mean_of_any(values.map(|value| value.max(1e-9).ln())).map(f64::exp)
 }

@@ -1,5 +1,6 @@
 //! Wrong units, signs and frames of a foreign motion.
 
+use crate::measures::statistics::median;
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
 
@@ -248,10 +249,4 @@ fn likeness<I: Iterator<Item = [f64; 2]>>(pairs: impl Fn() -> I, least: f64) -> 
     let [desired, felt, both] = [product(0, 0), product(1, 1), product(0, 1)];
     let is_enough = count > 1.0 && (desired / count).sqrt() >= least && felt > 0.0;
     is_enough.then(|| Likeness { correlation: both / (desired * felt).sqrt(), size: both / desired })
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

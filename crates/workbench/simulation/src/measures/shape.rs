@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::cues::FORCE_THRESHOLDS;
 use super::run::axis;
-use super::statistics::correlation;
+use super::statistics::{correlation, rms};
 use super::zero_phase::zero_phase;
 
 /// Frequency below which a force is a cue of the vehicle's manoeuvre \[Hz\].
@@ -72,7 +72,9 @@ pub struct Desired {
 impl Desired {
     /// The desired specific force \[m/s2\], sampled every `step` seconds.
     pub fn new(force: &[[f64; 3]], step: f64) -> Self {
-        let counting = |k: usize| below_cue_frequency(&axis(force, k), step).filter(|low| rms(low) > LEAST_DESIRED);
+        let counting = |k: usize| {
+            below_cue_frequency(&axis(force, k), step).filter(|low| rms(low.iter().copied()) > LEAST_DESIRED)
+        };
         Desired { step, axes: from_fn(counting) }
     }
 
@@ -112,13 +114,9 @@ fn axis_shape(desired: &[f64], felt: &[f64]) -> AxisShape {
     let is_inverted = |(d, f): (&f64, &f64)| f.abs() > FORCE_THRESHOLDS[0] && f * d < 0.0;
     AxisShape {
         shape: correlation(desired, felt).unwrap_or(0.0),
-        size: rms(felt) / rms(desired),
+        size: rms(felt.iter().copied()) / rms(desired.iter().copied()),
         inverted: desired.iter().zip(felt).filter(|&pair| is_inverted(pair)).count() as f64 / desired.len() as f64,
     }
-}
-
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// The signal below [`CUE_FREQUENCY`], without a shift in time. None where the sampling is too
