@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
+use crate::account::Gain;
 use crate::smooth::{LAG, LATEST, LATEST_LAG};
 use crate::ticks::TICK;
 
@@ -49,6 +50,8 @@ struct Made {
     /// False after an interruption.
     is_known: bool,
     is_made: bool,
+    /// The preview was given.
+    is_given: bool,
     /// Force of the earlier passes at the times to come \[m/s2\].
     passes: [f64; AHEAD],
     /// Present force less that of the earlier passes \[m/s2\].
@@ -139,6 +142,8 @@ pub struct Record {
     /// of a trend, and of a wave.
     plain: [[f64; PLAIN]; COMPARED.len()],
     waves: [Wave; COMPARED.len()],
+    /// Of the forecasts whose times have come with the latest tick.
+    gain: Gain,
 }
 
 impl Default for Record {
@@ -151,6 +156,7 @@ impl Default for Record {
             error_now: 0.0,
             plain: [[0.0; PLAIN]; COMPARED.len()],
             waves: [Wave::default(); COMPARED.len()],
+            gain: Gain::default(),
         }
     }
 }
@@ -181,8 +187,16 @@ impl Record {
         self.error_now += TICK / NOW_TIME * (difference * difference - self.error_now);
         let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried(LASTING[k]) * difference);
         let forces = COMPARED.map(|k| forecast[k]);
-        self.made[self.latest] =
-            Made { is_known: true, is_made: true, passes: *passes, difference, forces, present, waves };
+        self.made[self.latest] = Made {
+            is_known: true,
+            is_made: true,
+            is_given: false,
+            passes: *passes,
+            difference,
+            forces,
+            present,
+            waves,
+        };
         Some(forecast)
     }
 
@@ -197,6 +211,7 @@ impl Record {
             }
         }
         let [mut square, mut without, mut count] = [0.0; 3];
+        self.gain = Gain::default();
         for (k, element) in COMPARED.into_iter().enumerate() {
             let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
             let [held, slope, _] = made.present;
@@ -205,7 +220,14 @@ impl Record {
             if made.is_made {
                 let best = (0..PLAIN).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);
                 without += squares[best];
-                square += (made.forces[k] - truth) * (made.forces[k] - truth);
+                let error = (made.forces[k] - truth) * (made.forces[k] - truth);
+                square += error;
+                let gain = (squares[best] - error) / COMPARED.len() as f64;
+                if made.is_given {
+                    self.gain.given += gain;
+                } else {
+                    self.gain.made += gain;
+                }
                 count += 1.0;
             }
             if made.is_known {
@@ -222,6 +244,16 @@ impl Record {
         } else {
             self.error = self.error_without_memory() + FLOOR;
         }
+    }
+
+    /// Gain of the forecasts whose times have come with the latest tick.
+    pub fn gain(&self) -> Gain {
+        self.gain
+    }
+
+    /// Says that the latest forecast is given.
+    pub fn give(&mut self) {
+        self.made[self.latest].is_given = true;
     }
 
     /// The weight that the forecast deserves against those without memory, from 0 to 1.

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use moris_washout::Preview;
 use serde::{Deserialize, Serialize};
 
+use crate::account::Account;
 use crate::forecast::{AHEAD, Record, SPACING, time_ahead};
 use crate::line::{CAPACITY, Line, Point};
 use crate::pass::{PASSES, Pass, UNKNOWN, fade};
@@ -36,6 +37,7 @@ pub struct Laps {
     forecast: Option<[[f64; AHEAD]; 2]>,
     records: [Record; 2],
     search: Search,
+    account: Account,
     is_given: bool,
 }
 
@@ -83,8 +85,8 @@ impl Laps {
     }
 
     fn parts(&mut self) -> (&mut Ticks, Whole<'_>) {
-        let Laps { ticks, smooth, line, passes, forecast, records, search, is_given } = self;
-        (ticks, Whole { smooth, line, passes, forecast, records, search, is_given })
+        let Laps { ticks, smooth, line, passes, forecast, records, search, account, is_given } = self;
+        (ticks, Whole { smooth, line, passes, forecast, records, search, account, is_given })
     }
 
     /// Number of earlier passes of this place that are followed.
@@ -132,6 +134,7 @@ struct Whole<'a> {
     forecast: &'a mut Option<[[f64; AHEAD]; 2]>,
     records: &'a mut [Record; 2],
     search: &'a mut Search,
+    account: &'a mut Account,
     is_given: &'a mut bool,
 }
 
@@ -181,8 +184,12 @@ impl Whole<'_> {
         let surge = surge.tick(point.force[0], held[0], of_axis(0));
         let sway = sway.tick(point.force[1], held[1], of_axis(1));
         *self.forecast = surge.zip(sway).map(|(surge, sway)| [surge, sway]);
-        let trust = overall_trust(self.records);
-        *self.is_given = self.forecast.is_some() && trust > GIVEN[usize::from(*self.is_given)];
+        self.account.tick(point.force, [self.records[0].gain(), self.records[1].gain()]);
+        let is_trusted = overall_trust(self.records) > GIVEN[usize::from(*self.is_given)];
+        *self.is_given = self.forecast.is_some() && is_trusted && self.account.allows(*self.is_given);
+        if *self.is_given {
+            self.records.iter_mut().for_each(Record::give);
+        }
     }
 
     /// Keeps the latest of passes that have come together, and gives up those that are not past.

@@ -9,21 +9,22 @@
 //! use moris_laps::{Laps, Sample};
 //!
 //! let mut laps = Laps::new();
-//! // Four rounds of 60 s on a circle, with braking and accelerating.
+//! // Four rounds of 60 s on a circle, with brakes and throttle in turn.
+//! let surge = |angle: f64| 2.0 * (4.0 * (13.0 * angle).sin()).tanh();
 //! for k in 0..24_000 {
 //!     let angle = std::f64::consts::TAU * 0.01 * f64::from(k) / 60.0;
 //!     laps.step(&Sample {
 //!         step: 0.01,
 //!         position: [100.0 * angle.cos(), 100.0 * angle.sin(), 0.0],
 //!         speed: None,
-//!         force: [2.0 * (5.0 * angle).sin(), 1.1],
+//!         force: [surge(angle), 1.1],
 //!     });
 //! }
 //! let preview = laps.preview();
 //! assert_eq!(preview.count, 20);
 //! // 1 s from now, at the beginning of the fifth round.
 //! let angle = std::f64::consts::TAU / 60.0;
-//! assert!((preview.surge[4] - 2.0 * (5.0 * angle).sin()).abs() < 0.1);
+//! assert!((preview.surge[4] - surge(angle)).abs() < 0.1);
 //! assert!(laps.trust() > 0.9);
 //! ```
 //!
@@ -33,9 +34,11 @@
 //!   remembered.
 //! - `line` is the memory: a ring of points, found by place.
 //! - `search` finds earlier passes of a place, and `pass` follows one of them beside the vehicle.
+//! - `account` keeps account of what the preview has gained and lost, and bounds the loss.
 //! - `forecast` makes the forecast of an axis of them, and compares it with what came.
 //! - `text` writes the memory as text, and reads it.
 
+mod account;
 mod forecast;
 mod laps;
 mod line;

@@ -79,11 +79,11 @@ fn a_curve_driven_at_another_pace_has_its_lateral_force_by_the_square() {
             step: STEP,
             position,
             speed: Some(speed),
-            force: [0.0, speed * speed / 50.0 * (1.0 + 0.5 * (8.0 * angle).sin())],
+            force: [0.0, speed * speed / 50.0 * (1.0 + (6.0 * angle).sin())],
         }
     };
     let turn = |speed: f64| (std::f64::consts::TAU * 50.0 / speed / STEP) as usize;
-    let slow = (0..2 * turn(10.0)).map(|k| circle(k, 10.0));
+    let slow = (0..4 * turn(10.0)).map(|k| circle(k, 10.0));
     let fast = (0..turn(13.0) + 300).map(|k| circle(k, 13.0));
     let preview = after(&slow.chain(fast).collect::<Vec<_>>()).preview();
     assert_eq!(preview.count, 20);
@@ -242,13 +242,13 @@ fn a_mirrored_track_is_another_one() {
 
 #[test]
 fn a_memory_of_a_text_knows_the_road_from_the_first_lap_on() {
-    let learned = after(&laps(1.5, 1.0));
+    let learned = after(&laps_with_pulses(1.5));
     let text = learned.text();
     let mut memory = Laps::of_text(&text).unwrap();
     assert!(memory.text() == text);
     assert_eq!((memory.preview().count, memory.trust()), (0, 0.0));
     let (error, given) = {
-        let samples = laps(1.0, 0.5);
+        let samples = laps_with_pulses(1.0);
         let ahead = (1.0 / STEP) as usize;
         let [mut error, mut force, mut given] = [0.0; 3];
         for k in 0..samples.len() - ahead {

@@ -65,3 +65,12 @@ fn wrong_passes_cost_nothing_on_a_busy_ride() {
         assert_no_worse(name, &samples, &parameters, 90.0);
     }
 }
+
+#[test]
+fn a_vehicle_that_betrays_each_preview_costs_nothing_in_the_long_run() {
+    let parameters = presets::parameters(presets::PREVIEW);
+    for patience in [1.0, 5.0] {
+        let samples = wrong::betrayed(&busy_laps(7.0), patience);
+        assert_no_worse(&format!("betrayed after {patience} s"), &samples, &parameters, 90.0);
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use moris_laps::Sample;
+use moris_laps::{Laps, Sample};
 
 use crate::track::{STEP, mirrored};
 
@@ -43,6 +43,42 @@ fn mirrored_from(samples: &[Sample], seconds: f64) -> Vec<Sample> {
 fn alternating(samples: &[Sample], seconds: f64) -> Vec<Sample> {
     let sign = |k: usize| if (k / count(seconds)).is_multiple_of(2) { 1.0 } else { -1.0 };
     with_forces(samples, |k| samples[k].force.map(|force| sign(k) * force))
+}
+
+/// Forces times another factor after each time of so many seconds.
+fn with_factors(samples: &[Sample], seconds: f64) -> Vec<Sample> {
+    const FACTORS: [f64; 8] = [1.0, -0.5, 1.0, 0.3, 1.5, -1.0, 0.0, 1.0];
+    with_forces(samples, |k| samples[k].force.map(|force| FACTORS[k / count(seconds) % 8] * force))
+}
+
+/// Forces whose sign changes each time once a memory has given its preview for so many seconds.
+pub fn betrayed(samples: &[Sample], seconds: f64) -> Vec<Sample> {
+    let mut memory = Laps::new();
+    let (mut sign, mut given) = (1.0, 0);
+    let betray = |sample: &Sample| {
+        given = if memory.preview().count > 0 { given + 1 } else { 0 };
+        if given > count(seconds) {
+            (sign, given) = (-sign, 0);
+        }
+        let sample = Sample { force: sample.force.map(|force| sign * force), ..*sample };
+        memory.step(&sample);
+        sample
+    };
+    samples.iter().map(betray).collect()
+}
+
+/// A line beside the track for 23 s every 70 s, with its forces in the other order.
+fn on_another_line(samples: &[Sample], aside: f64) -> Vec<Sample> {
+    let line = |(k, sample): (usize, &Sample)| {
+        let since = (k as f64 * STEP) % 70.0 - 40.0;
+        let Some(next) = samples.get(k + 1).filter(|_| (0.0..23.0).contains(&since)) else { return *sample };
+        let [dx, dy] = [0, 1].map(|axis| next.position[axis] - sample.position[axis]);
+        let left = aside * (0.5 * since).min(0.5 * (23.0 - since)).min(1.0) / dx.hypot(dy).max(1e-6);
+        let [x, y, z] = sample.position;
+        let force = samples[(k + count(23.0 - 2.0 * since)).min(samples.len() - 1)].force;
+        Sample { position: [x - left * dy, y + left * dx, z], force, ..*sample }
+    };
+    samples.iter().enumerate().map(line).collect()
 }
 
 /// Strong sines first, and then a fifth of the forces: for so many seconds each.
@@ -140,12 +176,18 @@ pub fn all(samples: &[Sample], lap: f64) -> Vec<(&'static str, Vec<Sample>)> {
         ("shuffled", shuffled(samples, 24.0)),
         ("late", late(samples, 20.0)),
         ("mirrored", mirrored_from(samples, half)),
-        ("alternating", alternating(samples, 17.0)),
+        ("alternating each 17 s", alternating(samples, 17.0)),
+        ("alternating each 20 s", alternating(samples, 20.0)),
+        ("alternating each 50 s", alternating(samples, 50.0)),
+        ("alternating each 100 s", alternating(samples, 100.0)),
+        ("with other factors", with_factors(samples, 30.0)),
+        ("on another line", on_another_line(samples, 4.0)),
         ("strong first", strong_and_weak(samples, half, 5.0)),
         ("strong and weak", strong_and_weak(samples, lap, 10.0)),
         ("spun", spun(samples)),
         ("rewound", rewound(samples)),
-        ("teleported", teleported(samples, 20.0)),
+        ("teleported each 20 s", teleported(samples, 20.0)),
+        ("teleported each 5 s", teleported(samples, 5.0)),
         ("misplaced", misplaced(samples, 20.0)),
         ("in the pit lane", in_the_pit_lane(samples, 4.0)),
         ("slower", changed(samples, 0.6, 0.4)),
