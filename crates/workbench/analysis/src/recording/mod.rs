@@ -52,7 +52,7 @@ use moris_washout::{Input, Parameters};
 
 use crate::message::Message;
 use axes::convert;
-use checks::{consistency, dead, exchanged, frozen, outliers, unusual};
+use checks::{consistency, dead, exchanged, frozen, interleaved, outliers, unusual};
 pub(crate) use columns::units;
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
@@ -110,6 +110,9 @@ impl Recording {
     }
 
     fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+        if let Some(reason) = interleaved::refusal(&table) {
+            return Err(table.refused(reason));
+        }
         laps::choose(&mut table, conventions)?;
         let outliers = outliers::check(&mut table, conventions.repair)?;
         let (table, mut warnings) = sampling::at_equal_steps(table, conventions)?;

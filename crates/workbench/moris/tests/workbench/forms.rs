@@ -112,8 +112,113 @@ fn separators_and_headers_in_any_form_are_read() {
     let mut rows = format!("{}\n", quoted.join(" "));
     body.iter().enumerate().for_each(|(k, line)| writeln!(rows, "\"{}\" {}", k + 1, line.replace(',', " ")).unwrap());
     assert_is_the_car(read(&rows, &plain()), "R");
+    let mut rows = format!("{first}\n");
+    body.iter().enumerate().for_each(|(k, line)| writeln!(rows, "{},{line}", k + 1).unwrap());
+    assert_is_the_car(read(&rows, &plain()), "R with commas");
     let message = read(&body.join("\n"), &plain()).unwrap_err();
     assert!(message.contains("begins with numbers"), "{message}");
+}
+
+/// What spreadsheets, consoles and measuring programs make of the same ride.
+#[test]
+fn texts_of_consoles_and_measuring_programs_are_read() {
+    let comma = table(&HEADER.join(","), ",", digits);
+    let names = HEADER.join("\t");
+    let quoted: Vec<String> = comma.lines().map(|line| format!("\"{line}\"")).collect();
+    let labelled = |mark: char, separator: &'static str| {
+        let text = table("", separator, |column, value| format!("{}{mark}{value:.6}", HEADER[column]));
+        text.trim_start().to_owned()
+    };
+    let monitor: Vec<String> = comma.lines().map(|line| format!("12:30:00.250 -> {line}")).collect();
+    let units = "s,m/s2,m/s2,m/s2,rad/s,rad/s,rad/s,m/s";
+    let (first, rest) = comma.split_once('\n').unwrap();
+    let with_units = |column: usize, value: f64| match column {
+        0 => format!("{value:.2} sec"),
+        _ => digits(column, value),
+    };
+    let fortran = |_: usize, value: f64| format!("{value:.12E}").replace('E', "D");
+    let utf16 = |text: &str, mark: bool, bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
+        mark.then_some(0xfeff).into_iter().chain(text.encode_utf16()).flat_map(bytes).collect()
+    };
+    for (name, text) in [
+        ("lines in quotation marks", quoted.join("\n")),
+        ("tabulators beside commas", table(&HEADER.join(",\t"), ",\t", digits)),
+        ("names before values", labelled(':', ",")),
+        ("names and signs of equality", labelled('=', " ")),
+        ("a serial monitor's clock", monitor.join("\n")),
+        ("units above the names", format!("{units}\n{comma}")),
+        ("descriptions above the units", format!("{first}\na,b,c,d,e,f,g,h\n{units}\n{rest}")),
+        ("a padded end of a preamble", format!("***End***{}\n{}", "\t".repeat(8), table(&names, "\t", digits))),
+        ("durations of MATLAB", table(&HEADER.join(","), ",", with_units)),
+        ("Fortran", table(&HEADER.join(" "), " ", fortran)),
+    ] {
+        assert_is_the_car(read(&text, &plain()), name);
+    }
+    for (mark, bytes) in
+        [(true, u16::to_le_bytes as fn(u16) -> [u8; 2]), (true, u16::to_be_bytes), (false, u16::to_le_bytes)]
+    {
+        assert_is_the_car(read_as("drive.csv", &utf16(&comma, mark, bytes), &plain()), "UTF-16");
+    }
+}
+
+#[test]
+fn units_in_names_and_words_are_read() {
+    let degrees = |column: usize, value: f64| match column {
+        0 => format!("{:.0}", 1e3 * value),
+        1..4 => format!("{:.7}", value / GRAVITY),
+        4..7 => format!("{:.6}", value.to_degrees()),
+        _ => format!("{:.5}", 3.6 * value),
+    };
+    let columns_of = |names: [&str; 8]| {
+        let keys = Quantity::ALL.into_iter().filter(|key| HEADER.contains(&key.key())).zip(names);
+        columns(&keys.collect::<Vec<_>>())
+    };
+    for names in [
+        ["time_ms", "ax_g", "ay_g", "az_g", "wx_dps", "wy_deg_s", "wz_deg_per_s", "speed_kmh"],
+        ["TimestampMS", "ax G", "ay g", "az.g", "GYRO_X_DPS", "GYRO_Y_DPS", "GYRO_Z_DPS", "SPEED_KPH"],
+    ] {
+        assert_is_the_car(read(&table(&names.join(","), ",", degrees), &columns_of(names)), names[0]);
+    }
+    for header in [
+        "time/ms,ax/g,ay/g,az/g,wx/(deg/s),wy/(deg/s),wz/(deg/s),speed/(km/h)",
+        "time in ms,ax in g,ay in g,az in g,wx in deg/s,wy in deg/s,wz in deg/s,speed in km/h",
+        "time <ms>,ax {g},ay {g},az {g},wx {°/s},wy {Â°/s},wz {?/s},speed (kilometers per hour)",
+    ] {
+        assert_is_the_car(read(&table(header, ",", degrees), &plain()), header);
+    }
+    // An option overrides the end of a name, which may mean something else.
+    let text = table("time,ax_g,ay_g,az_g,wx,wy,wz,speed", ",", digits);
+    let mut options =
+        columns(&[(Quantity::Force(0), "ax_g"), (Quantity::Force(1), "ay_g"), (Quantity::Force(2), "az_g")]);
+    let message = read(&text, &options).unwrap_err();
+    assert!(message.contains("use --force-unit m/s2"), "{message}");
+    options.force_unit = Some(ForceUnit::MetrePerSecondSquared);
+    assert_is_the_car(read(&text, &options), "an option");
+}
+
+#[test]
+fn times_in_two_columns_in_ticks_and_of_counters_are_read() {
+    let time = |name: &str| columns(&[(Quantity::Time, name)]);
+    let rest = HEADER[1..].join(",");
+    let written = |header: &str, write: &dyn Fn(f64) -> String| {
+        let text = with_times(write);
+        format!("{header},{rest}\n{}", text.split_once('\n').unwrap().1)
+    };
+    let parts = |t: f64| (t.floor(), (t.fract() * 1e3).round());
+    for (name, text, options) in [
+        ("milliseconds", written("time,ms", &|t| format!("12:30:{:02},{}", parts(t).0, parts(t).1)), time("time + ms")),
+        ("a date", written("date,clock", &|t| format!("01.05.2026,12:30:{t:05.2}")), time("date + clock")),
+        ("ticks", written("ticks", &|t| format!("{:.0}", 6.385e17 + 1e7 * t)), time("ticks / 10000000")),
+        ("a counter", written("n", &|t| format!("{}", (50.0 * t).round() as u64 % 256)), time("n / 50")),
+        ("ISO durations", written("time", &|t| format!("PT{t:.2}S")), plain()),
+    ] {
+        assert_is_the_car(read(&text, &options), name);
+    }
+    let ticks = written("ticks", &|t| format!("{:.0}", 6.385e17 + 1e7 * t));
+    let message = read(&ticks, &time("ticks")).unwrap_err();
+    assert!(message.contains("use --columns \"time=ticks / 10000000\""), "{message}");
+    let unread = read(&with_times(|t| format!("12:30:{:.0}:{:.0}", parts(t).0, parts(t).1)), &plain()).unwrap_err();
+    assert!(unread.contains("which is no time") && unread.contains("--rate HERTZ"), "{unread}");
 }
 
 #[test]

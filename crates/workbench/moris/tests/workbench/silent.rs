@@ -224,3 +224,34 @@ fn a_clock_that_jumps_is_no_gap() {
     });
     assert!(count.contains("if it counts samples, use --rate"), "{count}");
 }
+
+/// Forces of the opposite sign, as phones write gravity, look like axes that point down.
+#[test]
+fn wrong_signs_are_named_without_a_speed() {
+    let header = "time,ax,ay,az,wx,wy,wz";
+    let said = |change: &dyn Fn(usize, Sample) -> Sample| said_of(header, &ConventionOptions::default(), change);
+    let opposite = said(&|_, sample| Sample { force: sample.force.map(|force| -force), ..sample });
+    assert!(opposite.contains("use --columns \"ax=-ax,ay=-ay,az=-az\""), "{opposite}");
+    let [down, left] = [-1.0, 1.0].map(|sign| {
+        said(&|_, sample| {
+            let ([fx, fy, fz], [wx, wy, wz]) = (sample.force, sample.rate);
+            Sample { force: [fx, -fy, sign * fz], rate: [wx, -wy, -wz], ..sample }
+        })
+    });
+    assert!(down.contains("use --axes forward-right-down"), "{down}");
+    assert!(!left.contains("wrong sign"), "{left}");
+    let turned = said(&|_, mut sample| {
+        sample.rate[2] *= -1.0;
+        sample
+    });
+    assert!(turned.contains("backward: one of them has the wrong sign") && turned.contains("wz=-wz"), "{turned}");
+}
+
+#[test]
+fn samples_of_two_sensors_by_turns_are_refused() {
+    let by_turns = said(|k, sample| {
+        let other = Sample { force: [sample.force[1], sample.force[0], GRAVITY], rate: [0.0; 3], ..sample };
+        if k % 2 == 1 { other } else { sample }
+    });
+    assert!(by_turns.contains("the samples are those of 2 sensors by turns"), "{by_turns}");
+}

@@ -44,6 +44,8 @@ const PACE: f64 = 1.8;
 const FITS: f64 = 0.1;
 /// Ratio below which a sign is wrong. Two-wheelers have a small lateral force of either sign.
 const OPPOSITE: f64 = -0.5;
+/// Speed of bends below which a sign is wrong \[m/s\].
+const BACKWARD: f64 = -3.0;
 
 /// Warnings that name the options for channels that contradict each other.
 pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
@@ -58,8 +60,30 @@ pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> V
         warnings.extend(sway.and_then(|sway| bends(table, conventions, sway, is_explained)));
         warnings.extend(reversing.map(Message::from));
     }
+    if !table.columns.contains_key(&Quantity::Speed) && conventions.mounting.is_none() {
+        let speed = speed_of_bends(inputs, table.step());
+        warnings.extend(speed.filter(|speed| *speed < BACKWARD).map(|speed| {
+            let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|of| turned(conventions, of));
+            message![
+                "In bends the lateral force and the yaw rate are those of {speed:.0} m/s, backward: one of them has the \
+                 wrong sign. Use the one that applies: ",
+                rate,
+                " where the rate is positive to the right, or ",
+                force,
+                " where the force is."
+            ]
+        }));
+    }
     warnings.extend(angles_and_rates(table, inputs, conventions));
     warnings
+}
+
+/// The speed at which the lateral force of bends is speed times yaw rate \[m/s\]; none where the
+/// two do not go together.
+pub fn speed_of_bends(inputs: &[Input], step: f64) -> Option<f64> {
+    let yaw = smooth(inputs.iter().map(|input| input.angular_velocity.z), step);
+    let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
+    if root_mean_square(&lateral) < LEAST_SWAY { None } else { regression(&yaw, &lateral) }
 }
 
 /// True for a ratio that slopes and bias explain.
@@ -326,13 +350,15 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
     let ratios: Vec<(usize, f64)> = (0..3).filter_map(ratio).collect();
     let opposite = |&(axis, ratio): &(usize, f64)| {
         let name = ["roll", "pitch", "yaw"][axis];
-        let remedy = turned(conventions, Quantity::Rate(axis));
+        let [remedy, other] = [Quantity::Rate(axis), Quantity::Angle(axis)].map(|of| turned(conventions, of));
         (ratio < OPPOSITE).then(|| {
             let key = Quantity::Rate(axis).key();
             message![
                 "The angular velocity {key} is {ratio:.1} times the derivative of {name}: one of them has the wrong sign. If \
                  it is the angular velocity, ",
                 remedy,
+                "; if it is the angle, ",
+                other,
                 "."
             ]
         })

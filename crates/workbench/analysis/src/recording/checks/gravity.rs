@@ -4,6 +4,7 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
+use super::consistency::speed_of_bends;
 use super::remedy;
 use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Axes, Conventions, Gravity, Quantity, Unit};
@@ -41,7 +42,7 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
             message![format!("which is gravity in {}, not in {}: ", other.word, unit.word), remedy]
         }
         None if size > COUNTS => counts(size, conventions),
-        None => meaning(&median, conventions),
+        None => meaning(&median, inputs, table.step(), conventions),
     };
     let (x, y, z, unit) = (raw.x, raw.y * signs[1], raw.z * signs[2], unit.word);
     let turned = if is_mounted { message![", turned by ", named("mounting"), ","] } else { Message::default() };
@@ -84,12 +85,24 @@ fn counts(size: f64, conventions: &Conventions) -> Message {
 }
 
 /// The meaning of a median in the right unit that is not gravity along z.
-fn meaning(median: &Vector3<f64>, conventions: &Conventions) -> Message {
+fn meaning(median: &Vector3<f64>, inputs: &[Input], step: f64, conventions: &Conventions) -> Message {
     if conventions.gravity == Gravity::Removed {
         let (removed, included) = (given("gravity", "removed"), given("gravity", "included"));
         message!["which includes gravity although ", removed, " was given: use ", included]
     } else if (median + Vector3::new(0.0, 0.0, STANDARD_GRAVITY)).norm() < GRAVITY_TOLERANCE {
+        let opposite = || {
+            let opposite = |axis: usize| {
+                let name = conventions.column(Quantity::Force(axis));
+                let turned = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned);
+                format!("{}={turned}", Quantity::Force(axis).key())
+            };
+            given("columns", format!("\"{}\"", [0, 1, 2].map(opposite).join(",")))
+        };
         match conventions.axes {
+            // Axes that point down keep the sign of bends.
+            _ if speed_of_bends(inputs, step).is_some_and(|speed| speed < 0.0) => {
+                message!["so all forces have the opposite sign, as the bends' have: use ", opposite()]
+            }
             Axes::ForwardLeftUp => message!["so z points down: use ", given("axes", "forward-right-down")],
             Axes::ForwardRightDown => message!["so z points up: use ", given("axes", "forward-left-up")],
         }

@@ -1,6 +1,7 @@
 //! Checks of a recording in SI units and the washout's axes.
 //!
 //! - [`outliers`] finds samples that no vehicle causes.
+//! - [`interleaved`] finds samples of several sensors by turns.
 //! - `gravity`, `angles` and `rates` detect wrong units and axes.
 //! - [`consistency`] detects channels that contradict each other, with the sign that `speeds` gives
 //!   the speed. [`dead`] finds those that stand still, [`frozen`] those that stop, [`exchanged`]
@@ -13,6 +14,7 @@ pub mod dead;
 pub mod exchanged;
 pub mod frozen;
 mod gravity;
+pub mod interleaved;
 pub mod outliers;
 mod rates;
 mod speeds;
@@ -48,6 +50,8 @@ fn remedy(table: &Table, quantity: Quantity, word: &str) -> Message {
     let (unit, source) = table.unit(quantity);
     match source {
         UnitSource::Header => format!("correct the header, which gives {}", unit.word).into(),
-        UnitSource::Option | UnitSource::Default => message!["use ", given(quantity.dimension().option(), word)],
+        UnitSource::Ending | UnitSource::Option | UnitSource::Default => {
+            message!["use ", given(quantity.dimension().option(), word)]
+        }
     }
 }

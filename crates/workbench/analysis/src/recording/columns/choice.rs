@@ -13,6 +13,8 @@ use crate::recording::conventions::Conventions;
 pub enum UnitSource {
     /// The column's name, or the line of units below it.
     Header,
+    /// The end of the column's name, which an option overrides.
+    Ending,
     /// An option, or the file of conventions.
     Option,
     /// The default, which neither a name nor an option gives.

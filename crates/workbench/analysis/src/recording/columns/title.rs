@@ -2,6 +2,9 @@
 
 use super::units::any_spelled;
 
+/// Brackets around units.
+const OPENING: [char; 4] = ['[', '(', '{', '<'];
+
 /// The name of a column, and the unit in brackets behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Title {
@@ -10,6 +13,8 @@ pub struct Title {
     pub full: String,
     pub name: String,
     pub unit: Option<String>,
+    /// Behind the name without a bracket, in case it is a unit: the last part of `gyro_x_deg_s`.
+    pub endings: Vec<String>,
 }
 
 /// Likeness of a title and a name that is looked for, the best first.
@@ -24,28 +29,35 @@ pub enum Likeness {
 }
 
 impl Title {
-    /// Takes `ax [m/s2]` and `ax,m/s2` apart. Of several brackets, the first with a known unit
-    /// counts, otherwise the last. The mark of a comment before the name is no part of it.
+    /// Takes `ax [m/s2]`, `ax {m/s2}`, `ax/(m/s2)`, `ax,m/s2`, `ax:m/s2` and `ax in m/s2` apart. Of
+    /// several brackets, the first with a known unit counts, otherwise the last. The mark of a
+    /// comment before the name is no part of it.
     pub fn new(full: &str) -> Self {
         let full = full.trim();
-        let end = full.find(['[', '(']).filter(|&end| end > 0).unwrap_or(full.len());
+        let begin = full.chars().next().map_or(0, char::len_utf8);
+        let end = full[begin..].find(OPENING).map_or(full.len(), |end| begin + end);
         let behind = &full[end..];
-        let (name, after_comma) = match full[..end].trim().split_once(',') {
-            Some((name, unit)) => (name, Some(unit.trim())),
-            None => (full[..end].trim(), None),
-        };
+        let before = full[..end].trim();
+        // What stands behind a mark counts where it is a unit; a comma ends a name in any case.
+        let marked = [",", ":", "/", " in "].into_iter().find_map(|mark| {
+            let (name, unit) = before.split_once(mark)?;
+            (mark == "," || any_spelled(unit).is_some()).then_some((name, Some(unit.trim())))
+        });
+        let (name, after_mark) = marked.unwrap_or((before, None));
+        let name = if behind.is_empty() { name } else { name.trim_end_matches('/').trim_end() };
         let bare = name.trim_start_matches(['#', '%']).trim();
         let name = if bare.is_empty() { name } else { bare };
         let brackets: Vec<&str> = behind
-            .split(['[', '('])
+            .split(OPENING)
             .skip(1)
-            .filter_map(|part| Some(part[..part.find([']', ')'])?].trim()))
-            // A number in brackets is an index.
-            .filter(|unit| !unit.is_empty() && *unit != "-" && unit.parse::<usize>().is_err())
+            .filter_map(|part| Some(part[..part.find([']', ')', '}', '>'])?].trim()))
+            // A number or an axis in brackets is an index.
+            .filter(|unit| !unit.is_empty() && unit.parse::<usize>().is_err())
+            .filter(|unit| !["-", "x", "y", "z"].contains(&unit.to_lowercase().as_str()))
             .collect();
         let unit = brackets.iter().find(|unit| any_spelled(unit).is_some()).or(brackets.last()).copied();
-        let unit = unit.or(after_comma.filter(|unit| any_spelled(unit).is_some()));
-        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit: unit.map(str::to_owned) }
+        let unit = unit.or(after_mark.filter(|unit| any_spelled(unit).is_some())).map(str::to_owned);
+        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit, endings: endings(name) }
     }
 
     /// The title with its file's name before it, where there are several files.
@@ -66,5 +78,48 @@ impl Title {
         } else {
             whole.iter().chain(&short).any(in_other_case).then_some(Likeness::OtherCase)
         }
+    }
+}
+
+/// The last parts of a name: `ms` of `time_ms` and `timeMS`, `deg/s` and `s` of `gyro_x_deg_s`.
+fn endings(name: &str) -> Vec<String> {
+    let is_mark = |c: char| "_ .".contains(c);
+    let parts: Vec<&str> = name.split(is_mark).filter(|part| !part.is_empty()).collect();
+    let last = |count: usize| (parts.len() > count).then(|| parts[parts.len() - count..].join("/"));
+    // A unit of time behind a small letter.
+    let (begin, end) = name.split_at_checked(name.len().saturating_sub(2)).unwrap_or((name, ""));
+    let is_joined = begin.ends_with(char::is_lowercase) && ["MS", "US", "NS", "Ms", "Us", "Ns"].contains(&end);
+    let joined = is_joined.then(|| end.to_owned());
+    [last(3).map(|text| text.replace("/per/", "/")), last(2), last(1), joined].into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_is_a_name_and_a_unit() {
+        for title in ["ax [g]", "ax (g)", "ax {g}", "ax <g>", "ax/g", "ax/(g)", "ax:g", "ax in g", "ax,g", "# ax [g]"] {
+            let Title { name, unit, .. } = Title::new(title);
+            assert_eq!((name.as_str(), unit.as_deref()), ("ax", Some("g")), "{title}");
+        }
+        for (title, name, unit) in [
+            ("(x) [g]", "(x)", Some("g")),
+            ("G(x)", "G", None),
+            ("acc/x", "acc/x", None),
+            ("Accelerometer (z) [m/s²]", "Accelerometer", Some("m/s²")),
+            ("[s]", "[s]", None),
+        ] {
+            let found = Title::new(title);
+            assert_eq!((found.name.as_str(), found.unit.as_deref()), (name, unit), "{title}");
+        }
+    }
+
+    #[test]
+    fn a_name_may_end_with_a_unit() {
+        assert_eq!(endings("gyro_x_deg_s"), ["x/deg/s", "deg/s", "s"]);
+        assert_eq!(endings("TimestampMS"), ["MS"]);
+        assert_eq!(endings("SPEED_KPH"), ["KPH"]);
+        assert!(endings("time").is_empty() && endings("ALARMS").is_empty());
     }
 }

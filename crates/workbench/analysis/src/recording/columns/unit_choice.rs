@@ -62,7 +62,9 @@ impl Header {
         let given = conventions.unit(dimension);
         let of_option = given.map(|unit| (unit, UnitSource::Option));
         let Some(text) = &self.titles[place].unit else {
-            return Ok(of_option.unwrap_or((dimension.default_unit(), UnitSource::Default)));
+            let ending = || self.titles[place].endings.iter().find_map(|ending| dimension.spelled(ending));
+            let of_name = || ending().map(|unit| (unit, UnitSource::Ending));
+            return Ok(of_option.or_else(of_name).unwrap_or((dimension.default_unit(), UnitSource::Default)));
         };
         let (title, option) = (self.shown(place), named(dimension.option()));
         match (dimension.spelled(text), given) {
@@ -104,7 +106,9 @@ impl Header {
                 columns.iter().filter(move |column| column.quantity.dimension() == dimension && column.source == source)
             };
             let open: Vec<String> = of(UnitSource::Default).map(|column| self.shown(column.terms[0].place)).collect();
-            let stated = of(UnitSource::Header).find(|column| column.unit != dimension.default_unit());
+            let stated = of(UnitSource::Header)
+                .chain(of(UnitSource::Ending))
+                .find(|column| column.unit != dimension.default_unit());
             if let Some(stated) = stated.filter(|_| !open.is_empty()) {
                 let (title, unit) = (self.shown(stated.terms[0].place), stated.unit.word);
                 let (verb, open) = (if open.len() == 1 { "is" } else { "are" }, open.join(", "));

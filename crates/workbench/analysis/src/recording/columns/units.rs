@@ -7,6 +7,19 @@ use crate::recording::conventions::choices;
 /// A foot \[m\].
 const FOOT: f64 = 0.3048;
 
+/// Units that only headers give.
+const IN_HEADERS: [(Dimension, Unit); 9] = [
+    (Dimension::Force, Unit { word: "mm/s2", in_si: 1e-3 }),
+    (Dimension::Force, Unit { word: "cm/s2", in_si: 1e-2 }),
+    (Dimension::Rate, Unit { word: "mdeg/s", in_si: 1e-3 * 1f64.to_radians() }),
+    (Dimension::Rate, Unit { word: "mrad/s", in_si: 1e-3 }),
+    (Dimension::Speed, Unit { word: "mm/s", in_si: 1e-3 }),
+    (Dimension::Speed, Unit { word: "cm/s", in_si: 1e-2 }),
+    (Dimension::Angle, Unit { word: "mrad", in_si: 1e-3 }),
+    (Dimension::Length, Unit { word: "mm", in_si: 1e-3 }),
+    (Dimension::Length, Unit { word: "cm", in_si: 1e-2 }),
+];
+
 /// A unit of one of the quantities of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
@@ -73,14 +86,14 @@ units! {
     ForceUnit {
         /// Metres per second squared
         "m/s2" MetrePerSecondSquared = 1.0,
-            ["ms-2" "m/s/s" "m/(s2)" "mps2" "mpss" "m/sec2" "m/sec/sec" "metres/second2" "meters/second2"],
+            ["ms-2" "ms2" "m/s/s" "m/(s2)" "mps2" "mpss" "m/sec2" "m/sec/sec" "metre/second2" "meter/second2" "metres/second2" "meters/second2"],
         /// Standard gravity, 9.80665 m/s2
         "g" Gravity = STANDARD_GRAVITY, ["gs" "gee" "g0" "gn" "gforce" "g-force"],
         /// Thousandths of standard gravity
         "mg" MilliGravity = 1e-3 * STANDARD_GRAVITY, ["milli-g" "millig"],
         /// Feet per second squared
         "ft/s2" FootPerSecondSquared = FOOT,
-            ["fts-2" "fps2" "fpss" "ft/s/s" "ft/(s2)" "ft/sec2" "ft/sec/sec" "feet/s2" "feet/sec2" "feet/second2"],
+            ["fts-2" "fps2" "fpss" "ft/s/s" "ft/(s2)" "ft/sec2" "ft/sec/sec" "feet/s2" "feet/sec2" "feet/second2" "foot/second2"],
     }
 }
 
@@ -88,10 +101,10 @@ units! {
     /// Unit of the angular velocity.
     RateUnit {
         /// Radians per second
-        "rad/s" RadianPerSecond = 1.0, ["rads-1" "rps" "rad/sec" "rads/s" "rads/sec" "radian/s" "radians/s" "radians/second"],
+        "rad/s" RadianPerSecond = 1.0, ["rads-1" "rps" "rad/sec" "rads/s" "rads/sec" "radps" "radian/s" "radians/s" "radian/second" "radians/second"],
         /// Degrees per second
         "deg/s" DegreePerSecond = 1f64.to_radians(),
-            ["°/s" "°s-1" "°/sec" "dps" "degs-1" "deg/sec" "degs/s" "degree/s" "degrees/s" "degrees/sec" "degrees/second"],
+            ["°/s" "°s-1" "°/sec" "dps" "degs-1" "deg/sec" "degs/s" "degps" "degree/s" "degrees/s" "degrees/sec" "degree/second" "degrees/second"],
     }
 }
 
@@ -109,11 +122,11 @@ units! {
     /// Unit of the speed.
     SpeedUnit {
         /// Metres per second
-        "m/s" MetrePerSecond = 1.0, ["ms-1" "mps" "m/sec" "metres/second" "meters/second"],
+        "m/s" MetrePerSecond = 1.0, ["ms-1" "mps" "m/sec" "metre/second" "meter/second" "metres/second" "meters/second"],
         /// Kilometres per hour
-        "km/h" KilometrePerHour = 1.0 / 3.6, ["kmh" "kmh-1" "km/hr" "km/hour" "kph" "kmph"],
+        "km/h" KilometrePerHour = 1.0 / 3.6, ["kmh" "kmh-1" "km/hr" "km/hour" "kph" "kmph" "kilometer/hour" "kilometers/hour" "kilometres/hour"],
         /// Miles per hour
-        "mph" MilePerHour = 0.44704, ["mi/h" "miles/h" "miles/hour"],
+        "mph" MilePerHour = 0.44704, ["mi/h" "miles/h" "mile/hour" "miles/hour"],
         /// Knots
         "kn" Knot = 1852.0 / 3600.0, ["kt" "kts" "knot" "knots"],
         /// Feet per second
@@ -176,7 +189,10 @@ impl Dimension {
     pub fn spelled(self, text: &str) -> Option<Unit> {
         let plain = plain(text);
         let is_spelled = |(unit, others): &&(Unit, &[&str])| unit.word == plain || others.contains(&plain.as_str());
-        self.spelled_units().iter().find(is_spelled).map(|(unit, _)| *unit)
+        let usual = self.spelled_units().iter().find(is_spelled).map(|(unit, _)| *unit);
+        let plain = plain.replace("mdps", "mdeg/s");
+        let in_headers = || IN_HEADERS.iter().find(|(of, unit)| *of == self && unit.word == plain);
+        usual.or_else(|| in_headers().map(|(_, unit)| *unit))
     }
 }
 
@@ -186,10 +202,16 @@ pub fn any_spelled(text: &str) -> Option<(Dimension, Unit)> {
 }
 
 /// A unit in lower case, without spaces and signs of multiplication, with plain
-/// exponents: `m·s⁻²` is `ms-2`.
+/// exponents: `m·s⁻²` is `ms-2`, `meters per second squared` is `meters/second2`. Signs that were
+/// lost on the way, as in `m/s?`, `�/s` and `m/sÂ²`, are those that fit the place.
 fn plain(text: &str) -> String {
+    let lower = text.to_lowercase();
+    let text = lower.replace(" per ", "/").replace(" squared", "2");
+    let first = text.chars().find(|c| *c != 'â');
     let plain = |c: char| match c {
-        '^' | '*' | '·' | '⋅' | '.' => None,
+        '^' | '*' | '·' | '⋅' | '.' | 'â' => None,
+        '?' | '\u{fffd}' if first == Some(c) => Some('°'),
+        '?' | '\u{fffd}' => Some('2'),
         _ if c.is_whitespace() => None,
         '²' => Some('2'),
         '¹' => Some('1'),
@@ -199,7 +221,7 @@ fn plain(text: &str) -> String {
         _ => Some(c),
     };
     // The Greek letter is mapped after lowering the case, which leaves either micro sign alone.
-    text.to_lowercase().chars().filter_map(plain).collect()
+    text.chars().filter_map(plain).collect()
 }
 
 #[cfg(test)]
@@ -224,6 +246,14 @@ mod tests {
         assert_eq!(spelled("G"), Some((Dimension::Force, "g")));
         assert_eq!(spelled("m s-1"), Some((Dimension::Speed, "m/s")));
         assert_eq!((spelled("counts"), spelled("")), (None, None));
+        for text in ["meters per second squared", "m/s\u{fffd}", "m/s?", "m/sÂ²", "m/s**2"] {
+            assert_eq!(spelled(text), Some((Dimension::Force, "m/s2")), "{text}");
+        }
+        for text in ["degrees per second", "\u{fffd}/s", "?/s", "Â°/s"] {
+            assert_eq!(spelled(text), Some((Dimension::Rate, "deg/s")), "{text}");
+        }
+        let words = ["mm/s^2", "mdps", "cm/s", "kilometers per hour"].map(|text| spelled(text).map(|(_, word)| word));
+        assert_eq!(words, [Some("mm/s2"), Some("mdeg/s"), Some("cm/s"), Some("km/h")]);
     }
 
     /// No spelling belongs to two dimensions: a unit alone says the dimension that it is of.

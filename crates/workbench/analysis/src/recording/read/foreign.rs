@@ -4,10 +4,9 @@
 pub const HEAD: usize = 4096;
 
 const ZIP: &[u8] = b"PK\x03\x04";
-const UTF_16: &str = "is text in UTF-16; save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE > ride.csv";
 
 /// First bytes of formats, and what to do with their files.
-const FORMATS: [(&[&[u8]], &str); 9] = [
+const FORMATS: [(&[&[u8]], &str); 8] = [
     (&[ZIP], "is a zip archive; unpack it and pass the CSV file in it"),
     (&[b"\xd0\xcf\x11\xe0"], "is an old Excel workbook; save the sheet as CSV"),
     (
@@ -24,7 +23,6 @@ const FORMATS: [(&[&[u8]], &str); 9] = [
         "is an MDF measurement (MF4); export it as CSV, in Python: asammdf.MDF(FILE).export(\"csv\", \"ride\")",
     ),
     (&[b"SQLite format 3"], "is an SQLite database; export the table as CSV"),
-    (&[b"\xff\xfe", b"\xfe\xff"], UTF_16),
     (
         &[b"\x28\xb5\x2f\xfd", b"BZh", b"\xfd7zXZ", b"7z\xbc\xaf"],
         "is compressed; unpack it first, or compress it with gzip, which is read as it is",
@@ -40,10 +38,14 @@ pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
         Some("is an Excel workbook; save the sheet as CSV")
     } else if let Some((_, remedy)) = FORMATS.iter().find(|(first, _)| first.iter().any(|f| head.starts_with(f))) {
         Some(remedy)
-    } else if is_utf_16(head) {
-        Some(UTF_16)
-    } else if head.contains(&0) {
+    } else if head.contains(&0) && utf_16(head).is_none() {
         Some("is no text but a binary file; export the recording as CSV from the program that wrote it")
+    } else if text.starts_with(b"date ") && contains(b"base ") || text.starts_with(b"(") && contains(b") can") {
+        Some(
+            "is a log of CAN frames, which hold no signals by name; export the signals as CSV, in Python with cantools",
+        )
+    } else if text.starts_with(b"$GP") || text.starts_with(b"$GN") {
+        Some("is a log of NMEA sentences, which have no accelerations; export the accelerometer's samples as CSV")
     } else if text.starts_with(b"<") {
         Some("is XML or HTML; export the recording as CSV")
     } else if text.starts_with(b"{") || text.starts_with(b"[{") {
@@ -53,12 +55,16 @@ pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// Text in UTF-16 without a byte order mark: every other byte of ASCII is zero.
-fn is_utf_16(head: &[u8]) -> bool {
-    let head = &head[..head.len() & !1];
+/// The order of the bytes of text in UTF-16, by its mark, or as every other byte of ASCII is zero.
+pub fn utf_16(bytes: &[u8]) -> Option<fn([u8; 2]) -> u16> {
+    let head = &bytes[..bytes.len().min(HEAD) & !1];
     let zeros = |odd: usize| head.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
-    head.len() >= 8
-        && [(zeros(0), zeros(1)), (zeros(1), zeros(0))]
-            .iter()
-            .any(|&(many, none)| none == 0 && many * 10 >= head.len() / 2 * 9)
+    let is_zero = |many: usize, none: usize| head.len() >= 8 && none == 0 && many * 10 >= head.len() / 2 * 9;
+    if head.starts_with(b"\xff\xfe") || is_zero(zeros(1), zeros(0)) {
+        Some(u16::from_le_bytes)
+    } else if head.starts_with(b"\xfe\xff") || is_zero(zeros(0), zeros(1)) {
+        Some(u16::from_be_bytes)
+    } else {
+        None
+    }
 }

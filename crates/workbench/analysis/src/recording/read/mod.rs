@@ -1,8 +1,8 @@
 //! From files to rows of numbers.
 //!
 //! - [`source`] finds the files of a recording and `text` reads them, but not those that `foreign`
-//!   tells from CSV. `vbox` makes CSV of Racelogic's files, and `tagged` of logs
-//!   whose lines begin with their kind.
+//!   tells from CSV. `vbox` makes CSV of Racelogic's files, `tagged` of logs whose lines begin
+//!   with their kind, and `serial` of what microcontrollers print.
 //! - [`Sheet`] is a file with its header, before which there may be a `preamble`.
 //! - `rows` parses its lines, as `numbers` or as `time`, to [`Samples`].
 
@@ -11,6 +11,7 @@ mod numbers;
 mod preamble;
 mod rows;
 mod samples;
+mod serial;
 mod sheet;
 pub mod source;
 mod tagged;

@@ -67,7 +67,9 @@ impl Numbers {
             None => {
                 cleaned = self.cleaned(text);
                 let mark = cleaned.chars().find(|c| MARKS.contains(c));
-                (cleaned.replacen(',', ".", 1).parse::<f64>(), mark)
+                let plain = cleaned.replacen(',', ".", 1);
+                // Fortran's double precision.
+                (plain.parse::<f64>().or_else(|_| plain.replacen(['D', 'd'], "E", 1).parse()), mark)
             }
         };
         if let (Some(mark), Ok(_)) = (mark, &number)

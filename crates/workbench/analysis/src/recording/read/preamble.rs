@@ -64,7 +64,8 @@ pub fn find(text: &str, conventions: &Conventions) -> Option<Found> {
             // Words between blanks, and comments, are names only above as many numbers.
             let is_plain = separator != Separator::Blanks && !is_comment;
             let is_above = is_above_numbers(&text[end..], separator, titles.len());
-            let rank = (is_plain || is_above, is_above, titles.len());
+            let written = titles.iter().filter(|title| !title.trim().is_empty()).count();
+            let rank = (is_plain || is_above, is_above, written);
             if is_names(&titles) && widest.as_ref().is_none_or(|(other, _)| rank > *other) {
                 widest = Some((rank, found(titles)));
             }
@@ -127,7 +128,8 @@ fn without_mark(line: &str) -> (&str, bool) {
 /// The separators that a line may have, the likeliest first.
 fn separators(line: &str) -> Vec<Separator> {
     let count = |sign: u8| line.bytes().filter(|&byte| byte == sign).count();
-    let signs = [b',', b'\t', b';', b'|'].into_iter().filter(|&sign| count(sign) > 0);
+    // Of as many, the last: tabulators may stand beside others.
+    let signs = [b'\t', b'|', b';', b','].into_iter().filter(|&sign| count(sign) > 0);
     let sign = signs.max_by_key(|&sign| count(sign)).map(Separator::Sign);
     let has_blanks = line.trim().contains([' ', '\t']);
     let alone = Separator::Sign(b',');

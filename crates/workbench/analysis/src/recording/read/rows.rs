@@ -7,9 +7,9 @@ use super::preamble::reader;
 use super::samples::Samples;
 use super::sheet::{Sheet, is_blank};
 use super::time;
-use crate::message::Message;
+use crate::message::{Message, given, message};
 use crate::recording::conventions::{Conventions, EmptyFields};
-use crate::recording::message::RecordingError;
+use crate::recording::message::{RecordingError, quoted};
 
 /// Lines that show how numbers are written.
 const SHOWN: usize = 5000;
@@ -95,14 +95,23 @@ impl Row<'_> {
     fn parse(&mut self, record: &StringRecord, line: u64) -> Result<(f64, Vec<f64>), RecordingError> {
         let sheet = self.sheet;
         let mut total = 0.0;
-        for term in sheet.time.iter().flatten() {
+        let terms = sheet.time.iter().flatten();
+        let is_sum = terms.clone().count() > 1;
+        for term in terms {
+            // Beside a time of day there may be a date, and a fraction of a second.
             let time = match record.get(term.place) {
-                Some(field) if sheet.has_written_times => time::parse(field).map_err(Message::from),
-                field => self.numbers.parse(field),
+                Some(field) if is_sum && sheet.has_written_times && time::is_date_alone(field) => Ok(0.0),
+                Some(field) if sheet.has_written_times && (!is_sum || time::is_written_out(field)) => {
+                    time::parse(field).map_err(Message::from)
+                }
+                field => self.numbers.parse(field).map(|time| term.factor * time),
             };
             let column = || Some(sheet.header.shown(term.place));
-            let time = time.map_err(|reason| RecordingError::line(&sheet.file, line, column(), reason))?;
-            total += term.factor * time;
+            total += time.map_err(|reason| {
+                let field = record.get(term.place).unwrap_or_default();
+                let reason = if field.contains(':') { unread_time(field) } else { reason };
+                RecordingError::line(&sheet.file, line, column(), reason)
+            })?;
         }
         Ok((total, self.values(record, line)?))
     }
@@ -128,6 +137,14 @@ fn line_of_record(position: &Position, text: &str) -> u64 {
     let rest = text.get(position.byte() as usize..).unwrap_or_default();
     let is_skipped = |line: &&str| line.trim_end_matches('\r').is_empty() || line.starts_with('#');
     position.line() + rest.split('\n').take_while(is_skipped).count() as u64
+}
+
+/// The reason for a time that is written in another way than those that are read.
+fn unread_time(field: &str) -> Message {
+    let rate = given("rate", "HERTZ");
+    let reason =
+        time::parse(field).err().unwrap_or_else(|| format!("is \"{}\", unlike times before it", quoted(field)));
+    message![reason, "; if the samples come at equal steps, ", rate, " reads none of the times"]
 }
 
 fn too_many_fields(fields: usize, columns: usize) -> String {

@@ -4,15 +4,18 @@ use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
 
-use super::numbers::is_number;
+use super::numbers::{is_empty, is_number};
 use super::preamble::{self, Found, Separator, reader, separator_below, tabulated};
 use super::text::{Text, text};
 use super::time::is_written_out;
-use super::{source, tagged, vbox};
+use super::{serial, source, tagged, vbox};
 use crate::message::{Message, given, message};
 use crate::recording::columns::{Header, Term};
 use crate::recording::conventions::{Conventions, Quantity};
 use crate::recording::message::RecordingError;
+
+/// Lines that show a form.
+const SHOWN: usize = 3;
 
 /// A CSV file in memory.
 pub struct Sheet {
@@ -43,7 +46,9 @@ impl Sheet {
     /// The file cannot be read, is no CSV, or has no header.
     pub fn open(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
         let Text { text, is_cut } = text(file)?;
-        let text = vbox::as_csv(&text).or_else(|| tagged::as_csv(&text, conventions)).unwrap_or(text);
+        let text = if has_quoted_lines(&text) { text.replace('"', "") } else { text };
+        let other = vbox::as_csv(&text).or_else(|| tagged::as_csv(&text, conventions));
+        let text = other.or_else(|| serial::as_csv(&text)).unwrap_or(text);
         let file = source::shown(file);
         let whole = |reason: Message| RecordingError::whole(&file, reason);
         let found = preamble::find(&text, conventions);
@@ -53,13 +58,17 @@ impl Sheet {
             Separator::Sign(sign) => (text[end..].to_owned(), sign),
             Separator::Blanks => (tabulated(&text[end..]), b'\t'),
         };
-        drop(text);
         // R names the rows, but not their column.
-        let row_names = separator == Separator::Blanks && body.starts_with('"');
-        if row_names && preamble::fields(body.lines().next().unwrap_or_default(), separator).len() == titles.len() + 1 {
+        if has_row_names(&body, separator, titles.len()) {
             titles.insert(0, String::new());
         }
         let mut header = Header::new(titles.iter().map(String::as_str));
+        // Some programs write the units above the names.
+        let above = text[..end].lines().rev().nth(1).map(|line| preamble::fields(line, separator));
+        if let Some(units) = above.filter(|units| units.len() == titles.len()) {
+            header.take_units(units.iter().map(String::as_str));
+        }
+        drop(text);
         let mut headings = vec![StringRecord::from(titles)];
         let first = descriptions(&body, delimiter, &mut header, &mut headings);
         let first = first.map_err(|error| whole(error.to_string().into()))?;
@@ -68,8 +77,8 @@ impl Sheet {
         if let Some(terms) = time.as_mut().filter(|terms| terms.len() > 1) {
             header.scale_to_seconds(terms);
         }
-        let has_written_times =
-            matches!(time.as_deref(), Some([one]) if first.get(one.place).is_some_and(is_written_out));
+        let is_written = |term: &Term| first.get(term.place).is_some_and(is_written_out);
+        let has_written_times = time.as_deref().is_some_and(|terms| terms.iter().any(is_written));
         Ok(Sheet { file, header, time, has_written_times, body, first_line: line, delimiter, headings, is_cut })
     }
 
@@ -84,6 +93,26 @@ impl Sheet {
         let rate = given("rate", "HERTZ");
         self.refused(message!["there is no column {time}; if its samples come at equal steps, use ", rate])
     }
+}
+
+/// True where each line stands in quotation marks as a whole.
+fn has_quoted_lines(text: &str) -> bool {
+    let is_quoted = |line: &str| {
+        let inner = line.trim().strip_prefix('"').and_then(|line| line.strip_suffix('"'));
+        inner.is_some_and(|line| !line.contains('"') && line.contains([',', ';', '\t']))
+    };
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).peekable();
+    lines.peek().is_some() && lines.all(is_quoted)
+}
+
+/// True where the first lines have one field more than the header, and begin with their number.
+fn has_row_names(body: &str, separator: Separator, width: usize) -> bool {
+    let is_numbered = |(number, line): (usize, &str)| {
+        let fields = preamble::fields(line, separator);
+        fields.len() == width + 1 && (fields[0] == number.to_string() || line.starts_with('"'))
+    };
+    let mut lines = (1..).zip(body.lines().take(SHOWN)).peekable();
+    lines.peek().is_some() && lines.all(is_numbered)
 }
 
 /// The reason why a text has no header.
@@ -106,17 +135,30 @@ fn descriptions(
     let mut records = reader(body, delimiter).into_records();
     let mut next = || records.by_ref().find(|record| !record.as_ref().is_ok_and(is_blank)).transpose();
     let mut record = next()?.unwrap_or_default();
+    let has_number = |record: &StringRecord| record.iter().any(|field| is_number(field) || is_written_out(field));
+    // A line that describes the columns, between their names and their units.
+    let is_description = record.len() == header.width() && !has_number(&record) && !record.iter().all(is_word_for_none);
     if !header.take_units(record.iter()) {
-        return Ok(record);
+        let units = if is_description { next()?.unwrap_or_default() } else { return Ok(record) };
+        if !header.take_units(units.iter()) {
+            return Ok(record);
+        }
+        headings.push(record);
+        record = units;
     }
     headings.push(record);
     record = next()?.unwrap_or_default();
     // Some loggers write the source of each column below its unit.
-    if !record.is_empty() && !record.iter().any(|field| is_number(field) || is_written_out(field)) {
+    if !record.is_empty() && !has_number(&record) {
         headings.push(record);
         record = next()?.unwrap_or_default();
     }
     Ok(record)
+}
+
+/// True for a field without a value.
+fn is_word_for_none(field: &str) -> bool {
+    is_empty(Some(field))
 }
 
 /// True for a line without any text, also one of separators alone, and for one that underlines.

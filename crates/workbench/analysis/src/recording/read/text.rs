@@ -48,6 +48,10 @@ pub fn text(file: &Path) -> Result<Text, RecordingError> {
         bytes = usable(read_up_to(MultiGzDecoder::new(&bytes[..]), LARGEST))?;
         foreign::remedy(&bytes).map_or(Ok(()), |reason| Err(refused(reason)))?;
     }
+    if let Some(order) = foreign::utf_16(&bytes) {
+        let units = bytes.chunks_exact(2).map(|pair| order([pair[0], pair[1]]));
+        bytes = char::decode_utf16(units).map(|c| c.unwrap_or('\u{fffd}')).collect::<String>().into_bytes();
+    }
     let end = bytes.iter().position(|&byte| byte == 0);
     bytes.truncate(end.unwrap_or(bytes.len()));
     // Loggers that do not write UTF-8 write Latin-1, of which headers use ° and ².
@@ -66,7 +70,7 @@ fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Bytes> {
     let mut bytes = Vec::new();
     source.by_ref().take(foreign::HEAD as u64).read_to_end(&mut bytes)?;
     // A packed file is judged by what is in it.
-    let is_packed = bytes.starts_with(GZIP);
+    let is_packed = bytes.starts_with(GZIP) || foreign::utf_16(&bytes).is_some();
     if let Some(reason) = foreign::remedy(&bytes).filter(|_| !is_packed) {
         return Ok(Err(reason));
     }

@@ -4,9 +4,9 @@
 //! Of dates as 01/05/2026 the order of day and month is not known, and month names are in any
 //! language. Neither is needed: their times of day are used, also past midnight.
 
-use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
+use jiff::{SignedDuration, Timestamp};
 
 use crate::recording::message::quoted;
 
@@ -19,13 +19,13 @@ pub fn is_written_out(field: &str) -> bool {
 }
 
 /// The time in seconds: since 1970 for a date in ISO 8601, otherwise since midnight, or since the
-/// hour for minutes and seconds.
+/// hour for minutes and seconds, or those of a duration, as `PT0.02S` and `0.02 sec`.
 ///
 /// # Errors
 /// The field is neither.
 pub fn parse(field: &str) -> Result<f64, String> {
     let text = field.trim();
-    date(text).or_else(|| compact(text)).or_else(|| time_of_day(text)).ok_or_else(|| {
+    date(text).or_else(|| compact(text)).or_else(|| time_of_day(text)).or_else(|| duration(text)).ok_or_else(|| {
         format!(
             "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z, 12:30:00.25, 20260501_123000.25, or a \
              time of day with AM or PM behind it and a date beside it",
@@ -46,6 +46,20 @@ fn date(text: &str) -> Option<f64> {
         Some(local.to_zoned(TimeZone::UTC).ok()?.timestamp())
     })?;
     Some(timestamp.as_nanosecond() as f64 * 1e-9)
+}
+
+/// A duration in ISO 8601, or a number with its unit of time.
+fn duration(text: &str) -> Option<f64> {
+    let has_unit = text.ends_with(char::is_alphabetic) && text.contains(|c: char| c.is_ascii_digit());
+    let duration: SignedDuration = has_unit.then(|| text.parse().ok()).flatten()?;
+    Some(duration.as_secs_f64())
+}
+
+/// True for a date without a time.
+pub fn is_date_alone(field: &str) -> bool {
+    let text = field.trim();
+    let parts: Vec<&str> = text.split(['-', '/', '.']).collect();
+    parts.len() == 3 && parts.iter().all(|part| !part.is_empty() && part.len() <= 4) && is_date(text)
 }
 
 /// `20260501_123000250`, in seconds since midnight; a date that is none of ISO 8601.
@@ -172,5 +186,7 @@ mod tests {
         }
         assert_eq!((parse("12:00:01 AM"), parse("1:00:00 pm")), (Ok(1.0), Ok(46_800.0)));
         assert_eq!(parse("59:59.5"), Ok(3599.5));
+        assert_eq!(["PT1M0.25S", "60.25 sec", "60250 ms"].map(parse), [Ok(60.25), Ok(60.25), Ok(60.25)]);
+        assert!(is_date_alone("01.05.2026") && is_date_alone("2026-05-01") && !is_date_alone("1.5"));
     }
 }

@@ -9,6 +9,7 @@ const DAY: f64 = 86_400.0;
 const PERIODS: [f64; 4] = [3600.0, 43_200.0, DAY, 7.0 * DAY];
 /// Bits of counters.
 const BITS: [i32; 5] = [16, 24, 30, 31, 32];
+const SHORT_BITS: [i32; 3] = [8, 10, 12];
 /// Longest step over a clock's end \[usual steps\].
 const LONGEST: f64 = 20.0;
 /// Serial numbers of days: since 1970, since 1899 as spreadsheets count, and Julian \[d\].
@@ -21,6 +22,8 @@ pub struct Clock<'a> {
     pub time: &'a mut Vec<f64>,
     /// The unit \[s\].
     pub unit: f64,
+    /// Factor by which the times of a counter are multiplied already.
+    pub factor: f64,
     /// True where neither the file nor an option gives the unit.
     pub is_open: bool,
     /// True for dates and times of day.
@@ -30,7 +33,7 @@ pub struct Clock<'a> {
 impl Clock<'_> {
     /// Brings the times to seconds that go on. Returns warnings.
     pub fn into_seconds(self) -> Vec<Message> {
-        let Clock { time, unit, is_open, is_written } = self;
+        let Clock { time, unit, factor, is_open, is_written } = self;
         let mut warnings = Vec::new();
         if is_open && is_serial_days(time) {
             let first = time[0].floor();
@@ -46,7 +49,10 @@ impl Clock<'_> {
             warnings.push("The times are read as HHMMSS: they leave out the seconds from 60 to 99.".into());
             add_period(time, &PERIODS);
         } else {
-            let counters = BITS.map(|bits| 2f64.powi(bits));
+            let counter = |bits: i32| factor.abs() * 2f64.powi(bits);
+            // Short counters are those that a factor shows to be some.
+            let short = SHORT_BITS.into_iter().filter(|_| factor != 1.0);
+            let counters: Vec<f64> = BITS.into_iter().chain(short).map(counter).collect();
             let micros = [32, 31].map(|bits| 1e-6 * 2f64.powi(bits) / unit);
             let millis = [32, 31].map(|bits| 1e-3 * 2f64.powi(bits) / unit);
             let periods: Vec<f64> =
@@ -122,7 +128,7 @@ mod tests {
     /// The times in seconds of 50 samples a second, written by a function.
     fn read(unit: f64, is_written: bool, write: impl Fn(f64) -> f64) -> Vec<f64> {
         let mut time: Vec<f64> = (0..1500).map(|k| write(0.02 * f64::from(k))).collect();
-        Clock { time: &mut time, unit, is_open: !is_written, is_written }.into_seconds();
+        Clock { time: &mut time, unit, factor: 1.0, is_open: !is_written, is_written }.into_seconds();
         let first = time[0];
         time.into_iter().map(|time| time - first).collect()
     }

@@ -111,7 +111,8 @@ fn samples(
             sheet.header.time_unit(&terms, conventions).map_err(|reason| sheet.refused(reason))?
         };
         let (unit, is_open) = (unit.in_si, source == UnitSource::Default);
-        let clock = Clock { time: &mut samples.time, unit, is_open, is_written };
+        let factor = if let [one] = &terms[..] { one.factor } else { 1.0 };
+        let clock = Clock { time: &mut samples.time, unit, factor, is_open, is_written };
         samples.warnings.extend(clock.into_seconds());
     }
     gaps::fill(&mut samples, sheet, layout)?;

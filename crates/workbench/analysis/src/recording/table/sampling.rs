@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::Table;
 use super::interpolation::{orientations, places, values};
@@ -19,6 +20,8 @@ const JITTER: f64 = 0.2;
 const COARSEST: f64 = 0.25;
 /// Finest step: below it, time is in another unit \[s\].
 const FINEST: f64 = 1e-4;
+/// Ticks of 100 ns of our days, since the year 1601 or 1.
+const TICKS: Range<f64> = 1.2e17..7e17;
 /// Gap from which it may be longer than the recording \[s\].
 const LONGEST_REFUSED: f64 = 10.0;
 /// Largest number of samples: about a day at 100 Hz.
@@ -37,32 +40,35 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
     if let Some((wrong, reason)) = disorder(&table.time) {
         return Err(table.refused_at(wrong, Quantity::Time, reason));
     }
-    check_unit(&table)?;
+    check_unit(&table, conventions)?;
     match conventions.resample {
         Some(rate) => resampled(table, rate),
         None => check_equal(&table).map(|()| (table, Vec::new())),
     }
 }
 
-fn check_unit(table: &Table) -> Result<(), RecordingError> {
+fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingError> {
     let usual = usual_step(&table.time);
     let (unit, _) = table.unit(Quantity::Time);
-    let reason = if usual > COARSEST {
+    let others = TimeUnit::ALL.iter().map(|other| other.unit());
+    let rate = |other: Unit| unit.in_si / (usual * other.in_si);
+    let fits = |other: &Unit| (4.0..=2000.0).contains(&rate(*other));
+    let fitting: Vec<String> =
+        others.filter(fits).map(|other| format!("{} if it is in {}", shown(rate(other).round()), other.word)).collect();
+    let fitting = if fitting.is_empty() { String::new() } else { format!(" ({})", fitting.join(", ")) };
+    let reason = if usual > COARSEST && TICKS.contains(&(table.time[0] / unit.in_si)) {
+        let scaled = format!("\"time={} / 10000000\"", conventions.column(Quantity::Time));
+        message!["these are ticks of 100 ns, as Windows counts them; use ", given("columns", scaled)]
+    } else if usual > COARSEST {
         message![
-            "too coarse for a washout; if time is in ms or another unit, give it with ",
+            "too coarse for a washout",
+            fitting.replacen(" (", " (samples a second: ", 1),
+            "; if time is in ms or another unit, give it with ",
             named("time-unit"),
             "; if it counts samples, use ",
             given("rate", "HERTZ")
         ]
     } else if usual < FINEST {
-        let others = TimeUnit::ALL.iter().map(|other| other.unit());
-        let rate = |other: Unit| unit.in_si / (usual * other.in_si);
-        let fits = |other: &Unit| (4.0..=2000.0).contains(&rate(*other));
-        let fitting: Vec<String> = others
-            .filter(fits)
-            .map(|other| format!("{} if it is in {}", shown(rate(other).round()), other.word))
-            .collect();
-        let fitting = if fitting.is_empty() { String::new() } else { format!(" ({})", fitting.join(", ")) };
         let rate = 1.0 / usual;
         message![
             "{rate:.0} samples a second are more than any recording has{fitting}; give the unit of time with ",

@@ -41,7 +41,7 @@ pub fn disorder(time: &[f64]) -> Option<(usize, Message)> {
 fn remedy_for_equal_times(time: &[f64], sample: usize) -> Message {
     let duration = time[time.len() - 1] - time[0];
     if time[sample] != time[sample - 1] || duration <= 0.0 {
-        return Message::default();
+        return message!["; if the samples come at equal steps, ", given("rate", "HERTZ"), " reads none of the times"];
     }
     let rate = (time.len() - 1) as f64 / duration;
     message!["; if the times are rounded, ", given("resample", format!("{rate:.0}")), " spreads equal ones evenly"]
