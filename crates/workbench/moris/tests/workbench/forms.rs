@@ -147,7 +147,10 @@ fn texts_of_consoles_and_measuring_programs_are_read() {
         ("names and signs of equality", labelled('=', " ")),
         ("a serial monitor's clock", monitor.join("\n")),
         ("units above the names", format!("{units}\n{comma}")),
-        ("descriptions above the units", format!("{first}\na,b,c,d,e,f,g,h\n{units}\n{rest}")),
+        (
+            "descriptions above the units",
+            format!("{first}\nclock,surge,sway,heave,roll,pitch,yaw,pace\n{units}\n{rest}"),
+        ),
         ("a padded end of a preamble", format!("***End***{}\n{}", "\t".repeat(8), table(&names, "\t", digits))),
         ("durations of MATLAB", table(&HEADER.join(","), ",", with_units)),
         ("Fortran", table(&HEADER.join(" "), " ", fortran)),

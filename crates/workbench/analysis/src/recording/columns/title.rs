@@ -39,7 +39,7 @@ impl Title {
         let behind = &full[end..];
         let before = full[..end].trim();
         // What stands behind a mark counts where it is a unit; a comma ends a name in any case.
-        let marked = [",", ":", "/", " in "].into_iter().find_map(|mark| {
+        let marked = [",", " in ", ":", "/"].into_iter().find_map(|mark| {
             let (name, unit) = before.split_once(mark)?;
             (mark == "," || any_spelled(unit).is_some()).then_some((name, Some(unit.trim())))
         });
