@@ -119,7 +119,7 @@ fn separators_and_headers_in_any_form_are_read() {
     assert!(message.contains("begins with numbers"), "{message}");
 }
 
-/// What spreadsheets, consoles and measuring programs make of the same ride.
+/// The same ride in the texts of spreadsheets, consoles and measuring programs.
 #[test]
 fn texts_of_consoles_and_measuring_programs_are_read() {
     let comma = table(&HEADER.join(","), ",", digits);

@@ -1,4 +1,4 @@
-//! What microcontrollers print: values behind their names, and lines behind a monitor's clock.
+//! Prints of microcontrollers: values behind their names, and lines behind a monitor's clock.
 //!
 //! - `ax:0.1,ay:0.2` and `ax=0.1 ay=0.2`, as serial plotters read it.
 //! - `12:30:00.250 -> 0.1,0.2`, as the Arduino IDE saves it. The clock is the column `clock`.

@@ -19,7 +19,7 @@ pub fn is_written_out(field: &str) -> bool {
 }
 
 /// The time in seconds: since 1970 for a date in ISO 8601, otherwise since midnight, or since the
-/// hour for minutes and seconds, or those of a duration, as `PT0.02S` and `0.02 sec`.
+/// hour for minutes and seconds. Durations are read as `PT0.02S` and `0.02 sec`.
 ///
 /// # Errors
 /// The field is neither.
