@@ -450,9 +450,9 @@ interface! {
     /// The adaptive strategy, for surge and sway each.
     pub struct AdaptiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["adaptive"]), heading(OF_STRATEGY) {
         /// Break frequency of the adaptive strategy's high-pass from force to travel.
-        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8, usual(FREQUENCIES);
+        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.7, usual(FREQUENCIES);
         /// Damping ratio of the adaptive strategy's high-pass from force to travel.
-        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.1, usual(DAMPINGS);
+        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 0.7, usual(DAMPINGS);
         /// Rate at which the gain from force to travel follows the gradient of the cost.
         "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18, usual(WEIGHTS);
         /// Rate at which the gain from force to tilt rate follows the gradient of the cost.
@@ -460,9 +460,9 @@ interface! {
         /// Gain from force to travel to which the adaptation is pulled.
         "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986, usual(GAINS);
         /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
-        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.35, usual(GAINS);
+        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.25, usual(GAINS);
         /// Weight of travel; the error of the felt force has the weight 1.
-        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 8.0, usual(WEIGHTS);
+        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4.0, usual(WEIGHTS);
         /// Weight of the travel's velocity.
         "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13, usual(WEIGHTS);
         /// Weight of the tilt rate.

@@ -6,7 +6,7 @@
 //! leaves of the reference f,
 //!
 //! ```text
-//!     a = P1 (u + H alpha) - d v - e x,    alpha = b (P2 u - q') within the tilt's limits
+//!     a = P1 u + H alpha - d v - e x,    alpha = b (P2 u - q') within the tilt's limits
 //!     J = [(felt - f)^2 + rho_x x^2 + rho_v v^2 + rho_w w^2 + k1 (P1 - P10)^2 + k2 (P2 - P20)^2] / 2
 //!     P1' = -K1 dJ/dP1,    P2' = -K2 dJ/dP2
 //! ```
@@ -125,19 +125,19 @@ impl Adaptation {
         let alpha = limits.nearest_acceleration(state, demanded, step);
         let AdaptiveParameters { omega, zeta, nominal1, nominal2, .. } = *parameters;
         let (damping, stiffness) = (2.0 * zeta * omega, omega * omega);
-        let inertial = left + model.head_height * alpha;
-        let dropped = (travel_gain - 1.0) * inertial - damping * velocity - stiffness * position;
+        // H alpha is not dropped: whatever its gain, travel makes up for the kick of a tilt that begins.
+        let dropped = (travel_gain - 1.0) * left - damping * velocity - stiffness * position;
 
         let limited = alpha != demanded || rate != tilt_gain * left || tilt.abs() >= model.angle_limit;
         let gravity = model.gravity * cos;
         let [tilted, turned] = self.tilt;
         let turning = if limited { 0.0 } else { by_rate * (left - tilt_gain * gravity * tilted - turned) };
         let turned = if limited { -SENSITIVITY_DECAY * tilted } else { turned + step * turning };
-        // Of what the tilt leaves to travel.
-        let left_to_travel = model.head_height * turning - gravity * tilted;
+        // Of what the tilt leaves, and of what travel makes up for besides.
+        let (to_left, made_up) = (-gravity * tilted, model.head_height * turning);
         let forced = |[x, v]: [f64; 2], by: f64| by - damping * v - stiffness * x;
-        let travel_acceleration = forced(self.to_travel_gain, inertial);
-        let tilt_acceleration = forced(self.to_tilt_gain, travel_gain * left_to_travel);
+        let travel_acceleration = forced(self.to_travel_gain, left);
+        let tilt_acceleration = forced(self.to_tilt_gain, travel_gain * to_left + made_up);
 
         let (weight_x, weight_v) = (
             weight_scale * parameters.weight_position * position,
@@ -148,7 +148,7 @@ impl Adaptation {
                 + weight_x * self.to_travel_gain[0]
                 + weight_v * self.to_travel_gain[1]
                 + parameters.pull1 * (travel_gain - nominal1),
-            dropped * (tilt_acceleration - left_to_travel)
+            dropped * (tilt_acceleration - to_left - made_up)
                 + weight_x * self.to_tilt_gain[0]
                 + weight_v * self.to_tilt_gain[1]
                 + parameters.weight_tilt_rate * tilt_rate * turned
@@ -247,7 +247,7 @@ mod tests {
         let left = 2.0 - STANDARD_GRAVITY * 0.15_f64.sin();
         let alpha = 15.0 * (0.2 * left - 0.05) / (1.0 + 15.0 * STEP);
         let AdaptiveParameters { omega, zeta, .. } = parameters;
-        let acceleration = 0.7 * (left + 1.3 * alpha) + 2.0 * zeta * omega * 0.3 - omega * omega * 0.2;
+        let acceleration = 0.7 * left + 1.3 * alpha + 2.0 * zeta * omega * 0.3 - omega * omega * 0.2;
         // What is felt: a - H alpha + g sin q.
         let felt = acceleration - 1.3 * alpha + STANDARD_GRAVITY * 0.15_f64.sin();
         assert!((decision.tilt_acceleration - alpha).abs() < 1e-9);
