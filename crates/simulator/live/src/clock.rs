@@ -138,7 +138,8 @@ impl Clock {
     }
 
     /// Seconds of the session in one of the source's clock, as estimated.
-    pub fn rate(&self) -> f64 {
+    #[cfg(test)]
+    fn rate(&self) -> f64 {
         self.last.map_or(1.0, |last| last.lag.rate)
     }
 

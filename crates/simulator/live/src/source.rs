@@ -150,11 +150,6 @@ impl Source {
         accepted
     }
 
-    /// Seconds of the session in one of the source's clock, as estimated.
-    pub fn clock_rate(&self) -> f64 {
-        self.clock.rate()
-    }
-
     /// All times until now are earlier by this time \[s\].
     pub fn slip(&mut self, time: f64) {
         self.clock.slip(time);
