@@ -35,7 +35,12 @@ impl Title {
     pub fn new(full: &str) -> Self {
         let full = full.trim();
         let begin = full.chars().next().map_or(0, char::len_utf8);
-        let end = full[begin..].find(OPENING).map_or(full.len(), |end| begin + end);
+        // Braces may be part of a name, as in `A_{Xpilot}`.
+        let opens = |&(place, _): &(usize, &str)| {
+            let inner = full[place + 1..].split([']', ')', '}', '>']).next().unwrap_or_default();
+            place >= begin && (full[place..].starts_with(['[', '(']) || any_spelled(inner).is_some())
+        };
+        let end = full.match_indices(OPENING).find(opens).map_or(full.len(), |(place, _)| place);
         let behind = &full[end..];
         let before = full[..end].trim();
         // What stands behind a mark counts where it is a unit; a comma ends a name in any case.
@@ -106,6 +111,7 @@ mod tests {
         for (title, name, unit) in [
             ("(x) [g]", "(x)", Some("g")),
             ("G(x)", "G", None),
+            ("A_{Xpilot} (ft/s^2)", "A_{Xpilot}", Some("ft/s^2")),
             ("acc/x", "acc/x", None),
             ("Accelerometer (z) [m/s²]", "Accelerometer", Some("m/s²")),
             ("[s]", "[s]", None),
