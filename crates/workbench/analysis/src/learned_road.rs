@@ -52,11 +52,14 @@ impl<'a> Kept<'a> {
 /// The road in this file; an empty one if there is no file.
 ///
 /// # Errors
-/// The file cannot be read, or is none of a learned road, or its folder is missing.
+/// The file cannot be read, or is none of a learned road. Its folder is missing, or takes no files:
+/// the road would be lost at the end of a ride.
 pub fn load(file: &Path) -> Result<Laps> {
     if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
     }
+    let part = beside(file);
+    write(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(file))?;
     match moris_fmu_host::files::text(file, LARGEST) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
@@ -78,7 +81,11 @@ pub fn save(file: &Path, laps: &Laps) -> Result<()> {
             // Half of a road is of no use; if it cannot be removed, it stays beside the old one.
             let _ = remove_file(&part);
         })
-        .about(|| format!("cannot keep the road in {}", file.display()))
+        .about(|| cannot_keep(file))
+}
+
+fn cannot_keep(file: &Path) -> String {
+    format!("cannot keep the road in {}", file.display())
 }
 
 /// A file in the same folder, so that it can take the other's place.
@@ -116,6 +123,9 @@ mod tests {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         let nowhere = folder.path().join("none").join("kart.laps");
         assert!(save(&nowhere, &laps).unwrap_err().to_string().starts_with("cannot keep the road in "));
+        // Nobody creates a file there, not even root.
+        let refused = load(Path::new("/proc/kart.laps")).map(|_| ()).unwrap_err().to_string();
+        assert!(!cfg!(target_os = "linux") || refused.starts_with("cannot keep the road in "), "{refused}");
         std::fs::write(&file, "x,y\n").unwrap();
         assert!(load(&file).unwrap_err().with_sources(|_| String::new()).contains("none of a road"));
     }

@@ -158,14 +158,15 @@ impl Recording {
     /// The preview that is learned by its position, with these laps known, which learn it too.
     ///
     /// # Errors
-    /// It has no position.
+    /// It has no position, or one that never changes.
     pub fn learned(&self, laps: &mut Laps) -> Result<Previewer, RecordingError> {
+        let refused = |reason| RecordingError::whole(Path::new(&self.name), reason);
         let road = self.road.as_ref().ok_or_else(|| {
-            RecordingError::whole(
-                Path::new(&self.name),
-                "has no position to learn by; read it with its columns x and y, or latitude and longitude",
-            )
+            refused("has no position to learn by; read it with its columns x and y, or latitude and longitude")
         })?;
+        if !road.leads_anywhere() {
+            return Err(refused("the position never changes: there is no road to learn"));
+        }
         Ok(Previewer::given(road.learned(self.inputs(), self.step(), laps), self.step()))
     }
 

@@ -12,6 +12,9 @@ use super::table::Table;
 /// Half axes of the earth along the equator and to the poles \[m\] (WGS 84).
 const EARTH: [f64; 2] = [6_378_137.0, 6_356_752.314_245];
 
+/// A position that is repeated for longer is that of a vehicle at rest, or of no receiver \[s\].
+const LONGEST_HOLD: f64 = 2.0;
+
 /// Position and speed at each sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Road {
@@ -29,13 +32,20 @@ impl Road {
             let [one, other] = [0, 1].map(|axis| table.columns.get(&of(axis)));
             Some(one?.iter().zip(other?).map(|(one, other)| [*one, *other]).collect())
         };
-        let positions = pair(Quantity::Position).or_else(|| Some(in_tangent_plane(&pair(Quantity::Geographic)?)))?;
+        let mut positions =
+            pair(Quantity::Position).or_else(|| Some(in_tangent_plane(&pair(Quantity::Geographic)?)))?;
+        go_on(&mut positions, (LONGEST_HOLD / table.step()) as usize);
         Some(Road { positions, speeds: table.columns.get(&Quantity::Speed).cloned() })
     }
 
     /// The position at a sample \[m\].
     pub fn position(&self, number: usize) -> Option<[f64; 3]> {
         self.positions.get(number).map(|[x, y]| [*x, *y, 0.0])
+    }
+
+    /// False where the vehicle never changes its place, as where a logger has no receiver.
+    pub fn leads_anywhere(&self) -> bool {
+        self.positions.windows(2).any(|pair| pair[0] != pair[1])
     }
 
     /// The previews that are learned on it, as of each sample, with these laps known.
@@ -51,6 +61,24 @@ impl Road {
             laps.preview()
         };
         inputs.iter().zip(&self.positions).enumerate().map(preview).collect()
+    }
+}
+
+/// Leads positions that a slow receiver repeats on to its next one, along a line. `most` is the
+/// largest number of samples from one to the next.
+fn go_on(positions: &mut [[f64; 2]], most: usize) {
+    let mut from = 0;
+    for to in 1..positions.len() {
+        let [held, next] = [positions[from], positions[to]];
+        if next == held {
+            continue;
+        }
+        let count = to - from;
+        for k in (1..count).filter(|_| count <= most) {
+            let part = k as f64 / count as f64;
+            positions[from + k] = [0, 1].map(|axis| held[axis] + part * (next[axis] - held[axis]));
+        }
+        from = to;
     }
 }
 
@@ -70,6 +98,17 @@ fn in_tangent_plane(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn positions_that_are_repeated_go_on_to_the_next_one() {
+        let along = |xs: &[f64]| xs.iter().map(|x| [*x, 2.0 * x]).collect::<Vec<_>>();
+        let mut positions = along(&[0.0, 0.0, 0.0, 0.0, 8.0, 9.0, 9.0, 11.0, 11.0, 11.0]);
+        let mut slow = positions.clone();
+        go_on(&mut positions, 4);
+        assert_eq!(positions, along(&[0.0, 2.0, 4.0, 6.0, 8.0, 9.0, 10.0, 11.0, 11.0, 11.0]));
+        go_on(&mut slow, 3);
+        assert_eq!(slow, along(&[0.0, 0.0, 0.0, 0.0, 8.0, 9.0, 10.0, 11.0, 11.0, 11.0]), "held for too long");
+    }
 
     #[test]
     fn degrees_are_metres_of_the_ellipsoid() {
