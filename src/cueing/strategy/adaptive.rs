@@ -55,14 +55,17 @@ const NEAR_END: f64 = 0.1;
 const NEAR_END_STROKE: f64 = 0.6;
 /// ... by up to this many times their value, at its end.
 const LARGEST_INCREASE: f64 = 10.0;
+/// Time of a stroke at the legs' full speed up to which velocity has its own weight \[s\]: that of
+/// the default rig.
+const STROKE_TIME: f64 = 0.6;
 
 impl Law for Adaptive {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
-        Ok(Adaptive::new(models, &parameters.adaptive))
+        Ok(Adaptive::new(models, &on_rig(parameters)))
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-        self.retune(models, &parameters.adaptive);
+        self.retune(models, &on_rig(parameters));
         Ok(())
     }
 
@@ -72,6 +75,14 @@ impl Law for Adaptive {
         let stroke_margin = guard.stroke_margin() / longer;
         Some(self.decide(&situation.states, situation.references, stroke_margin, step))
     }
+}
+
+/// The strategy's parameters on the rig. Velocity weighs more, by the square, where the stroke
+/// takes longer than [`STROKE_TIME`] at the legs' full speed: travel would jolt at that speed.
+fn on_rig(parameters: &Parameters) -> AdaptiveParameters {
+    let Parameters { adaptive, rig, .. } = parameters;
+    let slower = ((rig.max_length - rig.min_length) / rig.velocity_limit / STROKE_TIME).max(1.0);
+    AdaptiveParameters { weight_velocity: slower * slower * adaptive.weight_velocity, ..*adaptive }
 }
 
 impl Adaptive {
