@@ -1,5 +1,6 @@
 //! The thread that sends frames, and follows what the device answers.
 
+use std::io::ErrorKind;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -199,7 +200,10 @@ impl<'a> Sender<'a> {
             && let Some(kind) = self.contact.take(&taken, pace::now())
         {
             self.wire.lose();
-            self.sink.close();
+            // A line that is only slow stays open: opening one resets many controllers.
+            if kind != ErrorKind::TimedOut {
+                self.sink.close();
+            }
             self.report(Loss::Refused(kind));
         }
         fault

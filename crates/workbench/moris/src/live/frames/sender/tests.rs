@@ -1,6 +1,5 @@
 //! The sending thread, judged by what a device receives and the loop is told.
 
-use std::io::ErrorKind;
 use std::net::UdpSocket;
 
 use moris_live::frame::{self, Encoder};
