@@ -101,8 +101,21 @@ fn titles(text: &str, names: &[&str]) -> Vec<String> {
 /// A time of day `HHMMSS.SS` with colons.
 fn clock(field: &str) -> String {
     let whole = field.find('.').unwrap_or(field.len());
-    match field.is_char_boundary(whole.saturating_sub(4)) && whole >= 5 {
+    match field[..whole].is_ascii() && whole >= 5 {
         true => format!("{}:{}:{}", &field[..whole - 4], &field[whole - 4..whole - 2], &field[whole - 2..]),
         false => field.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_that_is_no_time_stays_as_it_is() {
+        assert_eq!(clock("112642.64"), "11:26:42.64");
+        for field in ["", "2.64", "11322ÿ2.64", "ÿÿÿ.1"] {
+            assert_eq!(clock(field), field);
+        }
     }
 }
