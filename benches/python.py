@@ -7,6 +7,7 @@ that take turns, so that another load of the machine hardly counts. The table is
 """
 
 import argparse
+import functools
 import subprocess
 import sys
 import time
@@ -126,9 +127,10 @@ def sweeps():
     for _ in range(3):
         for workers in times:
             with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as made, Client(made) as client:
-                moris.sweep(recording, sets[:20], client=client)
+                sweep = functools.partial(moris.sweep, recording, executor=client.get_executor(), workers=workers)
+                sweep(sets[:20])
                 before = processor_time(client)
-                times[workers] = min(times[workers], seconds(lambda: moris.sweep(recording, sets, client=client)))
+                times[workers] = min(times[workers], seconds(functools.partial(sweep, sets)))
                 spent[workers] = np.minimum(spent[workers], processor_time(client) - before)
     print(f"one process {times[1]:.2f} s, two {times[2]:.2f} s: {times[1] / times[2]:.2f} times as fast")
     for workers, (theirs, ours) in spent.items():

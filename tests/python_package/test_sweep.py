@@ -1,8 +1,10 @@
-"""Sweeps: on threads and on Dask, to the bit, with workers that are killed and schedulers that are lost."""
+"""Sweeps: on threads, pools and Dask, to the bit, with workers that are killed and schedulers that are lost."""
 
 import os
 import signal
 import threading
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import moris
 import numpy as np
@@ -79,7 +81,7 @@ def test_the_size_of_chunks_and_the_number_of_threads_change_nothing(here, recor
 @pytest.mark.parametrize("workers", [pytest.param(1, marks=only_all_cases), 2, pytest.param(3, marks=only_all_cases)])
 def test_workers_give_the_same_to_the_bit(here, recordings, workers):
     with cluster(workers) as made, Client(made) as client:
-        assert_same(moris.sweep(recordings, parameter_sets(), client=client, chunk=2), here)
+        assert_same(moris.sweep(recordings, parameter_sets(), executor=client.get_executor(), workers=workers, chunk=2), here)
 
 
 def test_a_killed_worker_costs_time_and_nothing_else(here, recordings):
@@ -92,7 +94,7 @@ def test_a_killed_worker_costs_time_and_nothing_else(here, recordings):
                 os.kill(pid, signal.SIGKILL)
                 killed.append((pid, done))
 
-        found = moris.sweep(recordings, parameter_sets(), client=client, chunk=1, progress=progress)
+        found = moris.sweep(recordings, parameter_sets(), executor=client.get_executor(), chunk=1, progress=progress)
         assert killed and killed[0][1] < 24
         assert killed[0][0] not in client.run(os.getpid).values()
     assert found.complete
@@ -115,7 +117,7 @@ def test_results_are_reduced_in_order_as_they_come(recordings):
         return total + result["specific force x RMS error"].sum()
 
     with cluster(2) as made, Client(made) as client:
-        found = moris.sweep(recordings[:1], sets(), reduce, initial=0.0, client=client, chunk=1)
+        found = moris.sweep(recordings[:1], sets(), reduce, initial=0.0, executor=client.get_executor(), workers=2, chunk=1)
     assert seen == list(range(60)) and found.done == 60
     # Only what is on its way has been drawn from the generator: memory does not grow with the number of sets.
     assert most[0] <= 4 * 2 + 1
@@ -143,18 +145,18 @@ def test_a_set_that_cannot_be_used_has_its_error_and_the_others_their_results(re
 
 @pytest.mark.parametrize("on_a_cluster", [False, True])
 def test_what_is_cancelled_keeps_what_is_done(here, recordings, on_a_cluster):
-    def swept(client):
+    def swept(executor):
         cancel = threading.Event()
 
         def progress(done, total, text):
             if done >= 4:
                 cancel.set()
 
-        return moris.sweep(recordings, parameter_sets(), client=client, chunk=2, progress=progress, cancel=cancel)
+        return moris.sweep(recordings, parameter_sets(), executor=executor, workers=1, chunk=2, progress=progress, cancel=cancel)
 
     if on_a_cluster:
         with cluster(1) as made, Client(made) as client:
-            found = swept(client)
+            found = swept(client.get_executor())
             assert client.submit(sum, [1, 2]).result() == 3
     else:
         found = swept(None)
@@ -170,8 +172,7 @@ def test_ctrl_c_keeps_what_is_done(recordings):
     assert not found.complete and 0 < found.done < 24
 
 
-def test_a_lost_scheduler_is_a_clear_error_with_what_was_done(recordings, monkeypatch):
-    monkeypatch.setattr("moris._cluster.PATIENCE", 1.0)
+def test_a_lost_scheduler_is_a_clear_error_with_what_was_done(recordings):
     made = cluster(1)
     client = Client(made)
     try:
@@ -180,29 +181,32 @@ def test_a_lost_scheduler_is_a_clear_error_with_what_was_done(recordings, monkey
             if done >= 4:
                 made.close()
 
-        with pytest.raises(moris.ClusterError, match="scheduler is lost .*start a cluster again") as caught:
-            moris.sweep(recordings, parameter_sets(400), client=client, chunk=2, progress=progress)
+        with pytest.raises(moris.ExecutorError, match="lost a task .*start it again") as caught:
+            moris.sweep(recordings, parameter_sets(400), executor=client.get_executor(), chunk=2, progress=progress)
         assert 4 <= caught.value.partial.done < 400 and not caught.value.partial.complete
-        with pytest.raises(moris.ClusterError, match="scheduler is lost"):
-            moris.sweep(recordings, parameter_sets(), client=client)
+        with pytest.raises(moris.ExecutorError, match="lost a task"):
+            moris.sweep(recordings, parameter_sets(), executor=client.get_executor())
     finally:
         client.close()
         made.close()
 
 
-def test_a_cluster_without_workers_is_warned_of(recordings, monkeypatch):
-    monkeypatch.setattr("moris._cluster.LONGEST_WITHOUT_WORKERS", 0.5)
-    cancel = threading.Event()
-    with cluster(0) as made, Client(made) as client:
-        threading.Timer(2.0, cancel.set).start()
-        with pytest.warns(UserWarning, match="no worker has joined the Dask cluster for 0.5 s.*scheduler at tcp://.*interface="):
-            found = moris.sweep(recordings, parameter_sets(), client=client, cancel=cancel)
-    assert found.done == 0 and not found.complete
+def test_a_pool_of_processes_gives_the_same_and_a_killed_one_is_a_clear_error(here, recordings):
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        assert_same(moris.sweep(recordings, parameter_sets(), executor=pool, chunk=3), here)
+
+        def progress(done, total, text):
+            if done >= 4:
+                os.kill(next(iter(pool._processes)), signal.SIGKILL)
+
+        with pytest.raises(moris.ExecutorError, match="lost a task .BrokenProcessPool") as caught:
+            moris.sweep(recordings, parameter_sets(400), executor=pool, chunk=2, progress=progress)
+        assert 4 <= caught.value.partial.done < 400
 
 
-def test_no_client_is_a_type_error(recordings):
-    with pytest.raises(TypeError, match="client must be a dask.distributed.Client, not str"):
-        moris.sweep(recordings, parameter_sets(), client="tcp://somewhere:8786")
+def test_no_executor_is_a_type_error(recordings):
+    with pytest.raises(TypeError, match="executor must be a concurrent.futures.Executor, not str"):
+        moris.sweep(recordings, parameter_sets(), executor="tcp://somewhere:8786")
     with pytest.raises(ValueError, match="recordings is empty"):
         moris.sweep([], parameter_sets())
     with pytest.raises(TypeError, match="parameter_sets is a single set; give several"):
@@ -269,7 +273,8 @@ def test_a_cluster_holds_no_more_than_the_tasks_on_their_way():
                 memory[done] = next(iter(client.run(resident_memory).values()))
 
         sets = ({"splitter.x.omega1": 1.0 + 1e-5 * k} for k in range(SETS))
-        count = moris.sweep(recordings, sets, lambda count, result: count + 1, initial=0, client=client, chunk=100, progress=progress)
+        executor = client.get_executor()
+        count = moris.sweep(recordings, sets, lambda count, result: count + 1, initial=0, executor=executor, workers=1, chunk=100, progress=progress)
     assert count.value == SETS and len(tasks) == SETS // 1000
     # Beside those on their way are the context, the task just done, and one that is being forgotten.
     assert max(tasks) <= 4 + 3 and max(data) <= 4 + 3

@@ -79,7 +79,7 @@ def test_workers_find_the_same_to_the_bit_though_one_is_killed(tuned, recordings
                 killed.append(next(iter(client.run(os.getpid).values())))
                 os.kill(killed[0], signal.SIGKILL)
 
-        found = moris.tune(recordings, strategy="classical", folds=0, evaluations=150, client=client, progress=progress)
+        found = moris.tune(recordings, strategy="classical", folds=0, evaluations=150, executor=client.get_executor(), progress=progress)
     assert killed
     assert found.parameters == tuned.parameters and found.errors == tuned.errors
 

@@ -4,7 +4,7 @@ Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z, so that p
 are in SI units. Variables have the names that they have in the FMU.
 """
 
-from ._errors import BoundError, BuildError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
+from ._errors import BoundError, BuildError, ExecutorError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
 from ._fit import AxisShape, Candidate, Fit, fit
 from ._fmu import build_fmu
 from ._judged import measure
@@ -27,7 +27,7 @@ __all__ = [
     "BoundError",
     "BuildError",
     "Candidate",
-    "ClusterError",
+    "ExecutorError",
     "Fit",
     "FrequencyResponse",
     "MEASURES",

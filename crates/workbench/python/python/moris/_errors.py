@@ -47,8 +47,8 @@ class NoFeasibleParameters(MorisError):
     """A search found no parameters with which every recording keeps the limits."""
 
 
-class ClusterError(RuntimeError):
-    """The Dask cluster was lost, or ended a worker too often. `partial` holds what was done until then."""
+class ExecutorError(RuntimeError):
+    """An executor lost a task. `partial` holds what was done until then."""
 
     partial: Sweep | None
 

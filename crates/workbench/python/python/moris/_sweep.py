@@ -6,14 +6,15 @@ import itertools
 import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sized
+from concurrent.futures import Executor
 from threading import Event
-from typing import TYPE_CHECKING, Any, List, Tuple, Union
+from typing import TYPE_CHECKING, Any, List, NamedTuple, Tuple, Union
 
 import numpy as np
 
 from . import _moris
-from ._cluster import Cluster
-from ._errors import ClusterError
+from ._errors import ExecutorError
+from ._executor import Workers
 from ._optional import pandas
 from ._progress import Progress
 from ._recording import Recording, recordings_of
@@ -33,7 +34,7 @@ Measured = Tuple[Any, List[Union[str, None]]]
 Run = Generator[Tuple[List[ParameterSet], Measured], None, None]
 
 AHEAD = 4
-"""Chunks on their way for each thread of a cluster."""
+"""Chunks on their way for each worker."""
 
 
 class Result:
@@ -125,7 +126,8 @@ def sweep(
     base: ParameterSet | None = None,
     strategy: Strategy | None = None,
     preview: float = 0.0,
-    client: Any = None,
+    executor: Executor | None = None,
+    workers: int | None = None,
     chunk: int | None = None,
     progress: Show = None,
     cancel: Event | None = None,
@@ -139,14 +141,14 @@ def sweep(
         `initial`; None collects the Results in a list. moris.best(10, cost) keeps the best.
     rig, base, strategy: what every set is laid over. preview: as for simulate [s]; a set without the predictive strategy then
         has an error.
-    client: a dask.distributed.Client, whose workers then simulate; without it, the cores of this machine do. The results
-        are the same to the bit.
+    executor: a concurrent.futures.Executor, whose workers then simulate; without it, the cores of this machine do. The
+        results are the same to the bit. workers: number of its workers; by default that of this machine's cores.
     chunk: sets in a task; by default chosen by the recordings' length.
     progress: as for Progress: True, False, None or a function of (done, total, text).
     cancel: a threading.Event. Setting it, and Ctrl-C, end the sweep and keep what is done.
 
-    Returns a Sweep. A set that cannot be used has a Result with an error. Raises ClusterError where the cluster is lost; its
-    `partial` is the Sweep until then.
+    Returns a Sweep. A set that cannot be used has a Result with an error. Raises ExecutorError where the executor loses a
+    task; its `partial` is the Sweep until then.
     """
     if isinstance(parameter_sets, (str, Mapping)):
         raise TypeError("parameter_sets is a single set; give several, such as a list with it")
@@ -161,9 +163,11 @@ def sweep(
     cancelled = cancel.is_set if cancel is not None else lambda: False
     bar = Progress(progress, total, "sweep", "set")
     made = Sweep(initial if reduce else [], 0, False, [recording.name for recording in recordings])
-    run = _here(context, _chunks(parameter_sets, chunk, client), cancelled)
-    if client is not None:
-        run = _on_cluster(client, context, _chunks(parameter_sets, chunk, client), cancelled)
+    if executor is None:
+        # All cores of this machine share a chunk; a worker has one of its own.
+        run = _here(context, _chunks(parameter_sets, chunk * (os.cpu_count() or 1)), cancelled)
+    else:
+        run = _elsewhere(Workers(executor, workers, _Context, context), _chunks(parameter_sets, chunk), cancelled)
     try:
         for sets, (values, errors) in run:
             for parameters, measures, error in zip(sets, values, errors):
@@ -177,7 +181,7 @@ def sweep(
         made.complete = not cancelled()
     except KeyboardInterrupt:
         pass
-    except ClusterError as error:
+    except ExecutorError as error:
         error.partial = made
         raise
     finally:
@@ -186,17 +190,14 @@ def sweep(
     return made
 
 
-class _Context:
+class _Context(NamedTuple):
     """Data of every task; pickled once for each worker."""
 
-    def __init__(
-        self, recordings: list[_moris.Recording], rig: Rig | None, base: ParameterSet | None, strategy: Strategy | None, preview: float
-    ) -> None:
-        self.recordings = recordings
-        self.rig = rig
-        self.base = base
-        self.strategy = strategy
-        self.preview = preview
+    recordings: list[_moris.Recording]
+    rig: Rig | None
+    base: ParameterSet | None
+    strategy: Strategy | None
+    preview: float
 
     def measures(self, sets: list[ParameterSet], threads: int) -> Measured:
         laid_over = [[part for part in (self.base, parameters) if part is not None] for parameters in sets]
@@ -209,9 +210,7 @@ def _chunk(recordings: list[Recording]) -> int:
     return max(1, min(256, round(1e5 / samples)))
 
 
-def _chunks(parameter_sets: Iterable[ParameterSet], chunk: int, client: Any) -> Iterator[list[ParameterSet]]:
-    # All cores of this machine share a chunk; a worker has one of its own.
-    size = chunk if client is not None else chunk * (os.cpu_count() or 1)
+def _chunks(parameter_sets: Iterable[ParameterSet], size: int) -> Iterator[list[ParameterSet]]:
     sets = iter(parameter_sets)
     while part := list(itertools.islice(sets, size)):
         yield part
@@ -224,26 +223,25 @@ def _here(context: _Context, chunks: Iterator[list[ParameterSet]], cancelled: Ca
         yield sets, context.measures(sets, 0)
 
 
-def _on_cluster(client: Any, context: _Context, chunks: Iterator[list[ParameterSet]], cancelled: Callable[[], bool]) -> Run:
-    """Chunks with their measures, in order. As many are on their way as keep every thread busy, and no more."""
-    cluster = Cluster(client, _Context, (context.recordings, context.rig, context.base, context.strategy, context.preview))
-    ahead = AHEAD * cluster.threads()
+def _elsewhere(workers: Workers, chunks: Iterator[list[ParameterSet]], cancelled: Callable[[], bool]) -> Run:
+    """Chunks with their measures, in order. As many are on their way as keep every worker busy, and no more."""
     underway: deque[Any] = deque()
     try:
         while not cancelled():
-            for sets in itertools.islice(chunks, ahead - len(underway)):
-                underway.append((sets, cluster.submit(_Context.measures, sets, 1)))
+            for sets in itertools.islice(chunks, AHEAD * workers.count - len(underway)):
+                task = (_Context.measures, sets, 1)
+                underway.append((workers.submit(*task), task))
             if not underway:
                 return
-            sets, future = underway[0]
-            measures = cluster.result(future, cancelled)
+            future, task = underway[0]
+            measures = workers.result(future, *task, cancelled=cancelled)
             if measures is None:
                 return
             underway.popleft()
-            yield sets, measures
+            yield task[1], measures
     finally:
-        if underway:
-            cluster.cancel(future for _, future in underway)
+        for future, _ in underway:
+            future.cancel()
 
 
 __all__ = ["MEASURES", "Recording", "Result", "Sweep", "best", "sweep"]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from . import _moris
 from . import _types as types
-from ._cluster import Cluster
 from ._errors import NoFeasibleParameters
+from ._executor import Workers
 from ._optional import pandas
 from ._progress import Progress
 from ._recording import recordings_of
@@ -101,7 +102,8 @@ def tune(
     progress: Show = None,
     patience: int | None = None,
     stop: Callable[[str, int, float | None], bool] | None = None,
-    client: Any = None,
+    executor: Executor | None = None,
+    workers: int | None = None,
     **options: Unpack[RecordingOptions],
 ) -> Tuned:
     """Searches for parameters with a good shape of the felt force on all recordings, such that no limit is active.
@@ -123,7 +125,7 @@ def tune(
     progress: True, False, None or a function of (done, total, text).
     patience: evaluations without a smaller error after which a search ends. stop: function of (search, evaluations, error)
         that returns True to end them all. Both, and Ctrl-C, keep the best so far.
-    client: a dask.distributed.Client, whose workers then evaluate. The result is the same to the bit.
+    executor, workers: as for sweep. The result is the same to the bit.
 
     docs/tuning-by-search.md has the objective.
     Returns Tuned. Raises NoFeasibleParameters where none keep the limits.
@@ -133,7 +135,7 @@ def tune(
         fixed: dict[str, Any] = dict(
             hold_out=recordings_of(hold_out, options), folds=folds, groups=groups, weights=weights, stroke_reserve=stroke_reserve,
             comfort=comfort, objective=objective, evaluations=evaluations, seed=seed, progress=progress, patience=patience,
-            stop=stop, client=client,
+            stop=stop, executor=executor, workers=workers,
         )  # fmt: skip
         return _best(lambda one: tune(*given, one, **fixed))
     tuned_on = recordings_of(recordings, options)
@@ -154,7 +156,7 @@ def tune(
         list(comfort), objective,
     )  # fmt: skip
     tuning = _moris.Tuning(*arguments)
-    cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)
+    remote = None if executor is None else Workers(executor, workers, _moris.Tuning, arguments)
     searches = 1 + (min(folds, len(tuned_on)) if len(tuned_on) > 1 else 0)
     bar = Progress(progress, searches * evaluations, "tuning", "set")
     begun: list[str] = []
@@ -173,8 +175,8 @@ def tune(
             folds,
             patience,
             observe,
-            None if cluster is None else lambda *given: cluster.result(cluster.submit(_costs, *given)),
-            0 if cluster is None else max(16, 2 * cluster.threads()),
+            None if remote is None else lambda *given: remote.result(remote.submit(_costs, *given), _costs, *given),
+            0 if remote is None else max(16, 2 * remote.count),
         )
     finally:
         bar.close()
