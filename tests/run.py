@@ -101,8 +101,12 @@ def test_programs(command):
     artifacts = [json.loads(line) for line in report.stdout.splitlines() if b'"executable":"' in line]
     programs = [(one["executable"], Path(one["manifest_path"]).parent) for one in artifacts if one["profile"]["test"]]
     assert programs, "cargo names no test program"
-    name = lambda program: Path(program[0]).stem.rsplit("-", 1)[0]
-    return sorted(programs, key=lambda program: (name(program) not in LONGEST, -Path(program[0]).stat().st_size))
+    return sorted(programs, key=lambda program: (named(program[0]) not in LONGEST, -Path(program[0]).stat().st_size))
+
+
+def named(program):
+    """A test program's name as its package has it."""
+    return Path(program).stem.rsplit("-", 1)[0]
 
 
 def failure(program, directory, *arguments, **environment):
@@ -117,17 +121,19 @@ def rust(options):
     """all tests in Rust"""
     chosen = [options.k] if options.k else []
     command = ["cargo", "test", "--workspace", *features(options)]
-    tests = [(program, directory, *chosen, "--quiet") for program, directory in test_programs(command)]
+    programs = test_programs(command)
+    tests = [(program, directory, *chosen, "--quiet") for program, directory in programs]
     # The examples in the documentation are compiled once more, by one core.
     tests.insert(1, (command[0], ROOT, *command[1:], "--doc", *chosen, "--", "--quiet"))
+    if options.all:
+        # The only tests of this library that the programs leave out by themselves: a search of minutes.
+        washout = next(one for one in programs if named(one[0]) == "moris_washout")
+        tests.insert(1, (*washout, *chosen, "--quiet", "--ignored"))
     # Side by side, and one more than cores: the longest waits for sockets and clocks.
     with ThreadPoolExecutor(os.cpu_count() + 1) as pool:
         failed = [output for output in pool.map(lambda test: failure(*test, **cases(options)), tests) if output]
     if failed:
         sys.exit("\n".join(failed))
-    if options.all:
-        # The only tests of this library that the command above leaves out: a search of minutes.
-        run("cargo", "test", "--package", "moris-washout", "--lib", *chosen, "--", "--quiet", "--ignored")
 
 
 @cache
@@ -171,19 +177,23 @@ def passed_on(options, *names):
     return [f"--{name}" for name in names if getattr(options, name)]
 
 
+def script(options, file, *names):
+    run(sys.executable, file, *passed_on(options, *names), at_once=options.beside)
+
+
 def importers(options):
     """the FMUs in other people's simulation tools"""
-    run(sys.executable, "tests/importers/run.py", *passed_on(options, "require"))
+    script(options, "tests/importers/run.py", "require")
 
 
 def platforms(options):
     """the libraries for Windows and Arm, under Wine and qemu"""
-    run(sys.executable, "tests/platforms/run.py", *passed_on(options, "install", "require"))
+    script(options, "tests/platforms/run.py", "install", "require")
 
 
 def sources(options):
     """the sources in the washout's FMUs, compiled by C compilers"""
-    run(sys.executable, "tests/sources/run.py", *passed_on(options, "install", "require"))
+    script(options, "tests/sources/run.py", "install", "require")
 
 
 def pages(options):
@@ -192,17 +202,16 @@ def pages(options):
     if options.install:
         run("rustup", "target", "add", "wasm32-unknown-unknown")
     program(options)
-    run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
+    script(options, "tests/report/run.py", "install", "require")
 
 
 def reproducible(options):
     """FMUs built in another directory, byte by byte"""
-    run(sys.executable, "tests/reproducible.py")
+    script(options, "tests/reproducible.py")
 
 
 def in_python(options, names):
     """Makes what these parts need, and runs them side by side: each waits for clocks, or for the longest of its tests alone."""
-    options.beside = len(names) > 1
     python()
     with ThreadPoolExecutor() as pool:
         # The longest first, of those that need the package.
@@ -215,9 +224,36 @@ def in_python(options, names):
             done.result()
 
 
-IN_PYTHON = ("python", "package", "docs")
+def elsewhere(options, names):
+    """Runs these parts in two rows side by side: browsers and emulators wait, where compilers work."""
+
+    def row(*parts):
+        for name in parts:
+            if name in names:
+                PARTS[name](options)
+
+    with ThreadPoolExecutor() as pool:
+        others = [pool.submit(row, "importers")]
+        # Those that install something come after each other. The last compares libraries that the first makes.
+        row("platforms")
+        others.append(pool.submit(row, "reproducible"))
+        row("sources", "pages")
+        for done in others:
+            done.result()
+
+
+def alone(options, names):
+    PARTS[names[0]](options)
+
+
 DEFAULT = {"fmu": fmu, "rust": rust, "python": python_tests, "package": package, "docs": docs}
 PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "sources": sources, "pages": pages, "reproducible": reproducible}
+GROUPS = [
+    (["fmu"], alone),
+    (["rust"], alone),
+    (["python", "package", "docs"], in_python),
+    (["importers", "platforms", "sources", "pages", "reproducible"], elsewhere),
+]
 
 
 def processor_time():
@@ -240,17 +276,16 @@ def main():
     parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
     options = parser.parse_args()
     chosen = options.only or (PARTS if options.all else DEFAULT)
-    together = [name for name in IN_PYTHON if name in chosen]
     took = []
-    for name in [name for name in PARTS if name in chosen and name not in together[1:]]:
+    for together, run_together in GROUPS:
+        names = [name for name in together if name in chosen]
+        if not names:
+            continue
         start, used = time.monotonic(), processor_time()
-        if name in together:
-            in_python(options, together)
-            name = ", ".join(together)
-        else:
-            PARTS[name](options)
-        took.append(f"{name:22}{time.monotonic() - start:8.0f}{processor_time() - used:16.0f}")
-    print("part                   seconds  processor time", *took, sep="\n")
+        options.beside = len(names) > 1
+        run_together(options, names)
+        took.append(f"{time.monotonic() - start:8.0f}{processor_time() - used:16.0f}  {', '.join(names)}")
+    print(" seconds  processor time  part", *took, sep="\n")
     print("No test has failed. What is missing above has not been run.")
 
 
