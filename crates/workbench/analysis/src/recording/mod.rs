@@ -53,7 +53,7 @@ use moris_washout::{Input, Parameters};
 use crate::message::Message;
 use axes::convert;
 use checks::{consistency, dead, exchanged, frozen, interleaved, outliers, unusual};
-pub(crate) use columns::units;
+pub(crate) use columns::{Quantity, units};
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::RecordingError;

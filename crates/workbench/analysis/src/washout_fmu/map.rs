@@ -7,9 +7,11 @@ use moris_fmu_host::files::TEXT;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, interface::AngularVelocityFrame, interface::STANDARD_GRAVITY};
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
 
 use crate::error::{About, Result, bail, ensure};
+use crate::recording::Quantity;
 use crate::recording::felt::Kind;
 use crate::recording::units::Dimension;
 
@@ -45,23 +47,6 @@ enum Gravity {
     Removed,
 }
 
-/// A quantity of a recording.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quantity {
-    Ax,
-    Ay,
-    Az,
-    Wx,
-    Wy,
-    Wz,
-    Roll,
-    Pitch,
-    Yaw,
-    Speed,
-    Lean,
-}
-
 /// A variable, with its unit and sign.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -88,6 +73,17 @@ pub enum OutputPlace {
 
 fn one() -> f64 {
     1.0
+}
+
+/// Keys of the quantities that a washout takes.
+const INPUTS: &[&str] = &["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"];
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let key = String::deserialize(deserializer)?;
+        let known = Quantity::of_key(&key).ok().filter(|quantity| INPUTS.contains(&quantity.key()));
+        known.ok_or_else(|| D::Error::unknown_variant(&key, INPUTS))
+    }
 }
 
 /// The columns of a table of felt motion, each with its dimension: all of a group, or none.
@@ -147,7 +143,7 @@ impl Map {
 
     /// All variables, by the quantities.
     fn places(&self) -> impl Iterator<Item = (String, &Place)> {
-        let inputs = self.inputs.iter().map(|(quantity, place)| (quantity.name().to_owned(), place));
+        let inputs = self.inputs.iter().map(|(quantity, place)| (quantity.key().to_owned(), place));
         let outputs = self.outputs.iter().filter_map(|(name, place)| match place {
             OutputPlace::Constant(_) => None,
             OutputPlace::Variable(place) => Some((name.clone(), place)),
@@ -173,35 +169,12 @@ impl Map {
             AngularVelocityFrame::World => to_body() * input.angular_velocity,
         };
         match quantity {
-            Quantity::Ax => force().x,
-            Quantity::Ay => force().y,
-            Quantity::Az => force().z,
-            Quantity::Wx => rate().x,
-            Quantity::Wy => rate().y,
-            Quantity::Wz => rate().z,
-            Quantity::Roll => input.orientation.roll,
-            Quantity::Pitch => input.orientation.pitch,
-            Quantity::Yaw => input.orientation.yaw,
+            Quantity::Force(axis) => force()[axis],
+            Quantity::Rate(axis) => rate()[axis],
+            Quantity::Angle(axis) => [input.orientation.roll, input.orientation.pitch, input.orientation.yaw][axis],
             Quantity::Speed => input.speed,
-            Quantity::Lean => input.lean,
+            _ => input.lean,
         }
-    }
-}
-
-impl Quantity {
-    /// Its name in maps.
-    pub fn name(self) -> &'static str {
-        ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"][self as usize]
-    }
-
-    /// Its dimension.
-    pub fn kind(self) -> Kind {
-        Kind::Of(match self {
-            Quantity::Ax | Quantity::Ay | Quantity::Az => Dimension::Force,
-            Quantity::Wx | Quantity::Wy | Quantity::Wz => Dimension::Rate,
-            Quantity::Roll | Quantity::Pitch | Quantity::Yaw | Quantity::Lean => Dimension::Angle,
-            Quantity::Speed => Dimension::Speed,
-        })
     }
 }
 

@@ -13,10 +13,11 @@ use moris_washout::Input;
 
 use crate::error::{About, Result, bail, ensure};
 use crate::message::Message;
+use crate::recording::Quantity;
 use crate::recording::Recording;
 use crate::recording::felt::{FeltTable, Kind};
 pub use map::Map;
-use map::{OutputPlace, Place, Quantity};
+use map::{OutputPlace, Place};
 
 /// Tolerance of the ratio of two steps against a whole number.
 const ROUNDING: f64 = 1e-6;
@@ -137,12 +138,12 @@ impl WashoutFmu {
             ensure!(
                 declaration.is_some_and(|declaration| declaration.causality == Causality::Input),
                 "[inputs] {}: {} is no input of the FMU; {}",
-                quantity.name(),
+                quantity.key(),
                 place.at,
                 listed(running, Causality::Input)
             );
-            let in_si = unit(running, place, quantity.kind(), Causality::Input);
-            let in_si = in_si.about(|| format!("[inputs] {}", quantity.name()))?;
+            let in_si = unit(running, place, Kind::Of(quantity.dimension()), Causality::Input);
+            let in_si = in_si.about(|| format!("[inputs] {}", quantity.key()))?;
             let is_real = declaration.is_some_and(|declaration| declaration.element == "Real");
             Ok(Taken {
                 quantity: *quantity,
