@@ -230,7 +230,7 @@ const TRIES: i32 = 21;
 fn start_within_limits(recordings: &Recordings, space: &Space) -> DVector<f64> {
     let mut tries = (0..TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
     let keeps = |point: &DVector<f64>| {
-        recordings.objective(&space.parameters(point)).is_some_and(|judged| judged.is_feasible())
+        recordings.objective(&space.parameters(point)).is_some_and(|(_, penalty)| penalty == 0.0)
     };
     tries.find(keeps).unwrap_or_else(|| space.scaled_start(1.0))
 }
@@ -250,9 +250,9 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidat
         let mut point = tidied.point.clone();
         point[k] = 0.0;
         let parameters = space.parameters(&DVector::from_column_slice(&point));
-        let Some(judged) = recordings.objective(&parameters) else { continue };
-        if judged.is_feasible() && judged.error < tidied.error + WORTH_TIDYING {
-            tidied = Candidate { parameters, error: judged.error, point, ..tidied };
+        let Some((error, penalty)) = recordings.objective(&parameters) else { continue };
+        if penalty == 0.0 && error < tidied.error + WORTH_TIDYING {
+            tidied = Candidate { parameters, error, point, ..tidied };
         }
     }
     tidied
@@ -262,29 +262,6 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidat
 const WEIGHT_OF_THE_WORST: f64 = 0.5;
 /// Penalty on a recording's error above that with the parameters that the search starts from.
 const PENALTY_OF_WORSENING: f64 = 4.0;
-
-/// Objective and violated constraints over all recordings.
-struct Judged {
-    error: f64,
-    /// Mean fraction of the time with active limits.
-    violated: f64,
-    /// Mean excess of shake, jolt and peak.
-    excess: f64,
-}
-
-impl Judged {
-    fn is_feasible(&self) -> bool {
-        self.violated == 0.0 && self.excess == 0.0
-    }
-
-    /// Penalty for violated constraints.
-    fn penalty(&self) -> f64 {
-        if self.is_feasible() {
-            return 0.0;
-        }
-        PENALTY_OF_ANY + PENALTY_OF_LIMITS * self.violated.sqrt() + PENALTY_OF_DISCOMFORT * self.excess.ln_1p()
-    }
-}
 
 /// The recordings and their errors at the start of the search.
 struct Recordings<'a> {
@@ -300,20 +277,24 @@ impl<'a> Recordings<'a> {
         Ok(Recordings { objectives, evaluate, starts })
     }
 
-    /// The objective, and how far constraints are violated. `None` where the parameters cannot be
-    /// used.
+    /// The objective, and the penalty for violated constraints, 0 if all are kept. `None` where the
+    /// parameters cannot be used.
     ///
     /// The objective is the mean error over the recordings, plus the weighted worst error, plus a
     /// penalty on each recording that gets worse. A set that improves one recording at another's
     /// expense is unlikely to improve an unknown recording.
-    fn objective(&self, parameters: &Parameters) -> Option<Judged> {
+    fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
         let costs = (self.evaluate)(self.objectives, parameters).ok()?;
         let mean = |of: fn(&Cost) -> f64| costs.iter().map(of).sum::<f64>() / costs.len() as f64;
         let worst = costs.iter().map(|cost| cost.error).fold(0.0, f64::max);
         let worse = costs.iter().zip(&self.starts).map(|(cost, start)| (cost.error - start).max(0.0)).sum::<f64>();
         let worse = worse / costs.len() as f64;
         let error = mean(|cost| cost.error) + WEIGHT_OF_THE_WORST * worst + PENALTY_OF_WORSENING * worse;
-        Some(Judged { error, violated: mean(|cost| cost.violated), excess: mean(|cost| cost.excess) })
+        if costs.iter().all(Cost::is_feasible) {
+            return Some((error, 0.0));
+        }
+        let (violated, excess) = (mean(|cost| cost.violated), mean(|cost| cost.excess));
+        Some((error, PENALTY_OF_ANY + PENALTY_OF_LIMITS * violated.sqrt() + PENALTY_OF_DISCOMFORT * excess.ln_1p()))
     }
 }
 
@@ -322,15 +303,14 @@ fn penalized_cost(recordings: &Recordings, space: &Space, point: &DVector<f64>, 
     let (inside, outside) = space.clamped(point);
     let parameters = space.parameters(&inside);
     // All parameters in the box can be used. If some cannot, their cost is the largest.
-    let Some(judged) = recordings.objective(&parameters) else { return f64::MAX };
-    let error = judged.error;
+    let Some((error, penalty)) = recordings.objective(&parameters) else { return f64::MAX };
     let distance = inside.norm_squared() / inside.len() as f64;
     let cost = error + PENALTY_OF_DISTANCE * distance;
-    if judged.is_feasible() {
+    if penalty == 0.0 {
         let found = Candidate { parameters, error, cost, point: inside.as_slice().to_vec() };
         best.lock().expect("no evaluation panics").add(found);
     }
-    cost + PENALTY_OF_OUTSIDE * outside + judged.penalty()
+    cost + PENALTY_OF_OUTSIDE * outside + penalty
 }
 
 /// The best sets so far, the best first. They do not depend on the order of evaluation.
