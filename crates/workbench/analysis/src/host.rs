@@ -57,8 +57,7 @@ impl Host {
                 " is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other"
             ]
         })?;
-        let previewer =
-            learned.or_else(|| (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview)));
+        let previewer = learned.or_else(|| Previewer::of(&recording.manoeuvre, self.preview));
         Ok(Simulation::previewed(&replay, parameters, previewer, || ())?)
     }
 }

@@ -7,7 +7,6 @@ use moris_simulation::measures::bound::BoundError;
 use moris_simulation::measures::{Axes, Measures};
 use moris_simulation::preview::Previewer;
 use moris_simulation::{Evaluated, Simulation, measures};
-use moris_washout::Parameters;
 
 use crate::bounds::{AxisBound, bounds};
 use crate::error::Result;
@@ -29,41 +28,19 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Simulates and measures. `progress` is called after each sample.
+    /// Simulates, with a preview if there is one, and measures. `progress` is called after each
+    /// sample.
     ///
     /// # Errors
     /// The parameters cannot be used.
-    pub fn of(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
-        Self::previewed(recording, setup, 0.0, progress)
-    }
-
-    /// As [`Outcome::of`] with a preview of the recording of so many seconds.
-    ///
-    /// # Errors
-    /// As [`Outcome::of`].
-    pub fn previewed(recording: &Recording, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
-        let parameters = recording.parameters(&setup.parameters);
-        let previewer = (seconds > 0.0).then(|| Previewer::new(recording.inputs(), recording.step(), seconds));
-        Outcome::with(recording, setup, &parameters, previewer, progress)
-    }
-
-    /// As [`Outcome::of`] with a preview that the recording has learned.
-    ///
-    /// # Errors
-    /// As [`Outcome::of`].
-    pub fn learned(recording: &Recording, setup: &Setup, learned: Previewer, progress: impl FnMut()) -> Result<Self> {
-        let parameters = recording.parameters(&setup.parameters);
-        Outcome::with(recording, setup, &parameters, Some(learned), progress)
-    }
-
-    fn with(
+    pub fn of(
         recording: &Recording,
         setup: &Setup,
-        parameters: &Parameters,
         previewer: Option<Previewer>,
         progress: impl FnMut(),
     ) -> Result<Self> {
-        Outcome::measured(Simulation::previewed(&recording.replay(), parameters, previewer, progress)?, setup)
+        let parameters = recording.parameters(&setup.parameters);
+        Outcome::measured(Simulation::previewed(&recording.replay(), &parameters, previewer, progress)?, setup)
     }
 
     /// Judges motion that another washout computed, under its name.

@@ -49,6 +49,16 @@ impl Aims {
         let inverted = shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
         (shape.error.unwrap_or(0.0) / self.error).max(inverted / self.inverted)
     }
+
+    /// True if a candidate is felt larger among those that reach the aims, or is nearer to them.
+    pub fn prefer(&self, one: &Candidate, other: &Candidate) -> bool {
+        let distance = [one, other].map(|candidate| self.distance(&candidate.shape));
+        match distance.map(|distance| distance <= 1.0) {
+            [true, true] => one.shape.size() > other.shape.size(),
+            [false, false] => distance[0] < distance[1],
+            [fits, _] => fits,
+        }
+    }
 }
 
 /// Factors on the parameters of a set.
@@ -124,7 +134,7 @@ impl<'a> Search<'a> {
             manoeuvre,
             desired: Desired::new(&force, manoeuvre.step()),
             heave: below_cue_frequency(&heave, manoeuvre.step()),
-            previewer: (preview > 0.0).then(|| Previewer::new(manoeuvre.inputs(), manoeuvre.step(), preview)),
+            previewer: Previewer::of(manoeuvre, preview),
             aims,
         }
     }
@@ -141,7 +151,7 @@ impl<'a> Search<'a> {
         let best = curves
             .iter()
             .filter_map(best_of)
-            .reduce(|best, next| if self.is_better(&next, &best) { next } else { best });
+            .reduce(|best, next| if self.aims.prefer(&next, &best) { next } else { best });
         let mut best = best.unwrap_or(Candidate { factors: Factors::scale(1.0), shape: Shape::default() });
         let curve = curves.into_iter().find(|curve| curve.contains(&best)).unwrap_or_default();
         best.factors.heave = self.heave(parameters, best.factors)?;
@@ -212,17 +222,7 @@ impl<'a> Search<'a> {
     }
 
     fn best(&self, curve: &[Candidate]) -> Option<Candidate> {
-        curve.iter().copied().reduce(|best, next| if self.is_better(&next, &best) { next } else { best })
-    }
-
-    /// True if a candidate is felt larger among those that reach the aims, or is nearer to them.
-    fn is_better(&self, one: &Candidate, other: &Candidate) -> bool {
-        let distance = [one, other].map(|candidate| self.aims.distance(&candidate.shape));
-        match distance.map(|distance| distance <= 1.0) {
-            [true, true] => one.shape.size() > other.shape.size(),
-            [false, false] => distance[0] < distance[1],
-            [fits, _] => fits,
-        }
+        curve.iter().copied().reduce(|best, next| if self.aims.prefer(&next, &best) { next } else { best })
     }
 
     /// The largest factor on heave with at most the aims' error; 1 where none has.

@@ -1,8 +1,10 @@
 //! The future of a recording as the washout's preview.
 
 use moris_interface::Group;
+use moris_washout::Preview;
 use moris_washout::interface::PREVIEW_SAMPLES;
-use moris_washout::{Input, Preview};
+
+use crate::Manoeuvre;
 
 /// The preview of a recording at any of its times.
 #[derive(Clone, Debug)]
@@ -16,7 +18,7 @@ pub struct Previewer {
 enum Source {
     /// The recording itself.
     Recording {
-        /// Specific force along x and y at each sample, averaged as [`Previewer::new`] says
+        /// Specific force along x and y at each sample, averaged as [`Previewer::of`] says
         /// \[m/s2\].
         forces: [Vec<f64>; 2],
         /// Elements of the preview.
@@ -43,17 +45,18 @@ pub fn parse_seconds(text: &str) -> Result<f64, String> {
 const ROUNDING: f64 = 1e-9;
 
 impl Previewer {
-    /// A preview of so many seconds, at most [`LONGEST_PREVIEW`].
+    /// A preview of so many seconds, at most [`LONGEST_PREVIEW`]; none of no length.
     ///
     /// An element is a weighted mean of the force around its time. The weight is a triangle
     /// that ends at the neighbouring elements. So motion faster than the elements is not
     /// aliased to a slow one.
-    pub fn new(inputs: &[Input], step: f64, seconds: f64) -> Self {
+    pub fn of(manoeuvre: &Manoeuvre, seconds: f64) -> Option<Self> {
+        let step = manoeuvre.step();
         let count = ((seconds / PREVIEW_STEP + ROUNDING) as usize).min(PREVIEW_SAMPLES);
         let reach = (PREVIEW_STEP / step).round() as usize;
-        let force = |axis: usize| inputs.iter().map(|input| input.specific_force[axis]).collect::<Vec<_>>();
+        let force = |axis: usize| manoeuvre.inputs().iter().map(|input| input.specific_force[axis]).collect::<Vec<_>>();
         let forces = [0, 1].map(|axis| averaged(&force(axis), reach));
-        Previewer { step, source: Source::Recording { forces, count } }
+        (seconds > 0.0).then_some(Previewer { step, source: Source::Recording { forces, count } })
     }
 
     /// Previews as of each sample. Between samples the latest holds.
@@ -113,22 +116,23 @@ fn running_mean(values: &[f64], reach: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use moris_washout::Input;
+
     use super::*;
 
-    fn ramp(count: usize) -> Vec<Input> {
+    fn ramp(count: usize) -> Manoeuvre {
         let mut input = Input::default();
-        (0..count)
-            .map(|k| {
-                input.specific_force.x = 0.01 * k as f64;
-                input.specific_force.y = if k % 2 == 0 { 1.0 } else { -1.0 };
-                input
-            })
-            .collect()
+        let input = |k: usize| {
+            input.specific_force.x = 0.01 * k as f64;
+            input.specific_force.y = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+            input
+        };
+        Manoeuvre::new(0.01, (0..count).map(input).collect())
     }
 
     #[test]
     fn elements_are_the_forces_of_their_times() {
-        let previewer = Previewer::new(&ramp(1001), 0.01, 1.0);
+        let previewer = Previewer::of(&ramp(1001), 1.0).unwrap();
         let preview = previewer.at(2.0);
         assert_eq!((preview.count, preview.step), (5, 0.2));
         for k in 0..5 {
@@ -137,7 +141,7 @@ mod tests {
         }
         assert_eq!(previewer.at(9.6).count, 2, "the recording ends at 10 s");
         assert_eq!(previewer.at(10.0).count, 0);
-        assert_eq!(Previewer::new(&ramp(1001), 0.01, 9.0).at(0.0).count, 20);
+        assert_eq!(Previewer::of(&ramp(1001), 9.0).unwrap().at(0.0).count, 20);
     }
 
     #[test]

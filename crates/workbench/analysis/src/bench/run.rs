@@ -157,7 +157,7 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
         let parameters = recording.parameters(&self::unscaled(&setup.parameters, strategy));
         let simulated = |parameters: &Parameters| {
             let setup = Setup { parameters: *parameters, ..setup.clone() };
-            Outcome::of(&recording, &setup, || ()).about(of)
+            Outcome::of(&recording, &setup, None, || ()).about(of)
         };
         let name = strategy.name();
         rows.push(row(name, Scale::One, simulated(&parameters)?));

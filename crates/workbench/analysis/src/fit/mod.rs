@@ -49,12 +49,8 @@ fn of_recording(recording: &Recording, strategies: &[Strategy], preview: f64, ai
         search.fit(&parameters).about(|| format!("{}, {}", recording.name, strategy.name))
     };
     let fits: Vec<Fit> = strategies.par_iter().map(fit).collect::<Result<_>>()?;
-    let is_better = |one: &Fit, other: &Fit| match (one.fits, other.fits) {
-        (true, true) => one.best.shape.size() > other.best.shape.size(),
-        (false, false) => aims.distance(&one.best.shape) < aims.distance(&other.best.shape),
-        (fits, _) => fits,
-    };
-    let winner = (1..fits.len()).fold(0, |best, next| if is_better(&fits[next], &fits[best]) { next } else { best });
+    let better = |best: usize, next: usize| if aims.prefer(&fits[next].best, &fits[best].best) { next } else { best };
+    let winner = (1..fits.len()).fold(0, better);
     let mut parameters = recording.parameters(&strategies[winner].setup.parameters);
     let is_slower = parameters.tilt.rate_limit < FASTER_TILT;
     parameters.tilt.rate_limit = FASTER_TILT;

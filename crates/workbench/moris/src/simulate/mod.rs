@@ -220,12 +220,11 @@ impl Case {
     }
 
     fn outcome(&self, recording: &Recording, learned: Option<&Previewer>, progress: impl FnMut()) -> Result<Outcome> {
-        if let Some(learned) = learned.filter(|_| self.learns) {
-            return Ok(Outcome::learned(recording, &self.setup, learned.clone(), progress)?);
-        }
         let Some(foreign) = &self.foreign else {
-            let outcome = Outcome::previewed(recording, &self.setup, self.preview, progress)?;
-            return Ok(outcome.advised(recording, self.preview)?);
+            let learned = learned.filter(|_| self.learns).cloned();
+            let previewer = learned.or_else(|| Previewer::of(&recording.manoeuvre, self.preview));
+            let outcome = Outcome::of(recording, &self.setup, previewer, progress)?;
+            return Ok(if self.learns { outcome } else { outcome.advised(recording, self.preview)? });
         };
         let judged = foreign.motion(recording).and_then(|(motion, notes)| {
             Ok(Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)?)

@@ -213,8 +213,10 @@ fn write_reports(
     fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
     let mut written = vec![file];
     for objective in objectives {
-        let outcomes: Vec<Outcome> =
-            setups.iter().map(|setup| Outcome::of(objective.recording(), setup, || ())).collect::<Result<_, _>>()?;
+        let outcomes: Vec<Outcome> = setups
+            .iter()
+            .map(|setup| Outcome::of(objective.recording(), setup, None, || ()))
+            .collect::<Result<_, _>>()?;
         written.push(write_page(
             &options.report,
             &format!("{}.tuned", objective.name()),

@@ -71,7 +71,7 @@ fn a_felt_force_as_csv_has_the_measures_of_the_simulation_it_came_from() {
     let directory = tempfile::tempdir().unwrap();
     let recording = recording(directory.path(), 1000);
     let setup = Setup::load(None, &[]).unwrap();
-    let own = Outcome::of(&recording, &setup, || ()).unwrap();
+    let own = Outcome::of(&recording, &setup, None, || ()).unwrap();
     let file = directory.path().join("felt.csv");
     let names = ["ax [g]", "ay [g]", "az [g]", "wx [deg/s]", "wy [deg/s]", "wz [deg/s]"];
     write_columns(&file, names, &own.simulation, |output| {
@@ -90,7 +90,7 @@ fn poses_and_legs_have_the_felt_forces_and_the_limits() {
     let recording = recording(directory.path(), 1000);
     // A plan's acceleration bends 50 times a second, where differences are off.
     let setup = Setup::load(None, &["classical".to_owned()]).unwrap();
-    let own = Outcome::of(&recording, &setup, || ()).unwrap();
+    let own = Outcome::of(&recording, &setup, None, || ()).unwrap();
     let file = directory.path().join("pose.csv");
     let names = ["x [mm]", "y [mm]", "z [mm]", "roll [deg]", "pitch [deg]", "yaw [deg]"];
     write_columns(&file, names, &own.simulation, |output| {
@@ -143,7 +143,7 @@ fn wrong_units_signs_and_rates_are_said() {
     let directory = tempfile::tempdir().unwrap();
     let recording = recording(directory.path(), 100);
     let setup = Setup::load(None, &[]).unwrap();
-    let own = Outcome::of(&recording, &setup, || ()).unwrap();
+    let own = Outcome::of(&recording, &setup, None, || ()).unwrap();
     let forces = |change: fn([f64; 3]) -> [f64; 3]| {
         own.simulation.outputs.iter().map(|output| change(output.felt_specific_force.into())).collect::<Vec<_>>()
     };
