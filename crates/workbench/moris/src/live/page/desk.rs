@@ -131,7 +131,7 @@ pub struct Welcome {
     pub drives: bool,
     /// The vehicle has controls.
     can_drive: bool,
-    names: &'static [&'static str],
+    names: Vec<&'static str>,
 }
 
 impl Desk {
@@ -252,7 +252,7 @@ impl Desk {
             shared: self.shared_control,
             drives: is_first && can_drive,
             can_drive,
-            names: &NAMES,
+            names: NAMES.split(' ').collect(),
         }
     }
 
