@@ -27,8 +27,6 @@ const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
 /// Part of the cue, and of the actuators' speed, below which the way down may begin.
 const DESCENT_CUE: f64 = 0.2;
 const DESCENT_SPEED: f64 = 0.25;
-/// Time in which the cue goes out, about \[s\].
-const FADE: f64 = 4.0;
 /// Least time of engaging \[s\], also where the washout has stayed engaged through a pause.
 const LEAST_ENGAGING: f64 = 4.0;
 /// Part of the way to neutral that is too short to change a pose.
@@ -318,13 +316,6 @@ impl Session {
     /// Way of the leg that is farthest with these lengths from the lowest pose \[m\].
     pub fn way_from_settled(&self, lengths: &[f64; 6]) -> f64 {
         lengths.iter().zip(self.settled).map(|(length, settled)| (length - settled).abs()).fold(0.0, f64::max)
-    }
-
-    /// Time until the platform is settled \[s\], while it parks; an estimate until the cue has
-    /// gone out.
-    pub fn time_to_settled(&self) -> Option<f64> {
-        let up = if self.goes_up { self.time_to_descent() } else { 0.0 };
-        (self.state == State::Parking).then(|| up + self.travel.steps_down(self.travel_part) * STEP)
     }
 
     /// The source of telemetry.
@@ -628,12 +619,6 @@ impl Session {
     fn may_descend(&self, output: &Output) -> bool {
         let slow = DESCENT_SPEED * self.washout.parameters().rig.velocity_limit;
         self.washout.engagement() < DESCENT_CUE && output.leg_velocity.iter().all(|speed| speed.abs() < slow)
-    }
-
-    /// Time until the way down can begin, about \[s\].
-    fn time_to_descent(&self) -> f64 {
-        let up = if self.begin == self.settled { 0.0 } else { 2.0 * Travel::SMOOTHING };
-        up.max(FADE * self.washout.engagement())
     }
 
     /// Advances on the way between the lengths at rest and neutral.

@@ -75,14 +75,6 @@ impl Travel {
     pub fn is_down(&self) -> bool {
         self.ramp == 0 && self.first.is(0) && self.second.is(0)
     }
-
-    /// Steps until [`Travel::is_down`] is true, if it goes down by `part` of the way a step.
-    pub fn steps_down(&self, part: f64) -> f64 {
-        if self.is_down() {
-            return 0.0;
-        }
-        self.ramp as f64 / WHOLE as f64 / part.max(1e-12) + 2.0 * WINDOW as f64
-    }
 }
 
 #[cfg(test)]
@@ -110,21 +102,5 @@ mod tests {
         assert!(accelerations.iter().all(|found| found.abs() <= 2.0 * speed / 0.4 + 1e-6));
         assert!(accelerations.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= 0.003));
         assert!(way.iter().all(|value| (0.0..=length).contains(value)));
-    }
-
-    #[test]
-    fn the_time_down_is_that_which_it_takes() {
-        let part = 0.5e-3;
-        for ups in [100, 1_500, 5_000] {
-            let mut travel = Travel::default();
-            (0..ups).for_each(|_| travel.advance(true, part));
-            let expected = travel.steps_down(part);
-            let mut steps = 0.0;
-            while !travel.is_down() {
-                travel.advance(false, part);
-                steps += 1.0;
-            }
-            assert!((steps - expected).abs() <= 2.0, "{steps}, not {expected}");
-        }
     }
 }
