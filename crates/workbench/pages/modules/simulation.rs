@@ -10,14 +10,14 @@ use std::ops::Range;
 
 use moris_interface::{Group, Reader, slot_count};
 use moris_pages::memory::{group, respond, with_numbers};
-use moris_pages::report::{Event, Rig, Thinning, events, felt_chart, run};
+use moris_pages::report::{Rig, Run, Thinning, events, felt_chart, run};
 use moris_simulation::capabilities::{AxisAlone, Capabilities};
-use moris_simulation::measures::{References, Row};
-use moris_simulation::{Evaluated, Finding, Limits, Simulation, Unfinished, measures_with};
+use moris_simulation::measures::References;
+use moris_simulation::{Evaluated, Limits, Simulation, Unfinished, measures_with};
 use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
-use serde::Serialize;
+use serde_json::{Value, json};
 
 const INPUTS: usize = slot_count(Input::ROWS);
 const PARAMETERS: usize = slot_count(Parameters::ROWS);
@@ -37,41 +37,6 @@ struct Recorded {
 thread_local! {
     static RECORDED: RefCell<Option<Recorded>> = RefCell::default();
     static CURVES: RefCell<Vec<f32>> = RefCell::default();
-}
-
-/// Data common to all parts of a simulation.
-#[derive(Serialize)]
-struct Head {
-    limits: Limits,
-    rig: Rig,
-    charts: Vec<ChartHead>,
-}
-
-/// A chart of one line, whose values are among the curves.
-#[derive(Serialize)]
-struct ChartHead {
-    title: String,
-    quantity: String,
-    label: String,
-}
-
-/// Data that follow the curves.
-#[derive(Serialize)]
-struct Evaluation {
-    verdict: Finding,
-    findings: Vec<Finding>,
-    measures: Vec<Row>,
-    events: Vec<Event>,
-}
-
-/// Findings of `moris rig check`, but for the size of the workspace.
-#[derive(Serialize)]
-struct Verdict {
-    is_sound: bool,
-    heads: [&'static str; 5],
-    /// Cells for each axis.
-    rows: [Vec<String>; 6],
-    texts: [String; 4],
 }
 
 /// Takes a recording from the numbers: the time between samples, the bounds of the three axes, the
@@ -160,13 +125,9 @@ fn with_recorded<T>(act: impl FnOnce(&mut Recorded) -> Result<T, String>) -> Res
 impl Recorded {
     fn begin(&mut self, parameters: &Parameters) -> Result<String, String> {
         let begun = Unfinished::begin(&Replay::new(&self.manoeuvre), parameters).map_err(|error| error.to_string())?;
-        let head = Head {
-            limits: parameters.into(),
-            rig: parameters.into(),
-            charts: self.bounded().map(|axis| chart_head(&begun.simulation, axis)).collect(),
-        };
+        let charts: Vec<Value> = self.bounded().map(|axis| chart_head(&begun.simulation, axis)).collect();
         self.simulation = Some((begun, 0));
-        serde_json::to_string(&head).map_err(|error| error.to_string())
+        Ok(json!({ "limits": Limits::from(parameters), "rig": Rig::from(parameters), "charts": charts }).to_string())
     }
 
     fn advance(&mut self, samples: usize) -> usize {
@@ -194,13 +155,8 @@ impl Recorded {
         let run = run(&evaluated, "", &Thinning::new(samples, samples));
         CURVES.set(run.limited.tilt.iter().map(|&flag| f32::from(u8::from(flag))).collect());
         let events = events(&run, &Rig::from(&simulation.parameters));
-        serde_json::to_string(&Evaluation {
-            verdict: run.verdict,
-            findings: run.findings,
-            measures: run.measures,
-            events,
-        })
-        .map_err(|error| error.to_string())
+        let Run { verdict, findings, measures, .. } = run;
+        Ok(json!({ "verdict": verdict, "findings": findings, "measures": measures, "events": events }).to_string())
     }
 
     /// The axes whose bounds are known.
@@ -246,19 +202,19 @@ fn verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> 
         capabilities.clearance.to_string(),
         capabilities.singularities.to_string(),
     ];
-    let verdict = Verdict {
-        is_sound: capabilities.is_sound(),
-        heads: AxisAlone::HEADS,
-        rows: capabilities.axes.each_ref().map(AxisAlone::row),
-        texts: texts.map(|text| text.trim_end().to_owned()),
-    };
-    serde_json::to_string(&verdict).map_err(|error| error.to_string())
+    let verdict = json!({
+        "is_sound": capabilities.is_sound(),
+        "heads": AxisAlone::HEADS,
+        "rows": capabilities.axes.each_ref().map(AxisAlone::row),
+        "texts": texts.map(|text| text.trim_end().to_owned()),
+    });
+    Ok(verdict.to_string())
 }
 
-fn chart_head(simulation: &Simulation, axis: usize) -> ChartHead {
+fn chart_head(simulation: &Simulation, axis: usize) -> Value {
     let chart = felt_chart(simulation, axis, &Thinning::new(1, 1));
     let label = chart.lines.first().map(|line| line.label.clone()).unwrap_or_default();
-    ChartHead { title: chart.title, quantity: chart.quantity, label }
+    json!({ "title": chart.title, "quantity": chart.quantity, "label": label })
 }
 
 /// Curves of some samples, one after the other; the last are those of the charts of these axes.
