@@ -2,10 +2,10 @@
 
 import { page } from "../shared/payload.js";
 import { fixed, significant } from "../shared/format.js";
-import { byId, element } from "../shared/dom.js";
+import { byId, element, saveAs } from "../shared/dom.js";
 import { letTurn, View } from "../shared/view.js";
 import { Strip } from "../shared/strip.js";
-import { addLegend, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
+import { addLegend, animate, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
 import { Road, SCENE } from "../shared/road.js";
 import { Track } from "../shared/track.js";
 import { ask, listenToCommands, Sliders, token } from "./orders.js";
@@ -49,12 +49,7 @@ const sliders = new Sliders(byId("panel"), page, (values) => send({ set: values 
 
 function record() {
   const isOn = now.recorded === null;
-  if (!isOn && now.recorded.length > 1) {
-    const link = element("a", { download: "live.csv" });
-    link.href = URL.createObjectURL(new Blob([`${HEADER}\n${now.recorded.join("\n")}\n`], { type: "text/csv" }));
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  }
+  if (!isOn && now.recorded.length > 1) saveAs("live.csv", `${HEADER}\n${now.recorded.join("\n")}\n`, "text/csv");
   now.recorded = isOn ? [] : null;
   byId("record").setAttribute("aria-pressed", String(isOn));
   byId("record").textContent = isOn ? "Stop and save (R)" : "Record (R)";
@@ -178,19 +173,13 @@ byId("record").addEventListener("click", record);
 listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record, ...pair.keys, [DRIVING_KEY]: () => driving.beginAgain() });
 connect();
 
-let before = performance.now();
-function tick(at) {
-  const seconds = Math.max(0, at - before) / 1000;
-  before = at;
-  if (now.view) {
-    if (road && now.place) drawRoad(at, seconds);
-    machine.drawState(machineState(now.view), paints.felt);
-    for (const strip of Object.values(strips)) strip.draw(paints);
-    track.draw(paints);
-  }
-  requestAnimationFrame(tick);
-}
-requestAnimationFrame(tick);
-document.getElementById("alarm").hidden = true;
+animate((seconds, at) => {
+  if (!now.view) return true;
+  if (road && now.place) drawRoad(at, seconds);
+  machine.drawState(machineState(now.view), paints.felt);
+  for (const strip of Object.values(strips)) strip.draw(paints);
+  track.draw(paints);
+  return true;
+});
 /** For checks: what is shown. */
 globalThis.simulationLive = { now, strips, sliders, driving, track, machine, latenessInWords };

@@ -2,7 +2,7 @@
 
 import { element } from "../shared/dom.js";
 import { ParameterControl } from "../shared/parameter.js";
-import { chosen, isElsewhere } from "../shared/words.js";
+import { chosen, slotsByGroup } from "../shared/words.js";
 
 const COMMAND_KEYS = { s: "start", e: "engage", d: "disengage", p: "park", c: "clear", escape: "stop" };
 /** Headings of parameters that stand first. */
@@ -37,7 +37,6 @@ export class Sliders {
   constructor(box, data, send) {
     Object.assign(this, { box, data, send, waiting: {}, isSending: false });
     this.values = data.parameters.map(({ start }) => start);
-    this.slots = new Map(data.parameters.map(({ name }, slot) => [name, slot]));
     this.controls = new Map();
     this.message = element("p", { class: "summary", role: "status" });
     this.show();
@@ -49,13 +48,7 @@ export class Sliders {
 
   /** Builds the controls for the strategy: those of others have no effect. */
   show() {
-    const groups = new Map();
-    const strategy = chosen(this.data.parameters, this.values).get("strategy");
-    this.data.parameters.forEach((parameter, slot) => {
-      const { group } = parameter;
-      if (!group || isElsewhere(parameter, strategy)) return;
-      groups.set(group, [...groups.get(group) || [], slot]);
-    });
+    const groups = slotsByGroup(this.data.parameters, chosen(this.data.parameters, this.values).get("strategy"));
     this.controls = new Map([...groups.values()].flat().map((slot) => {
       const control = new ParameterControl(this.data.parameters[slot], this.values[slot], (value) => this.change(slot, value), () => {});
       return [slot, control];

@@ -1,8 +1,8 @@
 // The panel with the parameters: each change simulates the recording again and redraws the page.
 
 import { fixed } from "../shared/format.js";
-import { element } from "../shared/dom.js";
-import { chosen, idleReason, isElsewhere, plainWords, searched } from "../shared/words.js";
+import { element, saveAs } from "../shared/dom.js";
+import { chosen, slotsByGroup, idleReason, plainWords, searched } from "../shared/words.js";
 import { ParameterControl } from "../shared/parameter.js";
 import { report } from "./data.js";
 import { panelButton, Variants } from "./variants.js";
@@ -16,14 +16,6 @@ const UNFINISHED = 300;
 
 /** Parameters that a fitting scale multiplies. */
 const SCALED = /^scale\.(specificForce\.[xy]|angularVelocity\.[xyz])$/;
-
-/** Gives a text to save as a file. */
-function saveAs(name, text) {
-  const link = element("a", { download: name });
-  link.href = URL.createObjectURL(new Blob([text], { type: "application/toml" }));
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
 
 export class Tuning {
   /** `show(run)` shows a run, and every curve and measure anew; `showCurves(run)` curves that change. */
@@ -58,7 +50,7 @@ export class Tuning {
     this.resetButton = panelButton("Start values", "Set every parameter to its start", () => this.change(this.parameters.map(({ start }) => start)));
     this.saveButton = panelButton("Save parameters", "Save the shown run's parameters as a file", () => this.save());
     this.copyButton = panelButton("Copy command", "Copy the command that simulates with the saved file", () => this.copy());
-    this.saveRigButton = panelButton("Save rig", "Save the shown run's rig as a file for --rig", () => saveAs(this.rigFileName, this.rigFile()));
+    this.saveRigButton = panelButton("Save rig", "Save the shown run's rig as a file for --rig", () => saveAs(this.rigFileName, this.rigFile(), "application/toml"));
     this.verdict = new RigVerdict();
     this.message = element("p", { class: "summary", role: "status" });
     this.groups = element("div");
@@ -115,14 +107,7 @@ export class Tuning {
   }
 
   buildControls() {
-    const headings = new Map([["Strategy", []], ["Scales", []]]);
-    const strategy = this.chosen.get("strategy");
-    this.parameters.forEach((parameter, slot) => {
-      const { group } = parameter;
-      if (!group || isElsewhere(parameter, strategy)) return;
-      if (!headings.has(group)) headings.set(group, []);
-      headings.get(group).push(slot);
-    });
+    const headings = slotsByGroup(this.parameters, this.chosen.get("strategy"), new Map([["Strategy", []], ["Scales", []]]));
     const focused = document.activeElement;
     const ofRig = headings.get("Rig") ?? [];
     headings.delete("Rig");
@@ -327,7 +312,7 @@ export class Tuning {
   }
 
   save() {
-    saveAs(this.fileName, this.file());
+    saveAs(this.fileName, this.file(), "application/toml");
   }
 
   async copy() {

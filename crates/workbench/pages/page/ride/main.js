@@ -2,10 +2,10 @@
 
 import { inflated, page } from "../shared/payload.js";
 import { fixed } from "../shared/format.js";
-import { byId, element } from "../shared/dom.js";
+import { byId, element, saveAs } from "../shared/dom.js";
 import { letTurn, View } from "../shared/view.js";
 import { Strip } from "../shared/strip.js";
-import { addLegend, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
+import { addLegend, animate, Lamps, machineState, resolved, setText, STRIP } from "../shared/shown.js";
 import { Controls } from "../shared/controls.js";
 import { Road, SCENE } from "../shared/road.js";
 import { Track } from "../shared/track.js";
@@ -56,12 +56,7 @@ function restart() {
 
 const toggle = (id) => { byId(id).checked = !byId(id).checked; };
 
-function save() {
-  const link = element("a", { download: "ride.csv" });
-  link.href = URL.createObjectURL(new Blob([engine.csv()], { type: "text/csv" }));
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
+const save = () => saveAs("ride.csv", engine.csv(), "text/csv");
 
 /** Adds a row for each whole lap that has none. */
 function showLaps({ laps }) {
@@ -144,16 +139,11 @@ controls.listen(document.querySelectorAll("#pedals button"), { r: restart, p: ()
 controls.offerTilt(byId("tilt"));
 byId("learns").addEventListener("change", () => engine.calls.learn(byId("learns").checked));
 
-let before = performance.now();
-function tick(at) {
-  const seconds = Math.max(0, at - before) / 1000;
-  before = at;
+animate((seconds) => {
   const begin = performance.now();
   frame(seconds, controls.after(seconds));
   now.cost += performance.now() - begin;
-  if (!now.isHeld) requestAnimationFrame(tick);
-}
-requestAnimationFrame(tick);
-document.getElementById("alarm").hidden = true;
+  return !now.isHeld;
+});
 /** For checks: what is shown, and a frame by hand. */
 globalThis.simulationRide = { now, engine, controls, frame, road, machine, strips, track };

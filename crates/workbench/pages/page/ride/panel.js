@@ -2,6 +2,7 @@
 
 import { element } from "../shared/dom.js";
 import { ParameterControl } from "../shared/parameter.js";
+import { chosen } from "../shared/words.js";
 
 const PROMINENT = [
   "strategy", "scale.automatic", "scale.specificForce.x", "scale.specificForce.y", "scale.angularVelocity.x", "tilt.rateLimit", "tilt.angleLimit",
@@ -31,8 +32,7 @@ export class Panel {
   }
 
   get strategy() {
-    const slot = this.data.parameters.findIndex(({ name }) => name === "strategy");
-    return this.data.parameters[slot].items[this.values[slot] - 1];
+    return chosen(this.data.parameters, this.values).get("strategy").value;
   }
 
   change(slot, value, retune) {

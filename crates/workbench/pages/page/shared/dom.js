@@ -14,6 +14,14 @@ export function element(tag, attributes = {}, children = []) {
   return made;
 }
 
+/** Gives a text of a media type to save as a file. */
+export function saveAs(name, text, type) {
+  const link = element("a", { download: name });
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
 export const byId = (id) => document.getElementById(id);
 
 /** Clears a canvas and makes it as fine as the screen; returns its context and its size in CSS pixels. */

@@ -62,3 +62,15 @@ export function machineState(view) {
     felt: [view.felt_x, view.felt_y, view.felt_z],
   };
 }
+
+/** Calls `frame(seconds since the last, time)` for every picture of the screen, as long as it returns true. */
+export function animate(frame) {
+  let before = performance.now();
+  function tick(at) {
+    const seconds = Math.max(0, at - before) / 1000;
+    before = at;
+    if (frame(seconds, at)) requestAnimationFrame(tick);
+  }
+  requestAnimationFrame(tick);
+  byId("alarm").hidden = true;
+}

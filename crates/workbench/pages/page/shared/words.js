@@ -79,9 +79,18 @@ export function searched(parameter) {
 export const chosen = (parameters, values) => new Map(parameters.map(({ name, items }, slot) => [name, { items, value: items[values[slot] - 1] ?? values[slot] }]));
 
 /** True for parameters of another strategy than the chosen one: their names begin with it. */
-export function isElsewhere({ name }, strategy) {
+function isElsewhere({ name }, strategy) {
   const [first] = name.split(".");
   return strategy.items.includes(first) && first !== strategy.value;
+}
+
+/** The slots of the parameters that the strategy uses, by their group. */
+export function slotsByGroup(parameters, strategy, groups = new Map()) {
+  parameters.forEach((parameter, slot) => {
+    const { group } = parameter;
+    if (group && !isElsewhere(parameter, strategy)) groups.set(group, [...groups.get(group) ?? [], slot]);
+  });
+  return groups;
 }
 
 /** Why a parameter has no effect now, given what is chosen; nothing if it has one. */
