@@ -21,7 +21,7 @@ pub mod rig_file;
 mod setup;
 
 pub use error::Error;
-pub use named_values::{NamedValues, all, changed, overlaid, values_of};
+pub use named_values::{NamedValues, all, changed, differing, overlaid, values_of};
 pub use names::nearest;
 pub use parameter_sets::SETS;
 pub use setup::{Setup, load_rig, load_set, set_name};

@@ -24,12 +24,12 @@ pub fn all<G: Group>(group: &G) -> NamedValues {
 
 /// The values of a group's variables that differ from the default.
 pub fn changed<G: Group>(group: &G) -> NamedValues {
-    all(group)
-        .into_iter()
-        .zip(all(&G::default()))
-        .filter(|(mine, default)| mine.1 != default.1)
-        .map(|(mine, _)| mine)
-        .collect()
+    differing(group, &G::default())
+}
+
+/// The values of a group's variables that differ from another's.
+pub fn differing<G: Group>(group: &G, other: &G) -> NamedValues {
+    all(group).into_iter().zip(slots_of(other)).filter(|(mine, other)| mine.1 != *other).map(|(mine, _)| mine).collect()
 }
 
 /// The values in a model's slots, by name.

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context, Result};
 use moris_interface::Group as _;
-use moris_setup::{NamedValues, Setup, all, parameter_file};
+use moris_setup::{Setup, differing, parameter_file};
 use moris_washout::Parameters;
 
 use super::tuner::{BestSoFar, SoFar};
@@ -86,9 +86,7 @@ impl Kept {
 impl Current {
     /// Writes the values that differ from the rig's with default parameters.
     fn write(&self, parameters: &Parameters, first_line: &str) -> Result<()> {
-        let differing =
-            all(parameters).into_iter().zip(all(&self.before.rig_alone)).filter(|(mine, rigs)| mine.1 != rigs.1);
-        let values: NamedValues = differing.map(|(mine, _)| mine).collect();
+        let values = differing(parameters, &self.before.rig_alone);
         let heading = format!("{first_line}\n{}", self.heading);
         let text = parameter_file::write(&heading, &values, Parameters::ROWS);
         fs::write(&self.file, text).with_context(|| format!("cannot write {}", self.file.display()))
