@@ -16,6 +16,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 pub use moris_analysis::frequency_response::Measured;
+use moris_simulation::frequency_response::channel::{CROSS, direct};
 use moris_simulation::frequency_response::excitation::Amplitudes;
 
 use crate::setup_options::SetupOptions;
@@ -73,8 +74,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let file = |name: &str| options.report.join(name);
     table::write(&file("response.csv"), &measured)?;
-    picture::direct(&file("direct.svg"), &measured)?;
-    picture::cross(&file("cross.svg"), &measured)?;
+    picture::draw(&file("direct.svg"), &measured, &direct(), 3)?;
+    picture::draw(&file("cross.svg"), &measured, &CROSS, 2)?;
     for name in ["response.csv", "direct.svg", "cross.svg"] {
         writeln!(out, "wrote {}", file(name).display())?;
     }

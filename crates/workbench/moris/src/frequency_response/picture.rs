@@ -8,7 +8,7 @@ use plotters::prelude::*;
 
 use moris_simulation::capitalised;
 use moris_simulation::frequency_response::Response;
-use moris_simulation::frequency_response::channel::{CROSS, Channel, name, ratio_unit};
+use moris_simulation::frequency_response::channel::{Channel, name, ratio_unit};
 
 use super::Measured;
 use super::table::{modulus, phase};
@@ -31,24 +31,11 @@ const FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
 /// Least modulus drawn. A smaller one is not felt, and its phase has no meaning.
 const LEAST: f64 = 1e-3;
 
-/// Draws the felt motion of each channel on the same channel.
+/// Draws the felt motion on the outputs of these pairs of channels, side by side in columns.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn direct(file: &Path, measured: &Measured) -> Result<()> {
-    let pairs: Vec<(Channel, Channel)> = Channel::ALL.iter().map(|&channel| (channel, channel)).collect();
-    draw(file, measured, &pairs, 3)
-}
-
-/// Draws the felt motion on the channels coupled by gravity.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn cross(file: &Path, measured: &Measured) -> Result<()> {
-    draw(file, measured, &CROSS, 2)
-}
-
-fn draw(file: &Path, measured: &Measured, pairs: &[(Channel, Channel)], columns: usize) -> Result<()> {
+pub fn draw(file: &Path, measured: &Measured, pairs: &[(Channel, Channel)], columns: usize) -> Result<()> {
     let rows = pairs.len().div_ceil(columns);
     let size = (SIZE.0 * columns as u32, SIZE.1 * rows as u32 + HEAD);
     let root = SVGBackend::new(file, size).into_drawing_area();

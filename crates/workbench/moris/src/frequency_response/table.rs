@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use moris_simulation::frequency_response::Response;
-use moris_simulation::frequency_response::channel::{CROSS, Channel, name, ratio_unit, unit, unit_in_si};
+use moris_simulation::frequency_response::channel::{CROSS, Channel, direct, name, ratio_unit, unit, unit_in_si};
 use moris_simulation::frequency_response::excitation::frequencies;
 
 use super::Measured;
@@ -86,12 +86,11 @@ pub fn phase(response: &Response, output: Channel) -> f64 {
 /// Modulus and phase of the direct and the cross channels with the test's amplitudes,
 /// and what limited them.
 pub fn text(measured: &Measured) -> String {
-    let direct: Vec<_> = Channel::ALL.iter().map(|&channel| (channel, channel)).collect();
     let warnings: String = warnings(&measured.test).into_iter().map(|warning| warning + "\n").collect();
     format!(
         "\ndirect channels: modulus, phase [deg]\n{}\n\
          cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}\n{warnings}",
-        pairs(measured, &direct),
+        pairs(measured, &direct()),
         pairs(measured, &CROSS)
     )
 }

@@ -15,6 +15,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use moris::frequency_response::{Measured, picture, table};
 use moris_simulation::frequency_response::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
+use moris_simulation::frequency_response::channel::{CROSS, direct};
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use moris_simulation::frequency_response::{Response, response};
 use moris_washout::nalgebra::Complex;
@@ -184,10 +185,10 @@ fn the_files_hold_what_was_measured() {
     for (name, titles) in
         [("direct.svg", ["Surge", "Yaw rate"]), ("cross.svg", ["Pitch rate to surge", "Sway to roll rate"])]
     {
-        let draw = if name == "direct.svg" { picture::direct } else { picture::cross };
-        draw(&file(name), measured).unwrap();
+        let pairs = if name == "direct.svg" { &direct()[..] } else { &CROSS };
+        picture::draw(&file(name), measured, pairs, pairs.len() / 2).unwrap();
         let drawn = std::fs::read_to_string(file(name)).unwrap();
         assert!(titles.iter().all(|title| drawn.contains(title)), "{name}");
     }
-    assert!(picture::direct(&file("no/such/direct.svg"), measured).is_err());
+    assert!(picture::draw(&file("no/such/direct.svg"), measured, &direct(), 3).is_err());
 }

@@ -17,6 +17,11 @@ pub const CROSS: [(Channel, Channel); 4] = [
     (Channel::Sway, Channel::Roll),
 ];
 
+/// Each channel on itself.
+pub fn direct() -> [(Channel, Channel); CHANNELS] {
+    Channel::ALL.map(|channel| (channel, channel))
+}
+
 /// Name as in tables and pictures.
 pub fn name(channel: Channel) -> &'static str {
     ["surge", "sway", "heave", "roll rate", "pitch rate", "yaw rate"][channel as usize]
