@@ -108,6 +108,18 @@ pub fn series(py: Python, times: Vec<f64>, values: Vec<f64>, names: Vec<String>)
     Ok((PyArray1::from_vec(py, times), PyArray1::from_vec(py, values).reshape(shape)?, names))
 }
 
+/// Columns with their names, whose arrays have one dimension.
+///
+/// # Errors
+/// As [`values`].
+pub fn columns(given: Vec<(String, Bound<PyAny>)>) -> PyResult<Vec<(String, Vec<f64>)>> {
+    let column = |(title, array): (String, Bound<PyAny>)| {
+        let values = values(&array, &title, None, None)?;
+        Ok((title, values))
+    };
+    given.into_iter().map(column).collect()
+}
+
 /// The values of an array of shape (`rows`,) or (`rows`, `columns`), row by row.
 ///
 /// # Errors

@@ -9,7 +9,7 @@ use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
-use crate::arrays::{numbers, values, wrong_shape};
+use crate::arrays::{columns, numbers, wrong_shape};
 use crate::error;
 use crate::setup::Given;
 use crate::words::argument;
@@ -43,10 +43,7 @@ fn part<const N: usize>(
         let file: PathBuf = given.extract()?;
         FeltTable::read(&file).map_err(|reason| refused(reason.worded(argument)))?
     } else if is_table(given)? {
-        let columns: Vec<(String, Bound<PyAny>)> = given.extract()?;
-        let column = |(title, array): (String, Bound<PyAny>)| Ok((title.clone(), values(&array, &title, None, None)?));
-        let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
-        FeltTable::of_columns("", &columns).map_err(|reason| refused(reason.worded(argument)))?
+        FeltTable::of_columns("", &columns(given.extract()?)?).map_err(|reason| refused(reason.worded(argument)))?
     } else {
         return rows(given, names.argument, recording.inputs().len()).map(Some);
     };

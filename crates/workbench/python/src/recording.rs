@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use toml::{Table, Value};
 
-use crate::arrays::{Series, series, values};
+use crate::arrays::{Series, columns, series};
 use crate::error;
 use crate::setup::table;
 use crate::variables::Variables;
@@ -46,33 +46,14 @@ impl PyRecording {
         options: &Bound<PyDict>,
     ) -> PyResult<Self> {
         let conventions = conventions(options)?;
-        let column = |(title, array): (String, Bound<PyAny>)| {
-            let values = values(&array, &title, None, None)?;
-            Ok((title, values))
-        };
-        let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
+        let columns = self::columns(columns)?;
         let recording = py.detach(|| Recording::of_columns(name, &columns, &conventions));
         Self::of(py, recording)
     }
 
-    #[getter]
-    fn name(&self) -> &str {
-        &self.inner.name
-    }
-
-    #[getter]
-    fn step(&self) -> f64 {
-        self.inner.step()
-    }
-
-    #[getter]
-    fn duration(&self) -> f64 {
-        self.inner.manoeuvre.duration()
-    }
-
-    #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.worded_warnings()
+    /// Name, step and duration \[s\], and warnings.
+    fn facts(&self) -> (&str, f64, f64, Vec<String>) {
+        (&self.inner.name, self.inner.step(), self.inner.manoeuvre.duration(), self.worded_warnings())
     }
 
     /// The samples' times, their inputs row by row, and the names of the inputs.

@@ -13,7 +13,7 @@ use moris_analysis::recording::Recording;
 use moris_analysis::recording::preview::{LONGEST_PREVIEW, Previewer};
 use moris_analysis::washout_fmu::WashoutFmu;
 use moris_interface::{Group, guid, slots_of};
-use moris_setup::{Setup, all};
+use moris_setup::{Setup, differing};
 use moris_simulation::Simulation;
 use moris_simulation::findings::fit;
 use moris_simulation::foreign::ForeignMotion;
@@ -133,34 +133,20 @@ impl PySimulation {
         Ok(PySimulation { recording, outcome, judged: Some((motion, notes)) })
     }
 
-    #[getter]
-    fn rig_name(&self) -> &str {
-        &self.outcome.setup.rig_name
-    }
-
-    #[getter]
-    fn parameters_name(&self) -> &str {
-        &self.outcome.setup.parameters_name
-    }
-
-    #[getter]
-    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        parameter_dict(py, &self.outcome.setup.parameters)
-    }
-
-    #[getter]
-    fn fits(&self) -> Option<bool> {
-        fit(&self.outcome.evaluated())
-    }
-
-    #[getter]
-    fn findings(&self) -> Vec<String> {
-        self.outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect()
-    }
-
-    #[getter]
-    fn verdict(&self) -> String {
-        self.outcome.evaluated().headline().text
+    /// The rig's and the parameters' names, the parameters, true if it fits, verdict and findings;
+    /// the measures, with the bound's where it was computed.
+    #[allow(clippy::type_complexity)]
+    fn judgement<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<([&str; 2], Bound<'py, PyDict>, Option<bool>, String, Vec<String>, Vec<Measure>)> {
+        let setup = &self.outcome.setup;
+        let evaluated = self.outcome.evaluated();
+        let findings = evaluated.findings().into_iter().map(|finding| finding.text).collect();
+        let measures = evaluated.rows().into_iter().map(measure).collect();
+        let names = [setup.rig_name.as_str(), &setup.parameters_name];
+        let parameters = parameter_dict(py, &setup.parameters)?;
+        Ok((names, parameters, fit(&evaluated), evaluated.headline().text, findings, measures))
     }
 
     /// The samples' times, the inputs and outputs row by row, and the names of the columns.
@@ -177,12 +163,6 @@ impl PySimulation {
         let rates = self.outcome.simulation.desired_rates();
         let flat = rates.iter().flat_map(|rate| [rate.x, rate.y, rate.z]).collect();
         PyArray1::from_vec(py, flat).reshape([rates.len(), 3])
-    }
-
-    /// The measures, and the bound's where it was computed.
-    #[getter]
-    fn measures(&self) -> Vec<Measure> {
-        self.outcome.evaluated().rows().into_iter().map(measure).collect()
     }
 
     #[allow(clippy::type_complexity)]
@@ -349,8 +329,6 @@ pub fn parameter_values<'py>(
 #[pyfunction]
 pub fn parameter_file(py: Python, heading: &str, rig: Given, parameters: Given) -> PyResult<String> {
     let setup = setup::load(py, rig, parameters, None)?;
-    let rig_alone = all(&setup::load(py, rig, None, None)?.parameters);
-    let differing = all(&setup.parameters).into_iter().zip(rig_alone).filter(|(mine, rigs)| mine.1 != rigs.1);
-    let values: Vec<_> = differing.map(|(mine, _)| mine).collect();
+    let values = differing(&setup.parameters, &setup.rig_alone);
     Ok(moris_setup::parameter_file::write(heading, &values, moris_washout::Parameters::ROWS))
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -44,8 +44,15 @@ class Recording:
     rate: samples a second of a source without times. resample: samples a second, to interpolate a recording whose steps are unequal.
     fade_in: seconds over which the recording is faded in from rest: 1 by default, 0 to take it as it is.
 
+    step: time between samples [s]. duration: time from the first sample to the last [s]. warnings: in sentences.
+
     Raises RecordingError where columns are missing or the units or axes are implausible, with the remedy.
     """
+
+    name: str
+    step: float
+    duration: float
+    warnings: list[str]
 
     def __init__(self, source: Source, name: str | None = None, **options: Unpack[RecordingOptions]) -> None:
         unknown = [option for option in options if option not in RecordingOptions.__annotations__]
@@ -53,26 +60,7 @@ class Recording:
             raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(RecordingOptions.__annotations__)}")
         given = {"fade_in": _moris.FADE_IN, **{option: value for option, value in options.items() if value is not None}}
         self._native = source if isinstance(source, _moris.Recording) else _read(source, name, given)
-
-    @property
-    def name(self) -> str:
-        """Name of the recording."""
-        return self._native.name
-
-    @property
-    def step(self) -> float:
-        """Time between samples [s]."""
-        return self._native.step
-
-    @property
-    def duration(self) -> float:
-        """Time from the first sample to the last [s]."""
-        return self._native.duration
-
-    @property
-    def warnings(self) -> list[str]:
-        """Warnings, in sentences."""
-        return self._native.warnings
+        self.name, self.step, self.duration, self.warnings = self._native.facts()
 
     @property
     def inputs(self) -> Outputs:
@@ -107,19 +95,15 @@ def recordings_of(sources: Sources, options: RecordingOptions) -> list[Recording
 def _read(source: Any, name: str | None, options: dict[str, Any]) -> _moris.Recording:
     if isinstance(source, (list, tuple)):
         source = "+".join(str(path) for path in source)
-    if isinstance(source, (str, Path)):
-        path = Path(source)
-        reader = READERS.get(path.suffix.lower())
-        if reader is None:
-            return _moris.Recording.read(path, options)
-        if not path.exists():
-            raise RecordingError(f"cannot read {path}: there is no such file")
-        return _of_columns(name or path.stem, reader(path), options)
-    if _is_table(source):
-        source = _columns_of_table(source)
-    if not hasattr(source, "items"):
+    columns = columns_of(source)
+    if columns is None:
         raise TypeError(f"a recording is a table, a dict of arrays or a path, not {type(source).__name__}")
-    return _of_columns(name or "recording", source, options)
+    if isinstance(columns, Path):
+        if columns.suffix.lower() in READERS:
+            raise RecordingError(f"cannot read {columns}: there is no such file")
+        return _moris.Recording.read(columns, options)
+    default = Path(source).stem if isinstance(source, (str, PathLike)) else "recording"
+    return _moris.Recording.of_columns(name or default, columns, options)
 
 
 def columns_of(source: Any) -> list[tuple[str, np.ndarray[Any, Any]]] | Path | None:
@@ -159,12 +143,8 @@ def _columns_of_table(table: Any) -> dict[str, Any]:
     return _columns_of_frame(need("pandas", kind).api.interchange.from_dataframe(table))
 
 
-def _of_columns(name: str, columns: Mapping[str, Any], options: dict[str, Any]) -> _moris.Recording:
-    # A column of text is one that is not used: its numbers are missing, and only that of a column in use matters.
-    return _moris.Recording.of_columns(name, [(str(key), _numbers(values)) for key, values in columns.items()], options)
-
-
 def _numbers(values: Any) -> np.ndarray[Any, Any]:
+    # A column of text is one that is not used: its numbers are missing, and only that of a column in use matters.
     values = np.asarray(values)
     if values.dtype.kind in "mM":
         values = (values - values[0]) / np.timedelta64(1, "s") if values.dtype.kind == "M" else values / np.timedelta64(1, "s")

@@ -60,13 +60,10 @@ class Simulation(Outputs):
         self.recording = recording
         self.preview = preview
         self.learned = learned
-        self.measures = Measures(native.measures)
-        self.verdict = native.verdict
-        self.findings = native.findings
-        self.parameters = native.parameters
-        self.fits = native.fits
+        (rig_name, parameters_name), self.parameters, self.fits, self.verdict, self.findings, measures = native.judgement()
+        self.measures = Measures(measures)
         previewed = ", learned preview" if learned else f", preview of {preview:g} s" if preview else ""
-        self.name = f"{recording.name}, {native.parameters_name} on {native.rig_name}{previewed}"
+        self.name = f"{recording.name}, {parameters_name} on {rig_name}{previewed}"
 
     @property
     def desired(self) -> tuple[Floats, Floats]:

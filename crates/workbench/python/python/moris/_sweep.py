@@ -7,6 +7,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sized
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from threading import Event
 from typing import TYPE_CHECKING, Any, List, NamedTuple, Tuple, Union
 
@@ -37,6 +38,7 @@ AHEAD = 4
 """Chunks on their way for each worker."""
 
 
+@dataclass(eq=False, repr=False)
 class Result:
     """The measures of one parameter set on all recordings.
 
@@ -52,12 +54,6 @@ class Result:
     values: Floats
     error: str | None
 
-    def __init__(self, index: int, parameters: Any, values: Floats, error: str | None) -> None:
-        self.index = index
-        self.parameters = parameters
-        self.values = values
-        self.error = error
-
     def __getitem__(self, name: str) -> Floats:
         if name not in _COLUMNS:
             raise KeyError(f"there is no measure {name}; {near_misses(name, _COLUMNS)}")
@@ -67,6 +63,7 @@ class Result:
         return f"Result({self.index}, {self.parameters!r}{'' if self.error is None else f', error={self.error!r}'})"
 
 
+@dataclass(eq=False, repr=False)
 class Sweep:
     """Result of a sweep.
 
@@ -78,12 +75,6 @@ class Sweep:
     done: int
     complete: bool
     recordings: list[str]
-
-    def __init__(self, value: Any, done: int, complete: bool, recordings: list[str]) -> None:
-        self.value = value
-        self.done = done
-        self.complete = complete
-        self.recordings = recordings
 
     def to_pandas(self) -> Any:
         """The measures as a pandas.DataFrame, a row for each set and recording: for sweeps without a reduction."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+@dataclass(eq=False, repr=False)
 class Tuned:
     """Tuned parameters and what they come to.
 
@@ -40,27 +42,7 @@ class Tuned:
     interrupted: bool
     errors: dict[str, dict[str, float | None]]
     strategies: dict[str, Tuned]
-
-    def __init__(
-        self,
-        before: dict[str, Value],
-        parameters: dict[str, Value],
-        summary: str,
-        verdict: str,
-        is_worse: bool,
-        interrupted: bool,
-        errors: Any,
-        rig: Rig | None,
-    ) -> None:
-        self.parameters = parameters
-        self.changed = {name: value for name, value in parameters.items() if before[name] != value}
-        self.summary = summary
-        self.verdict = verdict
-        self.is_worse = is_worse
-        self.interrupted = interrupted
-        self.errors = {name: {"before": old, "tuned": new, "unseen": unseen} for name, old, new, unseen in errors}
-        self.strategies = {}
-        self._rig = rig
+    _rig: Rig | None
 
     @property
     def error(self) -> float:
@@ -169,7 +151,7 @@ def tune(
         return stop is None or not stop(search, tried, error)
 
     try:
-        found = tuning.run(
+        tuned, summary, verdict, is_worse, interrupted, found = tuning.run(
             evaluations,
             seed,
             folds,
@@ -181,7 +163,9 @@ def tune(
     finally:
         bar.close()
     before = _moris.parameter_values(rig, parameters, strategy)
-    return Tuned(before, *found, rig)
+    changed = {name: value for name, value in tuned.items() if before[name] != value}
+    errors = {name: {"before": old, "tuned": new, "unseen": unseen} for name, old, new, unseen in found}
+    return Tuned(tuned, changed, summary, verdict, is_worse, interrupted, errors, {}, rig)
 
 
 def _best(tune_one: Callable[[Strategy], Tuned]) -> Tuned:
