@@ -147,7 +147,7 @@ impl Recorded {
 
     fn finish(&mut self) -> Result<String, String> {
         let (Unfinished { simulation, .. }, _) = self.simulation.take().ok_or("no simulation")?;
-        let measures = measures_with(&simulation, &mut self.references).map_err(|error| error.to_string())?;
+        let measures = measures_with(&simulation, Some(&mut self.references)).map_err(|error| error.to_string())?;
         let holds = self.holds(&simulation.parameters);
         let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && holds));
         let samples = simulation.inputs.len();

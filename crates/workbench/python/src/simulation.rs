@@ -172,7 +172,7 @@ impl PySimulation {
             [setup.rig_name.clone(), setup.parameters_name.clone()],
             [setup.parameters, setup.rig_alone],
             simulation.step,
-            simulation.inputs.clone(),
+            simulation.inputs.to_vec(),
             simulation.outputs.clone(),
             simulation.felt_within_steps.iter().map(|felt| (*felt).into()).collect(),
             bounds.iter().any(Option::is_some),
@@ -207,6 +207,7 @@ impl PySimulation {
                 Outcome::foreign(&recording.inner, &setup, &setup.parameters_name, motion, notes.clone())
             }
             None => {
+                let inputs = inputs.into();
                 let simulation = Simulation { step, parameters, inputs, outputs, felt_within_steps, foreign: None };
                 Outcome::measured(simulation, &setup)
             }

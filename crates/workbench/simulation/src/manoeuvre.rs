@@ -1,12 +1,14 @@
 //! A manoeuvre: sampled inputs of the vehicle model.
 
+use std::sync::Arc;
+
 use moris_washout::Input;
 
 /// Inputs at equal steps, between which they go linearly.
 #[derive(Clone, Debug)]
 pub struct Manoeuvre {
     step: f64,
-    inputs: Vec<Input>,
+    inputs: Arc<Vec<Input>>,
 }
 
 impl Manoeuvre {
@@ -16,7 +18,7 @@ impl Manoeuvre {
     /// If the step is not positive.
     pub fn new(step: f64, inputs: Vec<Input>) -> Self {
         assert!(step > 0.0, "a manoeuvre's step must be positive, not {step}");
-        Manoeuvre { step, inputs }
+        Manoeuvre { step, inputs: inputs.into() }
     }
 
     /// Samples a function of time every `step` seconds over `duration` seconds.
@@ -36,6 +38,11 @@ impl Manoeuvre {
     /// Inputs at all samples.
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
+    }
+
+    /// The same, shared.
+    pub fn shared_inputs(&self) -> Arc<Vec<Input>> {
+        Arc::clone(&self.inputs)
     }
 
     /// Time from the first input to the last \[s\].

@@ -1,7 +1,8 @@
 //! The measures of a simulation.
 
 use crate::measures::{Limits, Measures, Platform, References, Run, RunError};
-use moris_washout::{Input, Output};
+use moris_washout::Output;
+use moris_washout::platform::Pose;
 
 use crate::Simulation;
 
@@ -10,16 +11,14 @@ use crate::Simulation;
 /// # Errors
 /// It is too short to be measured.
 pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
-    measures_with(simulation, &mut References::default())
+    measures_with(simulation, None)
 }
 
-/// As [`measures`] for one of several simulations of a recording.
+/// As [`measures`], with references where it is one of several simulations of a recording.
 ///
 /// # Errors
 /// As [`measures`].
-pub fn measures_with(simulation: &Simulation, references: &mut References) -> Result<Measures, RunError> {
-    let inputs = |value: fn(&Input) -> [f64; 3]| simulation.inputs.iter().map(value).collect::<Vec<_>>();
-    let outputs = |value: fn(&Output) -> [f64; 3]| simulation.outputs.iter().map(value).collect::<Vec<_>>();
+pub fn measures_with(simulation: &Simulation, references: Option<&mut References>) -> Result<Measures, RunError> {
     let tilt_limits = simulation.tilt_limits();
     let limited = |(sample, output): (usize, &Output)| Limits {
         tilt: tilt_limits.iter().flatten().any(|flags| flags[sample]),
@@ -27,22 +26,24 @@ pub fn measures_with(simulation: &Simulation, references: &mut References) -> Re
         safety: output.safety_active,
         actuator: output.actuator_limited,
     };
-    let rig = &simulation.parameters.rig;
-    let scale = &simulation.parameters.conditioning.force_scale;
+    let Simulation { inputs, outputs, parameters, felt_within_steps, step, .. } = simulation;
+    let (rig, scale) = (&parameters.rig, &parameters.conditioning.force_scale);
+    let neutral = Pose::neutral(rig).position;
+    let count = outputs.len();
     let run = Run {
-        step: simulation.step,
-        desired_force: &inputs(|input| input.specific_force.into()),
-        felt_force: &outputs(|output| output.felt_specific_force.into()),
-        felt_force_within_steps: &simulation.felt_within_steps.iter().map(|&felt| felt.into()).collect::<Vec<_>>(),
-        desired_rate: &simulation.desired_rates().into_iter().map(Into::into).collect::<Vec<_>>(),
+        step: *step,
+        desired_force: &(inputs.len(), |k: usize| inputs[k].specific_force.into()),
+        felt_force: &(count, |k: usize| outputs[k].felt_specific_force.into()),
+        felt_force_within_steps: &(felt_within_steps.len(), |k: usize| felt_within_steps[k].into()),
+        desired_rate: &(inputs.len(), |k| simulation.desired_rate(k).into()),
         scale: [scale.x, scale.y],
-        felt_rate: &outputs(|output| output.felt_angular_velocity.into()),
+        felt_rate: &(count, |k: usize| outputs[k].felt_angular_velocity.into()),
         platform: Platform {
-            legs: &simulation.outputs.iter().map(|output| output.length).collect::<Vec<_>>(),
+            legs: &(count, |k: usize| outputs[k].length),
             stroke: [rig.min_length, rig.max_length],
-            displacement: &simulation.displacements().into_iter().map(Into::into).collect::<Vec<_>>(),
-            tilt_rate: &simulation.outputs.iter().map(|o| [o.tilt_roll_rate, o.tilt_pitch_rate]).collect::<Vec<_>>(),
-            limited: &simulation.outputs.iter().enumerate().map(limited).collect::<Vec<_>>(),
+            displacement: &(count, |k: usize| (outputs[k].position - neutral).into()),
+            tilt_rate: &(count, |k: usize| [outputs[k].tilt_roll_rate, outputs[k].tilt_pitch_rate]),
+            limited: &outputs.iter().enumerate().map(limited).collect::<Vec<_>>(),
         },
     };
     Measures::with(&run, references)

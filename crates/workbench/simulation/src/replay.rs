@@ -35,6 +35,7 @@
 //! ```
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use moris_washout::{Input, InputCourse, Output, Washout};
 use nalgebra::Vector3;
@@ -83,8 +84,11 @@ impl<'a> Replay<'a> {
     }
 
     /// The inputs at the observations; the first is that before the first step.
-    pub fn inputs(&self) -> impl Iterator<Item = &'a Input> + use<'a> {
-        self.manoeuvre.inputs().iter().step_by(self.samples)
+    pub fn inputs(&self) -> Arc<Vec<Input>> {
+        match self.samples {
+            1 => self.manoeuvre.shared_inputs(),
+            samples => Arc::new(self.manoeuvre.inputs().iter().step_by(samples).copied().collect()),
+        }
     }
 
     /// Replays the manoeuvre. `observe` receives the input and the output at the end of each step,

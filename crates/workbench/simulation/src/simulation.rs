@@ -1,11 +1,12 @@
 //! Inputs and outputs of the washout in a simulation.
 
+use std::sync::Arc;
+
 use crate::{Manoeuvre, Replay};
 use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::LocationFrame;
-use moris_washout::platform::Pose;
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
 use crate::foreign::Foreign;
@@ -20,7 +21,7 @@ pub struct Simulation {
     /// Parameters of the simulation.
     pub parameters: Parameters,
     /// The input at each sample.
-    pub inputs: Vec<Input>,
+    pub inputs: Arc<Vec<Input>>,
     /// The output at each sample; the first is that before the first step.
     pub outputs: Vec<Output>,
     /// The felt specific force at the first sample and after each internal step \[m/s2\].
@@ -43,9 +44,10 @@ impl Unfinished {
     /// # Errors
     /// The parameters cannot be used: which, and why.
     pub fn begin(replay: &Replay, parameters: &Parameters) -> Result<Self, ParameterError> {
-        let inputs: Vec<Input> = replay.inputs().copied().collect();
+        let inputs = replay.inputs();
         let washout = Washout::new(parameters)?.starting_with(&inputs[0]);
-        let outputs = vec![washout.output()];
+        let mut outputs = Vec::with_capacity(inputs.len());
+        outputs.push(washout.output());
         let felt_within_steps = vec![outputs[0].felt_specific_force];
         let simulation = Simulation {
             step: replay.step(),
@@ -90,11 +92,10 @@ impl Unfinished {
 impl Simulation {
     /// Inputs alone, to be simulated with these parameters: no outputs yet.
     pub fn without_outputs(manoeuvre: &Manoeuvre, parameters: &Parameters) -> Self {
-        let inputs = manoeuvre.inputs().to_vec();
         Simulation {
             step: manoeuvre.step(),
             parameters: *parameters,
-            inputs,
+            inputs: manoeuvre.shared_inputs(),
             outputs: Vec::new(),
             felt_within_steps: Vec::new(),
             foreign: None,
@@ -160,11 +161,5 @@ impl Simulation {
         let [roll_rate, pitch_rate] = [series(|output| output.tilt_roll_rate), series(|output| output.tilt_pitch_rate)];
         let limits = Limits::from(&self.parameters);
         tilt_limits(&self.times(), &lags, [&roll, &pitch], [&roll_rate, &pitch_rate], &limits)
-    }
-
-    /// The platform's position relative to neutral at each sample, in the base frame \[m\].
-    pub fn displacements(&self) -> Vec<Vector3<f64>> {
-        let neutral = Pose::neutral(&self.parameters.rig).position;
-        self.outputs.iter().map(|output| output.position - neutral).collect()
     }
 }

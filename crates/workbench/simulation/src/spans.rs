@@ -68,7 +68,7 @@ mod tests {
         let simulation = Simulation {
             step: 0.02,
             parameters: Parameters::default(),
-            inputs: vec![Input::default(); outputs.len()],
+            inputs: vec![Input::default(); outputs.len()].into(),
             outputs,
             felt_within_steps: Vec::new(),
             foreign: None,

@@ -43,13 +43,12 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: &str, words: W
 
 /// The page with as much of the recording's inputs as fit into it; `page` is it without simulation.
 fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> String {
-    let inputs = simulator.inputs.clone();
     let mut page_of = |samples: usize| {
-        let inputs = inputs.iter().map(|series| series[..samples].to_vec()).collect();
+        let inputs = simulator.inputs.iter().map(|series| series[..samples].to_vec()).collect();
         report.simulator = Some(Simulator { inputs, ..simulator.clone() });
         moris_pages::report::html(&report)
     };
-    let mut samples = simulator.samples;
+    let mut samples = simulator.inputs[0].len();
     let mut with_inputs = page_of(samples);
     let empty = if with_inputs.len() > LARGEST_WITH_SIMULATION { page_of(0).len() } else { 0 };
     while with_inputs.len() > LARGEST_WITH_SIMULATION {

@@ -8,6 +8,9 @@ use moris_washout::interface::Rig;
 use crate::outcome::Outcome;
 use crate::recording::Recording;
 
+/// More samples do not fit into a page.
+const MOST_SAMPLES: usize = 250_000;
+
 /// True if pages can simulate.
 pub fn is_compiled() -> bool {
     !MODULE.is_empty()
@@ -19,13 +22,13 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: &str) -> Option<Sim
     if !is_compiled() {
         return None;
     }
-    let samples: Vec<_> = recording.inputs().iter().map(slots_of).collect();
+    let samples: Vec<_> = recording.inputs().iter().take(MOST_SAMPLES).map(slots_of).collect();
     let slots = samples[0].len();
     let name = &recording.name;
     Some(Simulator {
         module: MODULE.to_vec(),
         step: recording.step(),
-        samples: samples.len(),
+        samples: recording.inputs().len(),
         inputs: (0..slots).map(|slot| samples.iter().map(|sample| sample[slot]).collect()).collect(),
         bounds: outcome.evaluated().bounds,
         parameters: parameters(&outcome.simulation.parameters, &recording.parameters(&outcome.setup.rig_alone)),

@@ -327,10 +327,7 @@ impl Objective {
         // Parameters with other internal steps have references of their own.
         let own = (kept.divisions != divisions).then(|| self.references(divisions));
         let References { axes, .. } = own.as_ref().unwrap_or(kept);
-        let of_axis = |k: usize| {
-            let felt: Vec<f64> = felt.iter().map(|felt| (felt - rest())[k]).collect();
-            axes[k].comfort(&felt).values()
-        };
+        let of_axis = |k: usize| axes[k].comfort(felt.iter().map(|felt| (felt - rest())[k])).values();
         let axes: [[f64; 3]; 3] = std::array::from_fn(of_axis);
         std::array::from_fn(|k| axes.iter().map(|values| values[k]).fold(0.0, f64::max))
     }

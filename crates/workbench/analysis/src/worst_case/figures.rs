@@ -76,7 +76,7 @@ impl Desired {
                 let samples: Vec<f64> = felt.iter().step_by(self.divisions).copied().collect();
                 errors.push(rms_error(&desired.force, &samples));
             }
-            let [shake, jolt, _] = desired.comfort.comfort(&felt).values();
+            let [shake, jolt, _] = desired.comfort.comfort(felt.into_iter()).values();
             comfort = [comfort[0].max(shake), comfort[1].max(jolt)];
         }
         RideFigures { errors, comfort }

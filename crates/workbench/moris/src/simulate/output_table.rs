@@ -22,7 +22,8 @@ pub fn write(file: &Path, simulation: &Simulation) -> Result<()> {
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         table.write_record(std::iter::once("time".to_owned()).chain(names))?;
-        for ((time, input), output) in simulation.times().iter().zip(&simulation.inputs).zip(&simulation.outputs) {
+        for ((time, input), output) in simulation.times().iter().zip(simulation.inputs.iter()).zip(&simulation.outputs)
+        {
             let values = std::iter::once(*time).chain(slots_of(input)).chain(slots_of(output));
             table.write_record(values.map(written))?;
         }

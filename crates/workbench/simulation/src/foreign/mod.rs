@@ -139,7 +139,7 @@ impl ForeignMotion {
         let mut simulation = Simulation {
             step,
             parameters: *parameters,
-            inputs: inputs.to_vec(),
+            inputs: inputs.to_vec().into(),
             outputs,
             felt_within_steps,
             foreign: None,

@@ -2,12 +2,12 @@
 
 use std::array::from_fn;
 
-use super::comfort::{Comfort, Reference, divisions};
+use super::comfort::{Comfort, Reference, comfort_once, divisions};
 use super::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use super::effort::{Effort, effort};
 use super::fidelity::{Fidelity, fidelity};
 use super::incongruence::{Incongruence, incongruence};
-use super::run::{Run, RunError, axis};
+use super::run::{Run, RunError, Series, axis};
 use super::shape::{Desired, Shape};
 use super::sickness::{dose, share_sick};
 use super::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
@@ -60,12 +60,12 @@ pub struct Rider {
 }
 
 impl Rider {
-    fn of(run: &Run) -> Self {
-        let motions = [(run.desired_force, run.desired_rate), (run.felt_force, run.felt_rate)];
+    fn of([desired, felt]: [&[[f64; 3]]; 2], rates: [&dyn Series<3>; 2], step: f64) -> Self {
+        let sick = |(force, rate)| share_sick(force, &vectors(rate), step);
         Rider {
-            sick: motions.map(|(force, rate)| share_sick(force, rate, run.step)),
-            dose: motions.map(|(force, _)| dose(force, run.step)),
-            incongruence: incongruence(run.desired_force, run.felt_force, run.step),
+            sick: [(desired, rates[0]), (felt, rates[1])].map(sick),
+            dose: [desired, felt].map(|force| dose(force, step)),
+            incongruence: incongruence(desired, felt, step),
         }
     }
 }
@@ -76,7 +76,7 @@ impl Measures {
     /// # Errors
     /// The run's series do not fit together or hold something that is no number.
     pub fn of(run: &Run) -> Result<Self, RunError> {
-        Self::with(run, &mut References::default())
+        Self::with(run, None)
     }
 
     /// As [`Measures::of`] for one of several runs with the same desired force, of which it keeps
@@ -84,32 +84,42 @@ impl Measures {
     ///
     /// # Errors
     /// As [`Measures::of`].
-    pub fn with(run: &Run, references: &mut References) -> Result<Self, RunError> {
+    pub fn with(run: &Run, mut references: Option<&mut References>) -> Result<Self, RunError> {
         run.check()?;
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
         let force = SensedSignal { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
         let rate = SensedSignal { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
         let force = force.compare(run.desired_force, run.felt_force);
         let rate = rate.compare(run.desired_rate, run.felt_rate);
-        let divisions = divisions(run.desired_force.len(), run.felt_force_within_steps.len());
+        let divisions = divisions(run.desired_force.count(), run.felt_force_within_steps.count());
         let mut comfort_of = |k: usize| {
-            let new = || Reference::new(&axis(run.desired_force, k), divisions, upright[k], run.step);
+            let desired: Vec<f64> = axis(run.desired_force, k).collect();
+            let felt = axis(run.felt_force_within_steps, k);
+            let Some(references) = &mut references else { return comfort_once(&desired, felt, upright[k], run.step) };
+            let new = || Reference::new(&desired, divisions, upright[k], run.step);
             let kept = references[k].take().filter(|kept| kept.is_for(divisions, run.step));
-            references[k].insert(kept.unwrap_or_else(new)).comfort(&axis(run.felt_force_within_steps, k))
+            references[k].insert(kept.unwrap_or_else(new)).comfort(felt)
         };
+        let comfort = from_fn(|k| force[k].raw.is_some().then(|| comfort_of(k)));
+        let [desired, felt] = [vectors(run.desired_force), vectors(run.felt_force)];
         Ok(Measures {
-            comfort: from_fn(|k| force.raw[k].is_some().then(|| comfort_of(k))),
-            force: force.raw,
-            rate: rate.raw,
-            sensed_force: force.sensed,
-            sensed_rate: rate.sensed,
-            force_cues: force.cues,
-            rate_cues: rate.cues,
-            shape: Desired::new(run.desired_force, run.step).shape(run.felt_force, run.scale),
+            comfort,
+            force: force.each_ref().map(|axis| axis.raw),
+            rate: rate.each_ref().map(|axis| axis.raw),
+            sensed_force: force.each_ref().map(|axis| axis.sensed),
+            sensed_rate: rate.each_ref().map(|axis| axis.sensed),
+            force_cues: force.map(|axis| axis.cues),
+            rate_cues: rate.map(|axis| axis.cues),
+            shape: Desired::new(&desired, run.step).shape(&felt, run.scale),
             effort: effort(&run.platform),
-            rider: Rider::of(run),
+            rider: Rider::of([&desired, &felt], [run.desired_rate, run.felt_rate], run.step),
         })
     }
+}
+
+/// The vectors of a series.
+fn vectors(series: &dyn Series<3>) -> Vec<[f64; 3]> {
+    (0..series.count()).map(|sample| series.at(sample)).collect()
 }
 
 /// A vector signal with the organ that senses it.
@@ -120,25 +130,25 @@ struct SensedSignal<'a> {
     step: f64,
 }
 
-/// Felt against desired.
+/// Felt against desired on an axis.
 struct Comparison {
-    raw: Axes<Option<Fidelity>>,
-    sensed: Axes<Option<Fidelity>>,
-    cues: Axes<Cues>,
+    raw: Option<Fidelity>,
+    sensed: Option<Fidelity>,
+    cues: Cues,
 }
 
 impl SensedSignal<'_> {
-    fn compare(&self, desired: &[[f64; 3]], felt: &[[f64; 3]]) -> Comparison {
-        let raw = [desired, felt].map(|signal| from_fn(|k| axis(signal, k)));
-        let sense = |signal: &Axes<Vec<f64>>| from_fn(|k| sensed(self.sensor, &signal[k], self.rest[k], self.step));
-        let sensed = raw.each_ref().map(sense);
-        let fidelities =
-            |[desired, felt]: &[Axes<Vec<f64>>; 2]| from_fn(|k| fidelity(&desired[k], &felt[k], self.step));
-        Comparison {
-            raw: fidelities(&raw),
-            sensed: fidelities(&sensed),
-            cues: from_fn(|k| cues(&sensed[0][k], &sensed[1][k], self.thresholds[k])),
-        }
+    fn compare(&self, desired: &dyn Series<3>, felt: &dyn Series<3>) -> Axes<Comparison> {
+        from_fn(|k| {
+            let [desired, felt] = [desired, felt].map(|signal| axis(signal, k).collect::<Vec<f64>>());
+            let raw = fidelity(&desired, &felt, self.step);
+            let [desired, felt] = [desired, felt].map(|signal| sensed(self.sensor, &signal, self.rest[k], self.step));
+            Comparison {
+                raw,
+                sensed: fidelity(&desired, &felt, self.step),
+                cues: cues(&desired, &felt, self.thresholds[k]),
+            }
+        })
     }
 }
 
@@ -177,7 +187,7 @@ mod tests {
                     limited: &vec![Limits::default(); count],
                 },
             };
-            let measures = Measures::with(&run, &mut references).unwrap();
+            let measures = Measures::with(&run, Some(&mut references)).unwrap();
             assert_eq!(measures, Measures::of(&run).unwrap());
             assert!(measures.comfort[0].is_some() && references[0].is_some());
         }

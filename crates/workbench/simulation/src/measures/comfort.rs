@@ -50,7 +50,51 @@ impl Comfort {
 /// `step` seconds and linear between its samples. `felt` has a whole number of samples to a step,
 /// and begins and ends with `desired`.
 pub fn comfort(desired: &[f64], felt: &[f64], rest: f64, step: f64) -> Comfort {
-    Reference::new(desired, divisions(desired.len(), felt.len()), rest, step).comfort(felt)
+    comfort_once(desired, felt.iter().copied(), rest, step)
+}
+
+/// As [`comfort`], of a felt force that is computed as it is asked for.
+pub(super) fn comfort_once(
+    desired: &[f64],
+    felt: impl ExactSizeIterator<Item = f64> + Clone,
+    rest: f64,
+    step: f64,
+) -> Comfort {
+    let divisions = divisions(desired.len(), felt.len());
+    let (desired, step) = (interpolated(desired, divisions), step / divisions as f64);
+    let changes = jolt_samples(desired.len(), step).map(|count| changes_around(desired.clone(), count));
+    compare(felt, rest, step, peak(desired.clone(), rest), shake_rms(desired, step).as_ref(), changes)
+}
+
+/// Comfort of a felt force by the peak, RMS and changes of the desired one, as [`Reference`] has
+/// them.
+fn compare(
+    felt: impl ExactSizeIterator<Item = f64> + Clone,
+    rest: f64,
+    step: f64,
+    peak: f64,
+    rms: Option<&SlidingRms>,
+    around: Option<impl Iterator<Item = f64>>,
+) -> Comfort {
+    let jolt = |count| {
+        let excess = changes(felt.clone(), count).zip(around?).map(|(felt, desired)| felt - desired);
+        Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * step))
+    };
+    let shake = |desired: &SlidingRms| {
+        let felt = shake_rms(felt.clone(), step)?;
+        let excess = felt.values().zip(desired.values()).map(|(felt, desired)| felt - desired);
+        Some(largest(excess, |index| index as f64 * step))
+    };
+    Comfort {
+        shake: rms.and_then(shake),
+        jolt: jolt_samples(felt.len(), step).and_then(jolt),
+        peak: largest(felt.clone().map(|value| (value - rest).abs() - peak), |index| index as f64 * step),
+    }
+}
+
+/// Largest distance from rest.
+fn peak(force: impl Iterator<Item = f64>, rest: f64) -> f64 {
+    force.map(|value| (value - rest).abs()).fold(0.0, f64::max)
 }
 
 /// Samples of the felt force to one of the desired force, of series of these lengths.
@@ -65,7 +109,7 @@ pub struct Reference {
     /// Time between samples of the felt force \[s\].
     step: f64,
     /// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample.
-    rms: Option<Vec<f64>>,
+    rms: Option<SlidingRms>,
     /// Largest change within [`JOLT_TIME`], from [`JOLT_TIME`] before to [`JOLT_TIME`] after the
     /// one from each sample.
     changes: Option<Vec<f64>>,
@@ -82,10 +126,9 @@ impl Reference {
         Reference {
             rest,
             step,
-            rms: shake_rms(&desired, step),
-            changes: jolt_samples(desired.len(), step)
-                .map(|count| sliding_max(&changes(&desired, count), count, count)),
-            peak: desired.iter().map(|value| (value - rest).abs()).fold(0.0, f64::max),
+            rms: shake_rms(desired.clone(), step),
+            changes: jolt_samples(desired.len(), step).map(|count| changes_around(desired.clone(), count).collect()),
+            peak: peak(desired, rest),
         }
     }
 
@@ -95,37 +138,22 @@ impl Reference {
     }
 
     /// Compares a felt force, which begins and ends with the desired one.
-    pub fn comfort(&self, felt: &[f64]) -> Comfort {
-        Comfort { shake: self.shake(felt), jolt: self.jolt(felt), peak: self.peak(felt) }
-    }
-
-    fn shake(&self, felt: &[f64]) -> Option<Excess> {
-        let excess =
-            shake_rms(felt, self.step)?.into_iter().zip(self.rms.as_ref()?).map(|(felt, desired)| felt - desired);
-        Some(largest(excess, |index| index as f64 * self.step))
-    }
-
-    fn jolt(&self, felt: &[f64]) -> Option<Excess> {
-        let count = jolt_samples(felt.len(), self.step)?;
-        let excess = changes(felt, count).into_iter().zip(self.changes.as_ref()?).map(|(felt, desired)| felt - desired);
-        Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * self.step))
-    }
-
-    fn peak(&self, felt: &[f64]) -> Excess {
-        let excess = felt.iter().map(|value| (value - self.rest).abs() - self.peak);
-        largest(excess, |index| index as f64 * self.step)
+    pub fn comfort(&self, felt: impl ExactSizeIterator<Item = f64> + Clone) -> Comfort {
+        let changes = self.changes.as_ref().map(|changes| changes.iter().copied());
+        compare(felt, self.rest, self.step, self.peak, self.rms.as_ref(), changes)
     }
 }
 
 /// The signal with so many samples to a step.
-fn interpolated(signal: &[f64], divisions: usize) -> Vec<f64> {
-    let [first, ..] = signal else { return Vec::new() };
-    let between = |pair: &[f64]| {
-        let [from, to] = [pair[0], pair[1]];
+fn interpolated(signal: &[f64], divisions: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
+    let count = signal.len().saturating_sub(1) * divisions + signal.len().min(1);
+    (0..count).map(move |sample| {
+        let Some(after) = sample.checked_sub(1) else { return signal[0] };
+        let (from, to) = (signal[after / divisions], signal[after / divisions + 1]);
         // Exact at the samples themselves.
-        (1..=divisions).map(move |k| k as f64 / divisions as f64).map(move |t| (1.0 - t) * from + t * to)
-    };
-    std::iter::once(*first).chain(signal.windows(2).flat_map(between)).collect()
+        let t = (after % divisions + 1) as f64 / divisions as f64;
+        (1.0 - t) * from + t * to
+    })
 }
 
 /// The largest of these values with its time, at least 0.
@@ -143,58 +171,74 @@ fn jolt_samples(length: usize, step: f64) -> Option<usize> {
 
 /// Largest difference between any two of `count + 1` samples in succession, from each sample that
 /// has so many after it.
-fn changes(signal: &[f64], count: usize) -> Vec<f64> {
-    let negative: Vec<f64> = signal.iter().map(|value| -value).collect();
-    let (most, least) = (sliding_max(signal, 0, count), sliding_max(&negative, 0, count));
-    most.iter().zip(least).map(|(most, least)| most + least).take(signal.len() - count).collect()
+fn changes(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usize) -> impl Iterator<Item = f64> {
+    let length = signal.len() - count;
+    let negative = signal.clone().map(|value| -value);
+    let extremes = sliding_max(signal, 0, count).zip(sliding_max(negative, 0, count));
+    extremes.map(|(most, least)| most + least).take(length)
 }
 
-/// The largest of the values from `before` samples before each to `after` samples after it.
-fn sliding_max(values: &[f64], before: usize, after: usize) -> Vec<f64> {
-    // Indices of values that no later one exceeds, the largest value first.
-    let mut candidates: VecDeque<usize> = VecDeque::new();
-    let mut coming = values.iter().enumerate().peekable();
-    let max_at = |k: usize| {
+/// The largest of such differences from `count` samples before each to `count` samples after it.
+fn changes_around(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usize) -> impl Iterator<Item = f64> {
+    let length = signal.len() - count;
+    sliding_max(changes(signal, count), count, count).take(length)
+}
+
+/// The largest of the values from `before` samples before each to `after` samples after it. It goes
+/// on beyond the last one.
+fn sliding_max(values: impl Iterator<Item = f64>, before: usize, after: usize) -> impl Iterator<Item = f64> {
+    // Values that no later one exceeds, the largest first.
+    let mut candidates: VecDeque<(usize, f64)> = VecDeque::new();
+    let mut coming = values.enumerate().peekable();
+    (0..).map_while(move |k| {
         while let Some((index, value)) = coming.next_if(|(index, _)| *index <= k + after) {
-            while candidates.back().is_some_and(|&last| values[last] <= *value) {
+            while candidates.back().is_some_and(|(_, last)| *last <= value) {
                 candidates.pop_back();
             }
-            candidates.push_back(index);
+            candidates.push_back((index, value));
         }
-        while candidates.front().is_some_and(|&first| first + before < k) {
+        while candidates.front().is_some_and(|(first, _)| first + before < k) {
             candidates.pop_front();
         }
-        candidates.front().map_or(values[k], |&first| values[first])
-    };
-    (0..values.len()).map(max_at).collect()
+        candidates.front().map(|(_, value)| *value)
+    })
 }
 
 /// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample.
-fn shake_rms(signal: &[f64], step: f64) -> Option<Vec<f64>> {
+fn shake_rms(signal: impl ExactSizeIterator<Item = f64>, step: f64) -> Option<SlidingRms> {
     let window = (SHAKE_TIME / step).round() as usize;
-    Some(sliding_rms(&above_shake_frequency(signal, step)?, window))
+    let mut sums = above_shake_frequency(signal, step)?;
+    let mut sum = 0.0;
+    for value in &mut sums {
+        sum += *value * *value;
+        *value = sum;
+    }
+    Some(SlidingRms { sums, window })
 }
 
-/// RMS over a window of so many samples around each. Outside of the signal there is rest.
-fn sliding_rms(signal: &[f64], window: usize) -> Vec<f64> {
-    let mut sum = 0.0;
-    let sums: Vec<f64> = std::iter::once(0.0)
-        .chain(signal.iter().map(|value| {
-            sum += value * value;
-            sum
-        }))
-        .collect();
-    let rms = |k: usize| {
-        let begin = k.saturating_sub(window / 2);
-        let end = (k + window - window / 2).min(signal.len());
-        ((sums[end] - sums[begin]) / window as f64).max(0.0).sqrt()
-    };
-    (0..signal.len()).map(rms).collect()
+/// RMS over a window around each sample. Outside of the signal there is rest.
+#[derive(Clone, Debug)]
+struct SlidingRms {
+    /// Sums of the squares up to each sample.
+    sums: Vec<f64>,
+    /// Samples of the window.
+    window: usize,
+}
+
+impl SlidingRms {
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let before = |end: usize| end.checked_sub(1).map_or(0.0, |last| self.sums[last]);
+        (0..self.sums.len()).map(move |k| {
+            let begin = k.saturating_sub(self.window / 2);
+            let end = (k + self.window - self.window / 2).min(self.sums.len());
+            ((before(end) - before(begin)) / self.window as f64).max(0.0).sqrt()
+        })
+    }
 }
 
 /// The signal above [`SHAKE_FREQUENCY`], without a shift in time: a Butterworth high-pass of fourth
 /// order, forward and backward. None where the sampling is too coarse or the signal too short.
-fn above_shake_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
+fn above_shake_frequency(signal: impl ExactSizeIterator<Item = f64>, step: f64) -> Option<Vec<f64>> {
     zero_phase(signal, SHAKE_FREQUENCY, step, 2, high_pass)
 }
 
@@ -271,7 +315,7 @@ mod tests {
             (2990, -0.09853660705067674),
         ];
         for (rate, expected) in [(100, &expected_100[..]), (1000, &expected_1000)] {
-            let filtered = above_shake_frequency(&sampled(rate, 3, rough), 1.0 / rate as f64).unwrap();
+            let filtered = above_shake_frequency(sampled(rate, 3, rough).into_iter(), 1.0 / rate as f64).unwrap();
             for (k, value) in expected {
                 assert_near(filtered[*k], *value, 1e-9);
             }
@@ -354,7 +398,7 @@ mod tests {
         let reference = Reference::new(&desired, divisions(400, 3991), 0.5, 0.01);
         for size in [0.2, 1.0, 3.0] {
             let felt: Vec<f64> = (0..=3990).map(|k| size * rough(0.001 * f64::from(k))).collect();
-            let found = reference.comfort(&felt);
+            let found = reference.comfort(felt.iter().copied());
             assert_eq!(found, comfort(&desired, &felt, 0.5, 0.01));
             assert!(size < 1.0 || found.values().iter().all(|value| *value > 0.1), "{found:?}");
         }

@@ -1,6 +1,6 @@
 //! Effort of the platform: stroke used, time limited, tilt rate.
 
-use super::run::{Limits, Platform};
+use super::run::{Limits, Platform, Series};
 
 /// Effort of the platform in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,10 +24,14 @@ pub struct Effort {
 
 /// Effort of the platform in a run.
 pub fn effort(platform: &Platform) -> Effort {
-    let legs = || platform.legs.iter().flatten().copied();
+    fn values<const N: usize>(series: &dyn Series<N>) -> impl Iterator<Item = f64> {
+        (0..series.count()).flat_map(|sample| series.at(sample))
+    }
+    let legs = || values(platform.legs);
     let shortest_leg = legs().fold(f64::INFINITY, f64::min);
     let longest_leg = legs().fold(f64::NEG_INFINITY, f64::max);
     let [shortest, longest] = platform.stroke;
+    let last = platform.displacement.count().checked_sub(1).map(|last| platform.displacement.at(last));
     Effort {
         shortest_leg,
         longest_leg,
@@ -39,8 +43,8 @@ pub fn effort(platform: &Platform) -> Effort {
             safety: fraction(platform.limited, |limited| limited.safety),
             actuator: fraction(platform.limited, |limited| limited.actuator),
         },
-        largest_tilt_rate: platform.tilt_rate.iter().flatten().fold(0.0, |largest, rate| rate.abs().max(largest)),
-        final_distance: platform.displacement.last().map_or(0.0, |[x, y, z]| (x * x + y * y + z * z).sqrt()),
+        largest_tilt_rate: values(platform.tilt_rate).fold(0.0, |largest, rate| rate.abs().max(largest)),
+        final_distance: last.map_or(0.0, |[x, y, z]| (x * x + y * y + z * z).sqrt()),
     }
 }
 
@@ -60,14 +64,14 @@ mod tests {
     #[test]
     fn the_effort_is_counted_over_the_steps() {
         let limited = |tilt, soft, safety, actuator| Limits { tilt, soft, safety, actuator };
-        let mut legs = [[1.3; 6]; 5];
+        let mut legs = vec![[1.3; 6]; 5];
         legs[2][2] = 1.1;
         legs[3][0] = 1.5;
         let platform = Platform {
             legs: &legs,
             stroke: [1.0, 1.6],
-            displacement: &[[0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3], [0.03, -0.04, 0.12]],
-            tilt_rate: &[[0.0; 2], [0.01, -0.05], [0.0; 2], [0.0; 2], [0.0; 2]],
+            displacement: &vec![[0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3], [0.03, -0.04, 0.12]],
+            tilt_rate: &vec![[0.0; 2], [0.01, -0.05], [0.0; 2], [0.0; 2], [0.0; 2]],
             limited: &[
                 limited(true, true, true, true),
                 limited(true, true, false, false),

@@ -1,41 +1,70 @@
 //! Input of the measures.
 
+/// Vectors, a sample each. A long run computes them where they are asked for.
+pub trait Series<const N: usize> {
+    /// Number of samples.
+    fn count(&self) -> usize;
+    /// The vector of a sample.
+    fn at(&self, sample: usize) -> [f64; N];
+}
+
+impl<const N: usize> Series<N> for Vec<[f64; N]> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn at(&self, sample: usize) -> [f64; N] {
+        self[sample]
+    }
+}
+
+/// So many samples of a function.
+impl<const N: usize, F: Fn(usize) -> [f64; N]> Series<N> for (usize, F) {
+    fn count(&self) -> usize {
+        self.0
+    }
+
+    fn at(&self, sample: usize) -> [f64; N] {
+        self.1(sample)
+    }
+}
+
 /// One recording with one set of parameters: series of equal length, sampled every `step` seconds.
 /// The first sample is the one before the first step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Run<'a> {
     /// Time from one sample to the next \[s\].
     pub step: f64,
     /// Specific force that the vehicle's rider would feel, in head axes, gravity's
     /// reaction included \[m/s2\].
-    pub desired_force: &'a [[f64; 3]],
+    pub desired_force: &'a dyn Series<3>,
     /// Specific force that the rider on the platform feels, in head axes, gravity's
     /// reaction included \[m/s2\].
-    pub felt_force: &'a [[f64; 3]],
+    pub felt_force: &'a dyn Series<3>,
     /// The same, with any whole number of samples to a step, for the measures of comfort. It begins
     /// and ends with `felt_force`; without finer samples it is the same series.
-    pub felt_force_within_steps: &'a [[f64; 3]],
+    pub felt_force_within_steps: &'a dyn Series<3>,
     /// Angular velocity that the vehicle's rider would feel, in head axes \[rad/s\].
-    pub desired_rate: &'a [[f64; 3]],
+    pub desired_rate: &'a dyn Series<3>,
     /// Fraction of the vehicle's surge and sway that the rider is meant to feel.
     pub scale: [f64; 2],
     /// Angular velocity that the rider on the platform feels, in head axes \[rad/s\].
-    pub felt_rate: &'a [[f64; 3]],
+    pub felt_rate: &'a dyn Series<3>,
     /// Motion of the platform.
     pub platform: Platform<'a>,
 }
 
 /// Motion of the platform, sampled as the [`Run`] is.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Platform<'a> {
     /// Lengths of the actuators \[m\].
-    pub legs: &'a [[f64; 6]],
+    pub legs: &'a dyn Series<6>,
     /// Shortest and longest length that an actuator may have \[m\].
     pub stroke: [f64; 2],
     /// Position of the platform relative to neutral, in the base frame \[m\].
-    pub displacement: &'a [[f64; 3]],
+    pub displacement: &'a dyn Series<3>,
     /// Rates of tilt coordination's roll and pitch \[rad/s\].
-    pub tilt_rate: &'a [[f64; 2]],
+    pub tilt_rate: &'a dyn Series<2>,
     /// Limits active during the step before each sample.
     pub limited: &'a [Limits<bool>],
 }
@@ -93,14 +122,14 @@ impl Run<'_> {
         if self.step.is_nan() || self.step <= 0.0 {
             return Err(RunError::Step(self.step));
         }
-        let expected = self.desired_force.len();
+        let expected = self.desired_force.count();
         if expected < 2 {
             return Err(RunError::TooShort(expected));
         }
         check_series("desired specific force", self.desired_force, expected)?;
         check_series("felt specific force", self.felt_force, expected)?;
         let steps = expected - 1;
-        let divisions = (self.felt_force_within_steps.len().saturating_sub(1) / steps).max(1);
+        let divisions = (self.felt_force_within_steps.count().saturating_sub(1) / steps).max(1);
         check_series("felt specific force within steps", self.felt_force_within_steps, divisions * steps + 1)?;
         check_series("desired angular velocity", self.desired_rate, expected)?;
         check_series("felt angular velocity", self.felt_rate, expected)?;
@@ -111,15 +140,12 @@ impl Run<'_> {
     }
 }
 
-fn check_series<const N: usize>(series: &'static str, values: &[[f64; N]], expected: usize) -> Result<(), RunError> {
-    check_length(series, values.len(), expected)?;
-    let bad = |value: &f64| !value.is_finite();
-    match values.iter().position(|sample| sample.iter().any(bad)) {
+fn check_series<const N: usize>(series: &'static str, values: &dyn Series<N>, expected: usize) -> Result<(), RunError> {
+    check_length(series, values.count(), expected)?;
+    let wrong = |sample| Some((sample, values.at(sample).into_iter().find(|value| !value.is_finite())?));
+    match (0..expected).find_map(wrong) {
         None => Ok(()),
-        Some(sample) => {
-            let value = values[sample].into_iter().find(|value| !value.is_finite()).unwrap_or(f64::NAN);
-            Err(RunError::NotFinite { series, sample, value })
-        }
+        Some((sample, value)) => Err(RunError::NotFinite { series, sample, value }),
     }
 }
 
@@ -128,6 +154,6 @@ fn check_length(series: &'static str, found: usize, expected: usize) -> Result<(
 }
 
 /// One axis of a series of vectors.
-pub(crate) fn axis<const N: usize>(series: &[[f64; N]], axis: usize) -> Vec<f64> {
-    series.iter().map(|sample| sample[axis]).collect()
+pub(crate) fn axis(series: &dyn Series<3>, axis: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
+    (0..series.count()).map(move |sample| series.at(sample)[axis])
 }

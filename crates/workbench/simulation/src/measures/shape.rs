@@ -8,7 +8,6 @@ use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::cues::FORCE_THRESHOLDS;
-use super::run::axis;
 use super::statistics::{correlation, rms};
 use super::zero_phase::zero_phase;
 
@@ -59,6 +58,11 @@ impl Shape {
         let sizes: Vec<f64> = self.axes.iter().flatten().map(|axis| axis.size.ln()).collect();
         (!sizes.is_empty()).then(|| (sizes.iter().sum::<f64>() / sizes.len() as f64).exp())
     }
+}
+
+/// One axis of a series of vectors.
+fn axis(series: &[[f64; 3]], axis: usize) -> Vec<f64> {
+    series.iter().map(|sample| sample[axis]).collect()
 }
 
 /// The desired force below [`CUE_FREQUENCY`], prepared for comparisons with several felt ones.
@@ -122,7 +126,7 @@ fn axis_shape(desired: &[f64], felt: &[f64]) -> AxisShape {
 /// The signal below [`CUE_FREQUENCY`], without a shift in time. None where the sampling is too
 /// coarse or the signal too short.
 pub fn below_cue_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
-    zero_phase(signal, CUE_FREQUENCY, step, 1, low_pass)
+    zero_phase(signal.iter().copied(), CUE_FREQUENCY, step, 1, low_pass)
 }
 
 /// Butterworth low-pass of second order by the bilinear transform, with `k` the tangent of half the

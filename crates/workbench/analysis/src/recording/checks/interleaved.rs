@@ -37,7 +37,8 @@ pub fn refusal(table: &Table) -> Option<Message> {
     Some(
         format!(
             "the samples are those of {count} sensors by turns: {names} jump at every line, and are alike {count} lines \
-             apart; write the lines of one sensor into a file of its own"
+             apart; write the lines of one sensor into a file of its own, in Python: \
+             pandas.read_csv(FILE)[0::{count}].to_csv(\"one.csv\", index=False)"
         )
         .into(),
     )

@@ -48,27 +48,27 @@ impl Sheet {
         let Text { text, is_cut } = text(file)?;
         let text = if has_quoted_lines(&text) { text.replace('"', "") } else { text };
         let other = vbox::as_csv(&text).or_else(|| tagged::as_csv(&text, conventions));
-        let text = other.or_else(|| serial::as_csv(&text)).unwrap_or(text);
+        let mut text = other.or_else(|| serial::as_csv(&text)).unwrap_or(text);
         let file = source::shown(file);
         let whole = |reason: Message| RecordingError::whole(&file, reason);
         let found = preamble::find(&text, conventions);
         let Found { mut titles, separator, end, line } = found.ok_or_else(|| whole(without_header(&text).into()))?;
         let separator = separator_below(&text[end..], separator, titles.len());
+        // Some programs write the units above the names.
+        let above = text[..end].lines().rev().nth(1).map(|line| preamble::fields(line, separator));
+        text.drain(..end);
         let (body, delimiter) = match separator {
-            Separator::Sign(sign) => (text[end..].to_owned(), sign),
-            Separator::Blanks => (tabulated(&text[end..]), b'\t'),
+            Separator::Sign(sign) => (text, sign),
+            Separator::Blanks => (tabulated(&text), b'\t'),
         };
         // R names the rows, but not their column.
         if has_row_names(&body, separator, titles.len()) {
             titles.insert(0, String::new());
         }
         let mut header = Header::new(titles.iter().map(String::as_str));
-        // Some programs write the units above the names.
-        let above = text[..end].lines().rev().nth(1).map(|line| preamble::fields(line, separator));
         if let Some(units) = above.filter(|units| units.len() == titles.len()) {
             header.take_units(units.iter().map(String::as_str));
         }
-        drop(text);
         let mut headings = vec![StringRecord::from(titles)];
         let first = descriptions(&body, delimiter, &mut header, &mut headings);
         let first = first.map_err(|error| whole(error.to_string().into()))?;

@@ -24,8 +24,8 @@ const FINEST: f64 = 1e-4;
 const TICKS: Range<f64> = 1.2e17..7e17;
 /// Gap from which it may be longer than the recording \[s\].
 const LONGEST_REFUSED: f64 = 10.0;
-/// Largest number of samples: about a day at 100 Hz.
-const MOST_SAMPLES: f64 = 1e7;
+/// Largest number of samples that are interpolated, unless there are a quarter as many already.
+const MOST_SAMPLES: f64 = 2e6;
 
 /// The recording at equal steps, with warnings. It is unchanged if its steps are equal, and
 /// interpolated if an option asks for it.
@@ -121,7 +121,7 @@ fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<Message>), Recording
         return Err(table.refused_at(longest, Quantity::Time, reason));
     }
     let steps = (last - first) * rate + 1e-6;
-    if steps > MOST_SAMPLES {
+    if steps > MOST_SAMPLES.max(4.0 * table.time.len() as f64) {
         let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);
         return Err(table.refused(reason));
     }
