@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cueing::angular::AngularChannel;
 use crate::cueing::automatic_scale::FittingScale;
-use crate::cueing::compensation::compensated;
+use crate::cueing::compensation::{compensated, tangential};
 use crate::cueing::conditioning::{Cue, InputFilter, cue_force, forward_acceleration, scaled_cue, scaled_force};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
@@ -322,7 +322,15 @@ impl Washout {
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
         self.resting = if at_rest { self.resting + step } else { 0.0 };
         let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_HOLD;
-        if soft && let Some(softened) = self.soft_limits.soften(&demand, self.guard.now(), step) {
+        let making_up = if self.strategy.may_stay_beyond_limits(conditioning.compensation) {
+            let tilting = Vector3::new(tilt_roll.acceleration, tilt_pitch.acceleration, 0.0);
+            -tangential(tilting, arm).component_mul(&Vector3::new(1.0, 1.0, 0.0))
+        } else {
+            Vector3::zeros()
+        };
+        if !soft {
+            self.soft_limits.let_go();
+        } else if let Some(softened) = self.soft_limits.soften(&demand, self.guard.now(), &making_up, step) {
             demand = self.guard.state(softened);
             self.limited.soft = true;
         }
@@ -429,7 +437,7 @@ impl Washout {
         self.scale = scale;
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
-        self.soft_limits = SoftLimits::new(parameters, self.strategy.largest_heave());
+        self.soft_limits.retune(parameters, self.strategy.largest_heave());
         self.last = CuedInput::new(self.last.input, parameters);
         let cue = self.last.cue.limited(self.scale.factor(), &parameters.conditioning);
         let now = self.input_filter.output(cue.scaled(self.engagement()), &parameters.conditioning);

@@ -94,22 +94,27 @@ fn ramps(t: f64) -> f64 {
     ((t - 2.0) / 2.0).clamp(0.0, 1.0) - (t - 8.0).clamp(0.0, 1.0)
 }
 
+/// Time of a corner \[ms\], and the sign of the force's change there.
+type Corner = (usize, f64);
+
 /// A tilt that begins kicks the head above it back, unless travel takes this away. It does not in
-/// the sets `motorcycle` and `car`, by up to 0.15 m/s2, and where a soft limit holds the travel of
-/// the classical strategy.
+/// the sets `motorcycle` and `car`, by up to 0.15 m/s2.
 #[test]
 fn a_ramps_corner_is_felt_without_a_kick_back() {
-    let begun: &[(usize, f64)] = &[(2000, 1.0)];
-    let both: &[(usize, f64)] = &[(2000, 1.0), (8000, -1.0)];
+    // At 8 s the classical strategy's demand is beyond a limit of the legs, which 2 m/s2 reach.
+    let drives: [(Force, &[Corner], f64); 4] = [
+        (|t| [2.0 * ramps(t), 2.0 * ramps(t), 0.0], &[(2000, 1.0)], 0.02),
+        (|t| [0.7 * ramps(t), 0.7 * ramps(t), 0.0], &[(2000, 1.0), (8000, -1.0)], 0.02),
+        (|t| [2.0 * ramps(t), 0.0, 0.0], &[(2000, 1.0), (8000, -1.0)], 0.02),
+        (|t| [2.0 * ramps(t), 2.0 * ramps(t), 0.0], &[(8000, -1.0)], 0.17),
+    ];
     for (set, changed) in SETS.into_iter().filter(|(set, _)| !["motorcycle", "car"].contains(set)) {
-        let of_2: Force = |t| [2.0 * ramps(t), 2.0 * ramps(t), 0.0];
-        let of_0_7: Force = |t| [0.7 * ramps(t), 0.7 * ramps(t), 0.0];
-        for (force, corners) in [(of_2, if set == "classical" { begun } else { both }), (of_0_7, both)] {
+        for (force, corners, bound) in drives {
             let (forces, _) = felt(&presets::parameters(changed), force);
             for (axis, &(from, direction)) in (0..2).flat_map(|axis| corners.iter().map(move |corner| (axis, corner))) {
                 let before = forces[from][0][axis];
                 let back = (from..from + 300).map(|k| direction * (before - forces[k][0][axis])).fold(0.0, f64::max);
-                assert!(back < 0.02, "{set}, axis {axis}, after {from} ms: {back} m/s2 the wrong way");
+                assert!(back < bound, "{set}, axis {axis}, after {from} ms: {back} m/s2 the wrong way");
             }
         }
     }

@@ -113,7 +113,10 @@ fn no_tunable_parameter_makes_anything_jump() {
                 let now = changed.output();
                 watch.check_machine(&now, STEP);
                 let moved = now.position - last.position - 0.5 * STEP * (now.velocity + last.velocity);
-                assert!(moved.amax() < 2.0 * 0.01 * 15.0 * STEP * STEP, "{what} at {k}: {moved}");
+                // Braking that ends within the step moves the platform by up to a/8 of the step's square.
+                let rests = now.velocity == Vector3::zeros();
+                let bound = if rests { 0.125 } else { 0.02 } * 15.0 * STEP * STEP;
+                assert!(moved.amax() < bound, "{what} at {k}: {moved}");
                 last = now;
             }
         }

@@ -13,6 +13,7 @@
 //! with the motion, so a smooth demand stays smooth.
 
 pub mod nearest;
+mod retreat;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use wide::f64x2;
 
 use self::nearest::{Accelerations, ROWS, RowValues, Rows, Sides, nearest};
+use self::retreat::Retreat;
 use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
@@ -41,10 +43,11 @@ pub struct SoftLimits {
     legs: TwoEnds,
     /// The rows that acted in the last step.
     sides: Sides,
+    retreat: Retreat,
 }
 
 /// Weights of the changed accelerations' squares: surge, sway, heave, and the angles \[m2\].
-const WEIGHTS: [f64; 6] = [1.0, 1.0, 10.0, 2.0, 2.0, 2.0];
+const WEIGHTS: [f64; 6] = [1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
 /// Fraction of a limit of acceleration that demands may use.
 const ACCELERATION: f64 = 0.95;
 /// Rate at which a limit of velocity is approached \[1/s\].
@@ -136,7 +139,19 @@ impl SoftLimits {
             axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, soft_limit.pace)),
             legs: TwoEnds::of([leg; 2], soft_limit.pace),
             sides: Sides::default(),
+            retreat: Retreat::default(),
         }
+    }
+
+    /// Changes the limits; their retreat goes on.
+    pub fn retune(&mut self, parameters: &Parameters, heave: f64) {
+        let SoftLimits { sides, retreat, .. } = *self;
+        *self = SoftLimits { sides, retreat, ..SoftLimits::new(parameters, heave) };
+    }
+
+    /// Ends the action of all rows, where the demand passes by the soft limits.
+    pub fn let_go(&mut self) {
+        (self.sides, self.retreat) = Default::default();
     }
 
     /// True unless they are switched off.
@@ -159,16 +174,23 @@ impl SoftLimits {
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.
-    /// None if it need not be changed. `state` is that of the step's start.
+    /// None if it need not be changed. `state` is that of the step's start. The limits retreat by
+    /// the surge and sway that make up for the tilt.
     #[inline(always)]
-    pub fn soften(&mut self, demand: &PlatformState, state: &PlatformState, step: f64) -> Option<PlatformCoordinates> {
-        if self.keeps(demand, state, step) {
-            if self.sides.any() {
-                self.sides = Sides::default();
-            }
+    pub fn soften(
+        &mut self,
+        demand: &PlatformState,
+        state: &PlatformState,
+        making_up: &Vector3<f64>,
+        step: f64,
+    ) -> Option<PlatformCoordinates> {
+        if !self.retreat.acts() && self.keeps(demand, state, step) {
             return None;
         }
-        self.softened(&demand.coordinates, state, step)
+        self.retreat = self.retreat.accelerated(making_up);
+        let softened = self.softened(&demand.coordinates, state, step);
+        self.retreat = softened.map_or(Retreat::default(), |_| self.retreat.after(step));
+        softened
     }
 
     /// True if the mean accelerations of axes and legs over the step are within their ranges.
@@ -236,11 +258,15 @@ impl SoftLimits {
         normals.fixed_view_mut::<6, 3>(3, 0).copy_from(&jacobian.fixed_columns::<3>(0));
         normals.fixed_view_mut::<6, 3>(3, 3).copy_from(&by_angles);
         let (mut lower, mut upper) = (RowValues::zeros(), RowValues::zeros());
+        let range = |row: usize, ends: &Ends, motion: [f64; 2]| {
+            let direction = normals.fixed_view::<1, 3>(row, 0).transpose();
+            self.retreat.range(ends, motion, &direction, self.pace)
+        };
         for k in 0..3 {
-            (lower[k], upper[k]) = self.axis_ends[k].range(linear.position[k], linear.velocity[k], self.pace);
+            (lower[k], upper[k]) = range(k, &self.axis_ends[k], [linear.position[k], linear.velocity[k]]);
         }
         for i in 0..6 {
-            let (least, most) = self.leg_ends.range(state.legs.length[i], state.legs.velocity[i], self.pace);
+            let (least, most) = range(3 + i, &self.leg_ends, [state.legs.length[i], state.legs.velocity[i]]);
             (lower[3 + i], upper[3 + i]) = (least - remaining[i], most - remaining[i]);
         }
         Rows { normals, lower, upper }

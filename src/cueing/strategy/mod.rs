@@ -33,7 +33,7 @@ pub use self::law::{AxisState, Decision, Unsolvable};
 use self::law::{Circumstances, PlanStatus, Previewed};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::gravitational::Tilt;
-use crate::interface::Parameters;
+use crate::interface::{Compensation, Parameters};
 use crate::motion::Motion;
 use crate::motion::orientation::RotationalMotion;
 
@@ -122,6 +122,13 @@ impl Strategy {
             // These strategies decide from the real motion: there is nothing to catch up with.
             Strategy::Coordinated(_) => linear.continue_from(real),
         }
+    }
+
+    /// True if travel makes up for the tilt's acceleration as a part of a demand that can stay
+    /// beyond a limit. The other strategies ask from one step to the next for what the limits
+    /// leave.
+    pub fn may_stay_beyond_limits(&self, compensation: Compensation) -> bool {
+        matches!(self, Strategy::Classical(_)) && matches!(compensation, Compensation::Full | Compensation::Gravity)
     }
 
     /// True if preaction moves and tilts the platform. The other strategies see the stop itself.

@@ -1,0 +1,65 @@
+//! Retreat of limits beyond which a demand stays, such as the classical strategy's.
+//!
+//! Travel would not make up for a tilt that begins there, and the head would be kicked back. So the
+//! limits retreat by the surge and sway y that make up for the tilt's acceleration alpha,
+//!
+//! ```text
+//!     y'' = -alpha x r - w^2 y - w y',    r from the platform's origin to the head
+//! ```
+//!
+//! along each row, and never beyond where they are.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::Ends;
+use crate::motion::Motion;
+use crate::motion::min_max::{max, min};
+
+/// Frequency w at which the limits return, with a damping ratio of 1/2 \[rad/s\].
+const FREQUENCY: f64 = 0.8;
+/// Time within which the retreat sets in, so that it does so without a jump \[s\].
+const SETTING_IN: f64 = 0.2;
+
+/// The retreat of all limits while a row acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Retreat {
+    travel: Motion<Vector3<f64>>,
+    /// Time for which a row has acted, at most [`SETTING_IN`] \[s\].
+    acting: f64,
+}
+
+impl Retreat {
+    /// True while a row acts.
+    pub fn acts(&self) -> bool {
+        self.acting > 0.0
+    }
+
+    /// The retreat with its acceleration in this step. This surge and sway make up for the tilt's
+    /// acceleration.
+    pub fn accelerated(&self, making_up: &Vector3<f64>) -> Self {
+        let Motion { position, velocity, .. } = self.travel;
+        let acceleration = self.acting / SETTING_IN * making_up - FREQUENCY * (FREQUENCY * position + velocity);
+        Retreat { travel: Motion { acceleration, ..self.travel }, ..*self }
+    }
+
+    /// The retreat after a step in which a row has acted.
+    pub fn after(&self, step: f64) -> Self {
+        let Motion { velocity, acceleration, .. } = self.travel;
+        let travel = self.travel.at_velocity(velocity + step * acceleration, step);
+        Retreat { travel, acting: min(self.acting + step, SETTING_IN) }
+    }
+
+    /// The range of the acceleration of a quantity that travel changes along `direction`.
+    pub fn range(&self, ends: &Ends, [q, v]: [f64; 2], direction: &Vector3<f64>, pace: f64) -> (f64, f64) {
+        let (lower, upper) = ends.range(q, v, pace);
+        if !self.acts() {
+            return (lower, upper);
+        }
+        let Motion { position, velocity, acceleration } = &self.travel;
+        let along = direction.dot(acceleration);
+        let (least, most) = ends.range(q - direction.dot(position), v - direction.dot(velocity), pace);
+        let upper = min(upper, most + along);
+        (min(max(lower, least + along), upper), upper)
+    }
+}
