@@ -7,9 +7,12 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use moris::recording::conventions::{Format, Missing, Mounting};
+use moris::recording::conventions::{Axes, Format, Missing, Mounting};
 use moris::recording::{ConventionOptions, Recording};
 use moris::words;
+use moris_washout::Input;
+use moris_washout::motion::orientation::Orientation;
+use moris_washout::nalgebra::UnitQuaternion;
 
 const GRAVITY: f64 = 9.80665;
 const HEADER: &str = "time,ax,ay,az,wx,wy,wz";
@@ -249,4 +252,42 @@ fn a_directory_of_rides_is_several_recordings() {
     let output = run();
     assert!(matches!(output.status.code(), Some(0 | 3)), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(exists("morning.html") && exists("evening.html") && exists("index.html") && !exists("notes.html"));
+}
+
+#[test]
+fn a_quaternion_is_the_orientation() {
+    let angles = |t: f64| [0.3 * (0.7 * t).sin(), 0.2 * (0.5 * t).cos(), 0.4 * t];
+    let file = |header: &str, orientation: &dyn Fn([f64; 3]) -> Vec<f64>| {
+        let mut text = format!("{HEADER},{header}\n");
+        for k in 0..600 {
+            let t = 0.01 * f64::from(k);
+            let [surge, sway, yaw_rate, _] = car(t);
+            let orientation: Vec<String> = orientation(angles(t)).iter().map(f64::to_string).collect();
+            writeln!(text, "{t:.2},{surge},{sway},{GRAVITY},0,0,{yaw_rate},{}", orientation.join(",")).unwrap();
+        }
+        text
+    };
+    let quaternion = |scale: f64| {
+        move |[roll, pitch, yaw]: [f64; 3]| {
+            let q = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+            // Both signs are the same rotation.
+            let scale = if (0.1 * yaw).fract() > 0.1 { -scale } else { scale };
+            [q.i, q.j, q.k, q.w].map(|part| scale * part).to_vec()
+        }
+    };
+    for axes in [Axes::ForwardLeftUp, Axes::ForwardRightDown] {
+        let sign = Axes::signs(axes)[2];
+        let turned = |text: &str| text.replace(&format!(",{GRAVITY},"), &format!(",{},", sign * GRAVITY));
+        let options = ConventionOptions { axes: Some(axes), ..ConventionOptions::default() };
+        let read = |text: String| read(&turned(&text), &options);
+        let expected = read(file("roll,pitch,yaw", &|angles| angles.to_vec())).unwrap();
+        let found = read(file("qx,qy,qz,qw", &quaternion(1.0))).unwrap();
+        assert!(found.has_orientation);
+        for (found, expected) in found.inputs().iter().zip(expected.inputs()) {
+            let rotation = |input: &Input| Orientation::new(input.orientation).rotation;
+            assert!((rotation(found) - rotation(expected)).norm() < 1e-9);
+        }
+        let counts = read(file("qx,qy,qz,qw", &quaternion(16384.0))).unwrap_err();
+        assert!(counts.contains("have the norm 16384.000") && counts.contains("\"qw=NAME / 16384\""), "{counts}");
+    }
 }

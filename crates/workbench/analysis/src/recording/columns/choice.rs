@@ -63,6 +63,9 @@ impl Header {
             if matches!(quantity, Quantity::Geographic(_)) && source != UnitSource::Header {
                 unit = AngleUnit::Degree.unit();
             }
+            if matches!(quantity, Quantity::Quaternion(_)) {
+                unit = AngleUnit::Radian.unit();
+            }
             columns.push(Column { quantity, terms, unit, source });
         }
         self.check_units_are_complete(&columns)?;

@@ -9,6 +9,8 @@ pub enum Quantity {
     Force(usize),
     Rate(usize),
     Angle(usize),
+    /// w, x, y and z of the rotation from the recording's axes to fixed ones, in place of angles.
+    Quaternion(usize),
     Speed,
     Lean,
     Position(usize),
@@ -18,8 +20,8 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in the order of columns.
-    pub const ALL: [Quantity; 16] = {
-        use Quantity::{Angle, Force, Geographic, Lean, Position, Rate, Speed, Time};
+    pub const ALL: [Quantity; 20] = {
+        use Quantity::{Angle, Force, Geographic, Lean, Position, Quaternion, Rate, Speed, Time};
         [
             Time,
             Force(0),
@@ -31,6 +33,10 @@ impl Quantity {
             Angle(0),
             Angle(1),
             Angle(2),
+            Quaternion(0),
+            Quaternion(1),
+            Quaternion(2),
+            Quaternion(3),
             Speed,
             Lean,
             Position(0),
@@ -42,6 +48,10 @@ impl Quantity {
 
     /// Roll, pitch and yaw.
     pub const ANGLES: [Quantity; 3] = [Quantity::Angle(0), Quantity::Angle(1), Quantity::Angle(2)];
+
+    /// The parts of a quaternion.
+    pub const QUATERNION: [Quantity; 4] =
+        [Quantity::Quaternion(0), Quantity::Quaternion(1), Quantity::Quaternion(2), Quantity::Quaternion(3)];
 
     /// True for angles, which are the same after a turn.
     pub fn is_angle(self) -> bool {
@@ -59,7 +69,7 @@ impl Quantity {
             Quantity::Time => Dimension::Time,
             Quantity::Force(_) => Dimension::Force,
             Quantity::Rate(_) => Dimension::Rate,
-            Quantity::Angle(_) | Quantity::Lean | Quantity::Geographic(_) => Dimension::Angle,
+            Quantity::Angle(_) | Quantity::Quaternion(_) | Quantity::Lean | Quantity::Geographic(_) => Dimension::Angle,
             Quantity::Speed => Dimension::Speed,
             Quantity::Position(_) => Dimension::Length,
         }
@@ -72,6 +82,7 @@ impl Quantity {
             Quantity::Force(axis) => ["ax", "ay", "az"][axis],
             Quantity::Rate(axis) => ["wx", "wy", "wz"][axis],
             Quantity::Angle(axis) => ["roll", "pitch", "yaw"][axis],
+            Quantity::Quaternion(part) => ["qw", "qx", "qy", "qz"][part],
             Quantity::Speed => "speed",
             Quantity::Lean => "lean",
             Quantity::Position(axis) => ["x", "y"][axis],

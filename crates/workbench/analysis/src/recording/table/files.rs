@@ -43,7 +43,7 @@ fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingErr
     let mut samples = samples(&sheet, &value_places(&layout), &layout, conventions)?;
     let warnings = placeholders::warnings(&sheet, &samples, &layout, conventions);
     samples.warnings.extend(warnings);
-    Ok(Table::new(sheet.file, layout, samples, conventions))
+    Table::new(sheet.file, layout, samples, conventions)
 }
 
 /// Reads several files. Files of a directory that hold no column in use are passed over.
@@ -82,7 +82,7 @@ fn of_files(
         first = end;
     }
     let samples = join::by_time(&name, parts, &layout, conventions.resample.is_some())?;
-    Ok(Table::new(name, layout, samples, conventions))
+    Table::new(name, layout, samples, conventions)
 }
 
 /// The layout with the places in the file whose columns begin at one.

@@ -56,5 +56,5 @@ pub fn of_columns(
         time,
         warnings: Vec::new(),
     };
-    Ok(Table::new(file, layout, samples, conventions))
+    Table::new(file, layout, samples, conventions)
 }

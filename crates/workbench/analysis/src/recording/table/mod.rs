@@ -23,14 +23,18 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::nalgebra::{Quaternion, UnitQuaternion};
 
-use crate::message::Message;
+use crate::message::{Message, given, message};
 use crate::recording::columns::{Column, UnitSource};
 use crate::recording::conventions::{Conventions, Gravity, Quantity, Unit};
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
 pub use files::{read, recordings};
 pub use memory::of_columns;
+
+/// Largest distance of a quaternion's norm from 1, as few digits leave it.
+const NORM: f64 = 0.05;
 
 /// A recording's columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +56,12 @@ pub struct Table {
 impl Table {
     /// A table of the sums that the layout describes, of samples with the time in seconds. What the
     /// recording lacks is as at rest.
-    fn new(file: PathBuf, layout: Vec<Column>, samples: Samples, conventions: &Conventions) -> Self {
+    fn new(
+        file: PathBuf,
+        layout: Vec<Column>,
+        samples: Samples,
+        conventions: &Conventions,
+    ) -> Result<Self, RecordingError> {
         let Samples { time, columns, lines, warnings } = samples;
         let values: BTreeMap<usize, Vec<f64>> = columns.into_iter().collect();
         let sum = |column: &Column| -> Vec<f64> {
@@ -63,7 +72,8 @@ impl Table {
         let columns = measured.map(|column| (column.quantity, sum(column))).collect();
         let mut table = Table { file, time, columns, layout, lines, warnings };
         table.rest(conventions);
-        table
+        table.orient()?;
+        Ok(table)
     }
 
     /// Adds the quantities that the recording lacks as at rest, with a warning.
@@ -81,6 +91,30 @@ impl Table {
             let names = missing.into_iter().map(Quantity::key).collect::<Vec<_>>().join(", ");
             self.warnings.push(format!("The recording has no {names}: they are taken as at rest.").into());
         }
+    }
+
+    /// Makes roll, pitch and yaw of the columns of a quaternion, unless there are angles.
+    fn orient(&mut self) -> Result<(), RecordingError> {
+        let [Some(w), Some(x), Some(y), Some(z)] = Quantity::QUATERNION.map(|part| self.columns.remove(&part)) else {
+            return Ok(());
+        };
+        if Quantity::ANGLES.iter().any(|angle| self.columns.contains_key(angle)) {
+            return Ok(());
+        }
+        let quaternion = |k: usize| Quaternion::new(w[k], x[k], y[k], z[k]);
+        let is_off = |&k: &usize| (quaternion(k).norm() - 1.0).abs() > NORM;
+        if let Some(sample) = (0..w.len()).find(is_off) {
+            let norm = quaternion(sample).norm();
+            let reason = message![
+                "qw, qx, qy and qz have the norm {norm:.3}, and those of a rotation 1; name others or scale them with ",
+                given("columns", "\"qw=NAME / 16384\"")
+            ];
+            return Err(self.refused_at(sample, Quantity::Quaternion(0), reason));
+        }
+        let angles = (0..w.len()).map(|k| UnitQuaternion::new_normalize(quaternion(k)).euler_angles());
+        let (roll, (pitch, yaw)): (Vec<_>, (Vec<_>, Vec<_>)) = angles.map(|(r, p, y)| (r, (p, y))).unzip();
+        self.columns.extend(Quantity::ANGLES.into_iter().zip([roll, pitch, yaw]));
+        Ok(())
     }
 
     /// Mean time between samples \[s\].
