@@ -291,3 +291,17 @@ fn a_quaternion_is_the_orientation() {
         assert!(counts.contains("have the norm 16384.000") && counts.contains("\"qw=NAME / 16384\""), "{counts}");
     }
 }
+
+#[test]
+fn lines_in_reverse_and_lines_of_single_sensors_are_refused_with_the_way_to_turn_them() {
+    let mut lines: Vec<String> = drive(10, &plain).lines().map(str::to_owned).collect();
+    lines[1..].reverse();
+    let reversed = read(&(lines.join("\n") + "\n"), &ConventionOptions::default()).unwrap_err();
+    assert!(reversed.contains("the last line comes first") && reversed.contains("[::-1]"), "{reversed}");
+    let mut long = "sensor,timestamp,x,y,z\n".to_owned();
+    for k in 0..100 {
+        writeln!(long, "ACC,{k},0,0,9.8\nGYR,{k},0,0,0").unwrap();
+    }
+    let long = read(&long, &ConventionOptions::default()).unwrap_err();
+    assert!(long.contains("a line for each value of a channel"), "{long}");
+}

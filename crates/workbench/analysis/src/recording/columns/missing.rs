@@ -59,9 +59,9 @@ impl Header {
         } else {
             found.into_iter().map(|pair| format!("\"{pair}\"")).collect()
         };
-        let is_long = ["name", "value"]
-            .iter()
-            .all(|end| self.titles.iter().any(|title| title.name.to_lowercase().ends_with(end)));
+        let has = |is_it: fn(&str) -> bool| self.titles.iter().any(|title| is_it(&title.name.to_lowercase()));
+        let is_long = has(|name| ["name", "sensor", "signal"].iter().any(|end| name.ends_with(end)))
+            && has(|name| name == "x" || name.ends_with("value"));
         if is_long && missing.len() >= 6 {
             return format!(
                 "there are {}: this looks like a line for each value of a channel, which is not read; make a column of each \

@@ -37,8 +37,11 @@ impl Title {
         let begin = full.chars().next().map_or(0, char::len_utf8);
         // Braces may be part of a name, as in `A_{Xpilot}`.
         let opens = |&(place, _): &(usize, &str)| {
-            let inner = full[place + 1..].split([']', ')', '}', '>']).next().unwrap_or_default();
-            place >= begin && (full[place..].starts_with(['[', '(']) || any_spelled(inner).is_some())
+            let (inner, behind) =
+                full[place + 1..].split_once([']', ')', '}', '>']).unwrap_or((&full[place + 1..], ""));
+            // An index before a unit is part of the name.
+            let is_index = inner.parse::<usize>().is_ok() && behind.contains(OPENING);
+            place >= begin && !is_index && (full[place..].starts_with(['[', '(']) || any_spelled(inner).is_some())
         };
         let end = full.match_indices(OPENING).find(opens).map_or(full.len(), |(place, _)| place);
         let behind = &full[end..];
@@ -113,6 +116,7 @@ mod tests {
             ("G(x)", "G", None),
             ("A_{Xpilot} (ft/s^2)", "A_{Xpilot}", Some("ft/s^2")),
             ("acc/x", "acc/x", None),
+            ("imu.a_rel[1] [m/s2]", "imu.a_rel[1]", Some("m/s2")),
             ("Accelerometer (z) [m/s²]", "Accelerometer", Some("m/s²")),
             ("[s]", "[s]", None),
         ] {

@@ -32,7 +32,12 @@ pub fn disorder(time: &[f64]) -> Option<(usize, Message)> {
     let wrong = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
     let (before, after) = (time[wrong - 1], time[wrong]);
     let fault = if after < before { "goes back" } else { "stands still" };
-    let remedy = remedy_for_equal_times(time, wrong);
+    let remedy = if time.windows(2).all(|pair| pair[1] <= pair[0]) && after < before {
+        "; the last line comes first: sort the lines, in Python: pandas.read_csv(FILE)[::-1].to_csv(\"ride.csv\", index=False)"
+            .into()
+    } else {
+        remedy_for_equal_times(time, wrong)
+    };
     let (before, after) = (shown(before), shown(after));
     Some((wrong, message!["time {fault}: {after} s comes after {before} s", remedy]))
 }
