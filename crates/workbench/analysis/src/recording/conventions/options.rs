@@ -23,8 +23,8 @@ pub struct ConventionOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "NAME"))]
     pub format: Option<Format>,
 
-    /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
-    /// roll pitch yaw or qw qx qy qz, speed, lean, x y): time=t,ax=accel_x. A sign turns an axis round:
+    /// Names of columns that are not called time, ax ay az, wx wy wz: time=t,ax=accel_x. Further
+    /// keys are roll pitch yaw or qw qx qy qz, speed, lean, x y. A sign turns an axis round:
     /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
     /// A number scales a column: "ax=counts_x / 16384".
     /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
