@@ -62,6 +62,11 @@ def opened(browser, address, **options):
         yield page
 
 
+def value(parameter):
+    """A parameter's value beside its slider, as an expression."""
+    return f"sliders.values[sliders.data.parameters.findIndex(({{ name }}) => name === '{parameter}')]"
+
+
 @check
 def buttons_and_keys_command_and_everything_moves(browser):
     with live() as address, opened(browser, address) as page:
@@ -101,7 +106,7 @@ def sliders_change_parameters_and_say_what_cannot_be(browser):
         field = page.locator("[id='parameter-tilt.angleLimit']")
         field.fill("0.2")
         field.press("Enter")
-        wait(page, "sliders.values[sliders.slots.get('tilt.angleLimit')] === 0.2")
+        wait(page, f"{value('tilt.angleLimit')} === 0.2")
         page.locator("#parameter-strategy").select_option(label="optimal")
         wait(page, "sliders.strategy === 'optimal'")
         page.locator("[data-event=start]").click()
@@ -143,7 +148,7 @@ def angles_have_their_degrees(browser):
         field = page.locator("[id='parameter-tilt.angleLimit']")
         field.fill("0.2")
         field.press("Enter")
-        wait(page, "sliders.values[sliders.slots.get('tilt.angleLimit')] === 0.2")
+        wait(page, f"{value('tilt.angleLimit')} === 0.2")
         unit = lambda name: page.locator(f"div.parameter:has([id='parameter-{name}']) .unit").inner_text()  # noqa: E731
         assert unit("tilt.angleLimit") == "rad = 11.5\u00b0" and unit("splitter.x.omega1") == "rad/s"
         assert unit("tilt.rateLimit").startswith("rad/s = ") and unit("tilt.rateLimit").endswith("\u00b0/s")
@@ -169,7 +174,7 @@ def two_sets_are_kept_gone_to_and_voted_on(browser):
         field = page.locator("[id='parameter-scale.specificForce.x']")
         field.fill("0.5")
         field.press("Enter")
-        scale = "sliders.values[sliders.slots.get('scale.specificForce.x')]"
+        scale = value("scale.specificForce.x")
         wait(page, f"{scale} === 0.5")
         click("keep", "b")
         wait(page, "now.state === 'engaged' && !document.querySelector('[data-pair=go_to][data-set=a]').disabled")
