@@ -69,10 +69,10 @@ fn the_nearest_accelerations_are_those_of_an_interior_point_method() {
         // The cost is strictly convex: none is less but by the solver's tolerance.
         let [least, found_by_solver] = [&found, &expected].map(|accelerations| cost(accelerations, &demand, &rows));
         assert!(least < found_by_solver * (1.0 + 1e-8), "trial {trial}: {least} beside {found_by_solver}");
-        assert!((found - expected).amax() < 1e-3, "trial {trial}: {found} beside {expected}");
+        assert!((found - expected).amax() < 3e-4, "trial {trial}: {found} beside {expected}");
         // From the sides that act, the solution is found again, to the rounding of the largest multipliers.
         let again = (nearest(&demand, &inverse_weights, &rows, &mut sides) - found).amax();
-        assert!(again < 1e-15 * PENALTY, "trial {trial}: {again}");
+        assert!(again < 3e-16 * PENALTY, "trial {trial}: {again}");
         acted += usize::from(sides.any());
     }
     assert!(acted > 1900, "{acted}");
