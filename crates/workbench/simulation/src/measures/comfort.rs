@@ -63,7 +63,7 @@ pub(super) fn comfort_once(
     let divisions = divisions(desired.len(), felt.len());
     let (desired, step) = (interpolated(desired, divisions), step / divisions as f64);
     let changes = jolt_samples(desired.len(), step).map(|count| changes_around(desired.clone(), count));
-    compare(felt, rest, step, peak(desired.clone(), rest), shake_rms(desired, step).as_ref(), changes)
+    compare(felt, rest, step, peak(desired.clone(), rest), shake_rms(desired, step), changes)
 }
 
 /// Comfort of a felt force by the peak, RMS and changes of the desired one, as [`Reference`] has
@@ -73,16 +73,15 @@ fn compare(
     rest: f64,
     step: f64,
     peak: f64,
-    rms: Option<&SlidingRms>,
+    rms: Option<impl Iterator<Item = f64>>,
     around: Option<impl Iterator<Item = f64>>,
 ) -> Comfort {
     let jolt = |count| {
         let excess = changes(felt.clone(), count).zip(around?).map(|(felt, desired)| felt - desired);
         Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * step))
     };
-    let shake = |desired: &SlidingRms| {
-        let felt = shake_rms(felt.clone(), step)?;
-        let excess = felt.values().zip(desired.values()).map(|(felt, desired)| felt - desired);
+    let shake = |desired| {
+        let excess = shake_rms(felt.clone(), step)?.zip(desired).map(|(felt, desired)| felt - desired);
         Some(largest(excess, |index| index as f64 * step))
     };
     Comfort {
@@ -109,7 +108,7 @@ pub struct Reference {
     /// Time between samples of the felt force \[s\].
     step: f64,
     /// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample.
-    rms: Option<SlidingRms>,
+    rms: Option<Vec<f64>>,
     /// Largest change within [`JOLT_TIME`], from [`JOLT_TIME`] before to [`JOLT_TIME`] after the
     /// one from each sample.
     changes: Option<Vec<f64>>,
@@ -126,7 +125,7 @@ impl Reference {
         Reference {
             rest,
             step,
-            rms: shake_rms(desired.clone(), step),
+            rms: shake_rms(desired.clone(), step).map(Iterator::collect),
             changes: jolt_samples(desired.len(), step).map(|count| changes_around(desired.clone(), count).collect()),
             peak: peak(desired, rest),
         }
@@ -139,8 +138,8 @@ impl Reference {
 
     /// Compares a felt force, which begins and ends with the desired one.
     pub fn comfort(&self, felt: impl ExactSizeIterator<Item = f64> + Clone) -> Comfort {
-        let changes = self.changes.as_ref().map(|changes| changes.iter().copied());
-        compare(felt, self.rest, self.step, self.peak, self.rms.as_ref(), changes)
+        let [rms, changes] = [&self.rms, &self.changes].map(|kept| kept.as_ref().map(|kept| kept.iter().copied()));
+        compare(felt, self.rest, self.step, self.peak, rms, changes)
     }
 }
 
@@ -204,62 +203,57 @@ fn sliding_max(values: impl Iterator<Item = f64>, before: usize, after: usize) -
     })
 }
 
-/// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample.
-fn shake_rms(signal: impl ExactSizeIterator<Item = f64>, step: f64) -> Option<SlidingRms> {
-    let window = (SHAKE_TIME / step).round() as usize;
-    let mut sums = above_shake_frequency(signal, step)?;
-    let mut sum = 0.0;
-    for value in &mut sums {
-        sum += *value * *value;
-        *value = sum;
-    }
-    Some(SlidingRms { sums, window })
-}
-
-/// RMS over a window around each sample. Outside of the signal there is rest.
-#[derive(Clone, Debug)]
-struct SlidingRms {
-    /// Sums of the squares up to each sample.
-    sums: Vec<f64>,
-    /// Samples of the window.
-    window: usize,
-}
-
-impl SlidingRms {
-    fn values(&self) -> impl Iterator<Item = f64> {
-        let before = |end: usize| end.checked_sub(1).map_or(0.0, |last| self.sums[last]);
-        (0..self.sums.len()).map(move |k| {
-            let begin = k.saturating_sub(self.window / 2);
-            let end = (k + self.window - self.window / 2).min(self.sums.len());
-            ((before(end) - before(begin)) / self.window as f64).max(0.0).sqrt()
-        })
-    }
+/// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample. Outside of the signal there
+/// is rest.
+fn shake_rms(signal: impl ExactSizeIterator<Item = f64> + Clone, step: f64) -> Option<impl Iterator<Item = f64>> {
+    let (length, window) = (signal.len(), (SHAKE_TIME / step).round() as usize);
+    let mut squares = above_shake_frequency(signal, step)?.map(|value| value * value);
+    // Sums of the squares before each sample of the window, and before the one behind it.
+    let mut sums = VecDeque::from([0.0]);
+    let (mut sum, mut summed) = (0.0, 0);
+    Some((0..length).map(move |k| {
+        if k > window / 2 {
+            sums.pop_front();
+        }
+        while summed < (k + window - window / 2).min(length) {
+            sum += squares.next().unwrap_or_default();
+            summed += 1;
+            sums.push_back(sum);
+        }
+        ((sum - sums[0]) / window as f64).max(0.0).sqrt()
+    }))
 }
 
 /// The signal above [`SHAKE_FREQUENCY`], without a shift in time: a Butterworth high-pass of fourth
 /// order, forward and backward. None where the sampling is too coarse or the signal too short.
-fn above_shake_frequency(signal: impl ExactSizeIterator<Item = f64>, step: f64) -> Option<Vec<f64>> {
+fn above_shake_frequency(
+    signal: impl ExactSizeIterator<Item = f64> + Clone,
+    step: f64,
+) -> Option<impl Iterator<Item = f64>> {
     zero_phase(signal, SHAKE_FREQUENCY, step, 2, high_pass)
 }
 
 /// Butterworth high-pass of fourth order by the bilinear transform, with `k` the tangent of half
 /// the cutoff's angle. It starts as if the first value had always been there.
-fn high_pass(signal: &mut [f64], k: f64) {
-    let first = signal.first().copied().unwrap_or(0.0);
-    signal.iter_mut().for_each(|value| *value -= first);
+fn high_pass(k: f64) -> impl FnMut(f64) -> f64 + Clone {
     // A pole pair at this angle from the negative real axis has the damping cos(angle).
-    for angle in [PI / 8.0, 3.0 * PI / 8.0] {
+    let mut sections = [PI / 8.0, 3.0 * PI / 8.0].map(|angle| {
         let damping = 2.0 * k * angle.cos();
         let gain = 1.0 / (1.0 + damping + k * k);
         let (a1, a2) = (2.0 * gain * (k * k - 1.0), gain * (1.0 - damping + k * k));
         let (mut z1, mut z2) = (0.0, 0.0);
-        for value in signal.iter_mut() {
-            let input = gain * *value;
+        move |value: f64| {
+            let input = gain * value;
             let output = input + z1;
             z1 = z2 - 2.0 * input - a1 * output;
             z2 = input - a2 * output;
-            *value = output;
+            output
         }
+    });
+    let mut first = None;
+    move |value| {
+        let first = *first.get_or_insert(value);
+        sections.iter_mut().fold(value - first, |value, section| section(value))
     }
 }
 
@@ -316,6 +310,7 @@ mod tests {
         ];
         for (rate, expected) in [(100, &expected_100[..]), (1000, &expected_1000)] {
             let filtered = above_shake_frequency(sampled(rate, 3, rough).into_iter(), 1.0 / rate as f64).unwrap();
+            let filtered: Vec<f64> = filtered.collect();
             for (k, value) in expected {
                 assert_near(filtered[*k], *value, 1e-9);
             }

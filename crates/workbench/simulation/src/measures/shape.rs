@@ -126,23 +126,23 @@ fn axis_shape(desired: &[f64], felt: &[f64]) -> AxisShape {
 /// The signal below [`CUE_FREQUENCY`], without a shift in time. None where the sampling is too
 /// coarse or the signal too short.
 pub fn below_cue_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
-    zero_phase(signal.iter().copied(), CUE_FREQUENCY, step, 1, low_pass)
+    zero_phase(signal.iter().copied(), CUE_FREQUENCY, step, 1, low_pass).map(Iterator::collect)
 }
 
 /// Butterworth low-pass of second order by the bilinear transform, with `k` the tangent of half the
 /// cutoff's angle. It starts as if the first value had always been there.
-fn low_pass(signal: &mut [f64], k: f64) {
-    let first = signal.first().copied().unwrap_or(0.0);
+fn low_pass(k: f64) -> impl FnMut(f64) -> f64 + Clone {
     let damping = 2.0 * k * FRAC_1_SQRT_2;
     let gain = 1.0 / (1.0 + damping + k * k);
     let (b, a1, a2) = (gain * k * k, 2.0 * gain * (k * k - 1.0), gain * (1.0 - damping + k * k));
-    let (mut z1, mut z2) = (0.0, 0.0);
-    for value in signal.iter_mut() {
-        let input = b * (*value - first);
+    let (mut first, mut z1, mut z2) = (None, 0.0, 0.0);
+    move |value| {
+        let first = *first.get_or_insert(value);
+        let input = b * (value - first);
         let output = input + z1;
         z1 = z2 + 2.0 * input - a1 * output;
         z2 = input - a2 * output;
-        *value = first + output;
+        first + output
     }
 }
 
