@@ -203,8 +203,8 @@ fn sliding_max(values: impl Iterator<Item = f64>, before: usize, after: usize) -
     })
 }
 
-/// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample. Outside of the signal there
-/// is rest.
+/// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample. Outside of the signal is
+/// rest.
 fn shake_rms(signal: impl ExactSizeIterator<Item = f64> + Clone, step: f64) -> Option<impl Iterator<Item = f64>> {
     let (length, window) = (signal.len(), (SHAKE_TIME / step).round() as usize);
     let mut squares = above_shake_frequency(signal, step)?.map(|value| value * value);
