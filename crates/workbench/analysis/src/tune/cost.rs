@@ -110,8 +110,8 @@ pub struct Objective {
     /// The fixed parameters, with the recording's step as internal step, at most [`LONGEST_STEP`].
     fixed: Parameters,
     /// Washouts at rest, indexed by the orders of splitter and angular channel less 2. They are
-    /// kept, because constructing a washout surveys its rig.
-    coarse: [[OnceLock<Washout>; 3]; 3],
+    /// kept, because constructing a washout surveys its rig; apart, because objectives are moved.
+    coarse: [[OnceLock<Box<Washout>>; 3]; 3],
     /// The parameters that the search starts from.
     start: Parameters,
     /// Bounds of shake, jolt and peak \[m/s2\].
@@ -262,7 +262,7 @@ impl Objective {
         if let Some(washout) = place.get() {
             return Ok(washout);
         }
-        let washout = Washout::new(&with_orders(&self.fixed, orders))?;
+        let washout = Box::new(Washout::new(&with_orders(&self.fixed, orders))?);
         Ok(place.get_or_init(|| washout))
     }
 

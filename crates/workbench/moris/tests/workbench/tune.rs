@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use moris::recording::Recording;
 use moris::simulate::Simulation;
-use moris::tune::cost::{Aim, Cost, Objective};
+use moris::tune::cost::{Aim, COMFORT_BOUNDS, Cost, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::Space;
 use moris::words;
@@ -17,6 +17,7 @@ use moris_simulation::Manoeuvre;
 use moris_washout::interface::{AngularVelocityFrame, TuningGroup};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, Parameters, presets};
+use rayon::prelude::*;
 
 /// The classical strategy, which is quick to search with.
 fn classical() -> Parameters {
@@ -259,6 +260,20 @@ fn the_search_finds_the_same_however_many_threads_there_are_and_another_for_anot
     let alone = searched(1, 1);
     assert_eq!(alone, searched(4, 1));
     assert_ne!(alone, searched(4, 2));
+}
+
+/// A quarter of the stack that a thread usually has: code that is not optimised takes as much more.
+#[test]
+fn recordings_and_their_search_fit_on_a_small_stack() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(8).stack_size(512 << 10).build().unwrap();
+    let made = |recording: Recording| objective(recording, NO_RESERVE).with_comfort_bounds(COMFORT_BOUNDS);
+    let best = pool.install(|| {
+        let objectives: Vec<Objective> = [weaving(), brisk(), weaving()].into_par_iter().map(made).collect();
+        let space = Space::new(&classical(), &DEFAULT);
+        let objectives: Vec<&Objective> = objectives.iter().collect();
+        search(&objectives, &evaluate_here, &space, Budget { evaluations: 20, seed: 1 }, |_, _| true).unwrap().best
+    });
+    assert!(!best.is_empty());
 }
 
 #[test]
