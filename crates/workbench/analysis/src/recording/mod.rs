@@ -51,7 +51,6 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use crate::message::Message;
-use axes::convert;
 use checks::{consistency, dead, exchanged, frozen, interleaved, outliers, unusual};
 pub(crate) use columns::{Quantity, units};
 use conventions::RateFrame;
@@ -118,7 +117,7 @@ impl Recording {
         let (table, mut warnings) = sampling::at_equal_steps(table, conventions)?;
         warnings.extend(outliers);
         warnings.extend(table.warnings.iter().cloned());
-        let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
+        let (mut inputs, mounting) = axes::inputs(&table, conventions)?;
         warnings.extend(mounting);
         let stops = frozen::stops(&table, &inputs);
         checks::plausibility(&table, &inputs, conventions).map_err(|error| match stops.first() {
@@ -131,7 +130,7 @@ impl Recording {
         warnings.extend(exchanged::warnings(&table, &inputs, conventions));
         warnings.extend(dead::warnings(&table, &inputs, conventions));
         warnings.extend(consistency::warnings(&table, &inputs, conventions));
-        convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
+        axes::fade_in(&mut inputs, table.step(), conventions.fade_in);
         warnings.extend(unusual::warnings(&table, &inputs));
         Ok(Recording {
             name,

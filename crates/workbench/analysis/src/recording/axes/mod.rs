@@ -1,4 +1,98 @@
-//! From the recording's axes to the washout's inputs: `convert` turns them by the [`mounting`].
+//! From the recording's axes to the washout's inputs, turned by the sensor's `mounting`.
 
-pub mod convert;
 mod mounting;
+
+use moris_washout::Input;
+use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
+use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
+
+use crate::message::{Message, message};
+use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
+use crate::recording::message::RecordingError;
+use crate::recording::table::Table;
+use mounting::{MountingEstimate, SensorMotion};
+
+/// The washout's input at each sample, with a warning where the mounting was found.
+///
+/// # Errors
+/// The mounting is to be found and cannot be.
+pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Option<Message>), RecordingError> {
+    let (mounting, warning) = match conventions.mounting {
+        None => (None, None),
+        Some(Mounting::Angles(angles)) => (Some(Orientation::new(angles).rotation), None),
+        Some(Mounting::Auto) => {
+            let found = find_mounting(table, conventions).map_err(|reason| table.refused(reason))?;
+            (Some(found.rotation), Some(found.warning))
+        }
+    };
+    let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
+    Ok((inputs, warning))
+}
+
+/// Three columns at a sample, turned to x forward, y left, z up of the sensor.
+fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(usize) -> Quantity) -> Vector3<f64> {
+    // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
+    let signs = conventions.axes.signs();
+    Vector3::from_fn(|axis, _| table.value(quantity(axis), sample) * signs[axis])
+}
+
+fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, Message> {
+    if conventions.gravity == Gravity::Removed {
+        let [auto, angles] = Mounting::options();
+        return Err(message![auto, " needs gravity in the accelerations; give ", angles]);
+    }
+    let vectors = |quantity| -> Vec<Vector3<f64>> {
+        (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()
+    };
+    mounting::find(&SensorMotion {
+        step: table.step(),
+        forces: &vectors(Quantity::Force),
+        rates: &vectors(Quantity::Rate),
+        speeds: table.columns.get(&Quantity::Speed).map(Vec::as_slice),
+    })
+}
+
+/// The input at a sample; `mounting` turns the sensor's axes to the vehicle's.
+fn input(table: &Table, conventions: &Conventions, mounting: Option<&Matrix3<f64>>, sample: usize) -> Input {
+    let vector = |quantity| vector(table, conventions, sample, quantity);
+    let turned = |vector: Vector3<f64>| mounting.map_or(vector, |rotation| rotation * vector);
+    let sensor = RollPitchYaw::from_vector(vector(Quantity::Angle));
+    let orientation = match mounting {
+        Some(rotation) if table.has_orientation() => vehicle_orientation(sensor, rotation),
+        _ => sensor,
+    };
+    let gravity = match conventions.gravity {
+        Gravity::Included => Vector3::zeros(),
+        Gravity::Removed => {
+            Orientation::new(orientation).rotation.transpose() * Vector3::new(0.0, 0.0, STANDARD_GRAVITY)
+        }
+    };
+    let rates = vector(Quantity::Rate);
+    Input {
+        specific_force: turned(vector(Quantity::Force)) + gravity,
+        angular_velocity: if conventions.rate_frame == RateFrame::Body { turned(rates) } else { rates },
+        orientation,
+        speed: table.value(Quantity::Speed, sample),
+        lean: table.value(Quantity::Lean, sample),
+        engaged: true,
+    }
+}
+
+/// The vehicle's orientation from that of the sensor in it.
+fn vehicle_orientation(sensor: RollPitchYaw, mounting: &Matrix3<f64>) -> RollPitchYaw {
+    let rotation = Orientation::new(sensor).rotation * mounting.transpose();
+    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(rotation).euler_angles();
+    RollPitchYaw::new(roll, pitch, yaw)
+}
+
+/// Fades the inputs in from rest over the first `duration` seconds, by x^2 (3 - 2x) after a
+/// fraction x of the time.
+pub fn fade_in(inputs: &mut [Input], step: f64, duration: f64) {
+    let rest = Input::default();
+    let faded = inputs.iter_mut().enumerate().map(|(k, input)| (k as f64 * step, input));
+    for (time, input) in faded.take_while(|(time, _)| *time < duration) {
+        let x = time / duration;
+        *input = rest.towards(input, x * x * (3.0 - 2.0 * x));
+    }
+}

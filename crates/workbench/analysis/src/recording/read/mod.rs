@@ -10,7 +10,6 @@ mod foreign;
 mod numbers;
 mod preamble;
 mod rows;
-mod samples;
 mod serial;
 mod sheet;
 pub mod source;
@@ -20,5 +19,5 @@ mod time;
 mod vbox;
 
 pub use numbers::is_number;
-pub use samples::Samples;
+pub use rows::Samples;
 pub use sheet::Sheet;

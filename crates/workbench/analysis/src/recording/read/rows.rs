@@ -1,10 +1,11 @@
 //! The lines of a sheet, as numbers.
 
+use std::ops::Range;
+
 use csv::{Position, StringRecord};
 
 use super::numbers::{Numbers, is_empty};
 use super::preamble::reader;
-use super::samples::Samples;
 use super::sheet::{Sheet, is_blank};
 use super::time;
 use crate::message::{Message, given, message};
@@ -13,6 +14,43 @@ use crate::recording::message::{RecordingError, quoted};
 
 /// Lines that show how numbers are written.
 const SHOWN: usize = 5000;
+
+/// Numbers, a line a sample.
+pub struct Samples {
+    /// Times that are written out are in seconds.
+    pub time: Vec<f64>,
+    /// The columns with their places, in the order in which they were asked for, in the file's
+    /// units; an empty field is not a number.
+    pub columns: Vec<(usize, Vec<f64>)>,
+    /// The line of the file from which each sample is.
+    pub lines: Vec<u64>,
+    /// Warnings, in whole sentences.
+    pub warnings: Vec<Message>,
+}
+
+impl Samples {
+    /// No samples of columns yet.
+    fn new(places: &[usize]) -> Self {
+        let columns = places.iter().map(|&place| (place, Vec::new())).collect();
+        Samples { time: Vec::new(), columns, lines: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// Adds a sample, with a value for each column.
+    fn push(&mut self, line: u64, time: f64, values: Vec<f64>) {
+        self.time.push(time);
+        self.lines.push(line);
+        self.columns.iter_mut().zip(values).for_each(|((_, column), value)| column.push(value));
+    }
+
+    /// Leaves out all samples but those of a range.
+    pub fn keep(&mut self, range: Range<usize>) {
+        self.time = self.time[range.clone()].to_vec();
+        self.lines = self.lines[range.clone()].to_vec();
+        for (_, values) in &mut self.columns {
+            *values = values[range.clone()].to_vec();
+        }
+    }
+}
 
 impl Sheet {
     /// Reads columns, and the time in its unit, in seconds where it is written out.
