@@ -51,7 +51,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use crate::message::Message;
-use checks::{consistency, dead, exchanged, frozen, interleaved, outliers, unusual};
+use checks::{consistency, dead, delayed, exchanged, frozen, interleaved, outliers, unusual};
 pub(crate) use columns::{Quantity, units};
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
@@ -130,6 +130,7 @@ impl Recording {
         warnings.extend(exchanged::warnings(&table, &inputs, conventions));
         warnings.extend(dead::warnings(&table, &inputs, conventions));
         warnings.extend(consistency::warnings(&table, &inputs, conventions));
+        warnings.extend(delayed::warnings(&table, &inputs, conventions));
         axes::fade_in(&mut inputs, table.step(), conventions.fade_in);
         warnings.extend(unusual::warnings(&table, &inputs));
         Ok(Recording {

@@ -120,6 +120,19 @@ fn a_sensor_that_stops_is_named_with_the_time() {
 }
 
 #[test]
+fn channels_that_come_too_late_or_too_early_are_named() {
+    for (shift, expected) in [(25, "0.5 s after"), (-15, "0.3 s before"), (5, "")] {
+        let other = |k: usize| car(k.saturating_add_signed(-shift));
+        let speed = said(|k, sample| Sample { speed: other(k).speed, ..sample });
+        let found = speed.contains(&format!("Column speed comes {expected} the force along x"));
+        assert_eq!(found, !expected.is_empty(), "{speed}");
+        let yaw = said(|k, sample| Sample { angle: other(k).angle, ..sample });
+        let found = yaw.contains(&format!("Column yaw comes {expected} the angular velocity"));
+        assert_eq!(found, !expected.is_empty(), "{yaw}");
+    }
+}
+
+#[test]
 fn values_that_are_repeated_are_steps() {
     let held = said(|k, sample| {
         let held = car(k / 10 * 10);

@@ -28,7 +28,7 @@ pub const LEAST_SWAY: f64 = 0.3;
 /// Fraction of these sizes down to which the other signal is compared: it may be in a larger unit.
 const FAINT: f64 = 0.01;
 /// Least rate that is compared with an angle, as a root mean square \[rad/s\].
-const LEAST_RATE: f64 = 0.005;
+pub const LEAST_RATE: f64 = 0.005;
 /// Ratio of two signals that should be equal, up to which they are taken as equal: slopes and bias
 /// change the force.
 const RATIO: f64 = 1.5;

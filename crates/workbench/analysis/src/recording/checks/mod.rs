@@ -5,12 +5,13 @@
 //! - `gravity`, `angles` and `rates` detect wrong units and axes.
 //! - [`consistency`] detects channels that contradict each other, with the sign that `speeds` gives
 //!   the speed. [`dead`] finds those that stand still, [`frozen`] those that stop, [`exchanged`]
-//!   those of another axis.
+//!   those of another axis, [`delayed`] those that come too late or too early.
 //! - [`unusual`] warns about recordings that are possible.
 
 mod angles;
 pub mod consistency;
 pub mod dead;
+pub mod delayed;
 pub mod exchanged;
 pub mod frozen;
 mod gravity;

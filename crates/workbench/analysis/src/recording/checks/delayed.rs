@@ -1,0 +1,66 @@
+//! Channels that come later than those that cause them, or earlier.
+
+use std::f64::consts::TAU;
+
+use moris_simulation::measures::delay::delay;
+use moris_simulation::measures::statistics::correlation;
+use moris_washout::Input;
+
+use super::consistency::{LEAST_CHANGE, LEAST_RATE, changes, derivative_and_rate};
+use super::speeds::signed_speeds;
+use crate::message::{Message, message};
+use crate::recording::conventions::{Conventions, Quantity, RateFrame};
+use crate::recording::signal::{integral, root_mean_square};
+use crate::recording::table::Table;
+
+/// Least delay that is warned of, of either sign \[s\].
+const LEAST_DELAY: f64 = 0.2;
+/// Largest fraction of the unexplained variance that is left without the delay.
+const CLEARER: f64 = 0.2;
+
+/// Warnings about a speed that comes later or earlier than the force along x, and about angles and
+/// their rates.
+pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
+    let step = table.step();
+    let speed = || {
+        table.columns.get(&Quantity::Speed)?;
+        let found = changes(&signed_speeds(inputs, step).0, step);
+        let force = integral(inputs.iter().map(|input| input.specific_force.x), step);
+        let delay = clear_delay(&changes(&force, step), &found, LEAST_CHANGE, step)?;
+        Some(warning(Quantity::Speed, "the force along x that changes it", delay))
+    };
+    let angle = |axis: usize| {
+        table.columns.get(&Quantity::Angle(axis))?;
+        let (derivative, rate) = derivative_and_rate(inputs, axis, step, TAU);
+        let delay = clear_delay(&rate, &derivative, LEAST_RATE, step)?;
+        Some(warning(Quantity::Angle(axis), "the angular velocity that changes it", delay))
+    };
+    let in_body = conventions.rate_frame == RateFrame::Body;
+    let angles = (0..3).filter(|_| in_body).filter_map(angle);
+    speed().into_iter().chain(angles).collect()
+}
+
+/// The delay of a signal behind the one that is expected, where it explains most of their
+/// difference \[s\].
+fn clear_delay(expected: &[f64], found: &[f64], least: f64, step: f64) -> Option<f64> {
+    if root_mean_square(found) < least {
+        return None;
+    }
+    let delay = delay(expected, found, step).filter(|delay| delay.abs() >= LEAST_DELAY)?;
+    let shift = (delay.abs() / step).round() as usize;
+    let (earlier, later) = if delay > 0.0 { (expected, found) } else { (found, expected) };
+    let unexplained = |shift: usize| {
+        let correlation = correlation(&earlier[..earlier.len() - shift], &later[shift..])?;
+        Some(1.0 - correlation * correlation)
+    };
+    (unexplained(shift)? < CLEARER * unexplained(0)?).then_some(delay)
+}
+
+fn warning(quantity: Quantity, cause: &str, delay: f64) -> Message {
+    let (key, seconds) = (quantity.key(), delay.abs());
+    let (place, remedy) = if delay > 0.0 { ("after", "earlier") } else { ("before", "later") };
+    message![
+        "Column {key} comes {seconds:.1} s {place} {cause}: a filter, GPS or a clock of its own delays one of them. Write \
+         its values {seconds:.1} s {remedy}."
+    ]
+}
