@@ -5,7 +5,8 @@
 //! - `gravity`, `angles` and `rates` detect wrong units and axes.
 //! - [`consistency`] detects channels that contradict each other, with the sign that `speeds` gives
 //!   the speed. [`dead`] finds those that stand still, [`frozen`] those that stop, [`exchanged`]
-//!   those of another axis, [`delayed`] those that come too late or too early.
+//!   those of another axis.
+//! - [`delayed`] finds a speed and angles that come too late or too early.
 //! - [`unusual`] warns about recordings that are possible.
 
 mod angles;
