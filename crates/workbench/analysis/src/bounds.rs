@@ -15,7 +15,7 @@ use moris_simulation::Simulation;
 /// The bound on one axis, and the desired signal it belongs to.
 #[derive(Clone, Debug)]
 pub struct AxisBound {
-    /// The bound.
+    /// The least error on the axis.
     pub bound: Bound,
     /// The desired specific force as a deviation from rest, at each sample \[m/s2\].
     pub desired: Vec<f64>,

@@ -21,10 +21,10 @@ pub enum Error {
     /// The least error on a rig.
     #[error(transparent)]
     Bound(#[from] BoundError),
-    /// Another washout's motion.
+    /// Another washout's motion cannot be judged.
     #[error(transparent)]
     Foreign(#[from] ForeignError),
-    /// Another washout's FMU.
+    /// Another washout's FMU cannot be stepped.
     #[error(transparent)]
     Fmu(#[from] HostError),
     /// A simulation that has no measures.
@@ -33,10 +33,10 @@ pub enum Error {
     /// A reason in words.
     #[error(transparent)]
     Message(#[from] Message),
-    /// Parameters.
+    /// Parameters cannot be used.
     #[error(transparent)]
     Parameters(#[from] ParameterError),
-    /// A recording.
+    /// A recording cannot be read.
     #[error(transparent)]
     Recording(#[from] RecordingError),
 }

@@ -53,7 +53,7 @@ impl Progress {
         }
     }
 
-    /// Counts a step.
+    /// Advances the bar by a step.
     pub fn step(&mut self) {
         if !self.is_logged {
             return self.bar.inc(1);

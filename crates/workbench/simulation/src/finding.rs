@@ -15,7 +15,7 @@ pub struct Finding {
 pub enum Weight {
     /// As it should be.
     Good,
-    /// Worth knowing.
+    /// A fact that needs no change.
     #[default]
     Note,
     /// Something limits the cues, or is doubtful about the data.

@@ -40,7 +40,7 @@ impl Manoeuvre {
         &self.inputs
     }
 
-    /// The same, shared.
+    /// The inputs, shared without a copy.
     pub fn shared_inputs(&self) -> Arc<Vec<Input>> {
         Arc::clone(&self.inputs)
     }

@@ -11,7 +11,7 @@ pub struct Column {
     pub name: &'static str,
     /// Digits behind the point.
     pub decimals: usize,
-    /// The value.
+    /// Value of an evaluated drive; none where it is not defined.
     pub value: fn(&Evaluated) -> Option<f64>,
 }
 

@@ -87,7 +87,7 @@ pub struct Foreign {
 enum Source {
     /// A folder of the motions that it computed.
     Folder(PathBuf),
-    /// Its FMU.
+    /// The washout as an FMU.
     Fmu(WashoutFmu),
 }
 

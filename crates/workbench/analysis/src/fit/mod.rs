@@ -62,7 +62,7 @@ fn of_recording(recording: &Recording, strategies: &[Strategy], preview: f64, ai
 /// Means over all channels of a strategy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
-    /// Mean correlation.
+    /// Mean correlation of felt and desired force.
     pub shape: f64,
     /// Mean and largest fraction of inverted time.
     pub inverted: [f64; 2],

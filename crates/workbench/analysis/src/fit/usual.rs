@@ -25,9 +25,9 @@ pub enum Vehicle {
 /// The usual largest accelerations of a vehicle \[m/s2\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Usual {
-    /// To the side.
+    /// Acceleration to the side.
     pub sideways: f64,
-    /// Of braking.
+    /// Deceleration of braking.
     pub braking: f64,
     /// Of accelerating; 0: half of the braking.
     pub accelerating: f64,

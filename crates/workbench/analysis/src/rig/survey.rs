@@ -13,9 +13,9 @@ use crate::text_table::TextTable;
 /// Properties of a rig.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// Name.
+    /// Name of the rig.
     pub name: String,
-    /// Its capabilities.
+    /// Capabilities of the rig from neutral.
     pub capabilities: Capabilities,
     /// Where it can go.
     pub workspace: Workspace,

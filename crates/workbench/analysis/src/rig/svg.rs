@@ -26,7 +26,7 @@ impl Window {
         }
     }
 
-    /// Pixels a metre.
+    /// Scale of both axes \[px/m\].
     pub fn scale(&self) -> f64 {
         room()[0] / (self.high[0] - self.low[0])
     }

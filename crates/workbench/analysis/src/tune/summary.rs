@@ -149,7 +149,7 @@ fn mean_figures(results: &[RecordingResult]) -> String {
     format!("mean error {before:.3} → {after:.3}, smaller on {better} of {recordings}, {limits}")
 }
 
-/// The whole summary.
+/// The summary of a tuning, as text.
 pub fn text(
     before: &Setup,
     tuned: &Setup,

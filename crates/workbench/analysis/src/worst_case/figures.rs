@@ -41,9 +41,9 @@ pub struct RideFigures {
 pub enum Measure {
     /// Geometric mean of the RMS errors.
     Error,
-    /// Largest shake.
+    /// Largest shake of surge and sway.
     Shake,
-    /// Largest jolt.
+    /// Largest jolt of surge and sway.
     Jolt,
 }
 

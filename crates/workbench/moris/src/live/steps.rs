@@ -26,7 +26,7 @@ const LATEST: f64 = 0.02;
 /// Steps between looks at the signs.
 const LOOK: u64 = 1000;
 
-/// The loop.
+/// The loop of a live session.
 pub struct Steps<'a> {
     pub session: &'a mut Session,
     pub shared: &'a Shared,
@@ -47,7 +47,7 @@ pub struct Steps<'a> {
     pub shown: Option<Producer<Shown>>,
     /// Starts by itself, once.
     pub starts: bool,
-    /// Engages by itself.
+    /// True for a session that engages by itself.
     pub engages: bool,
     /// Time after which it ends \[s\].
     pub ends_at: Option<f64>,

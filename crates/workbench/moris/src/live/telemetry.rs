@@ -38,7 +38,7 @@ pub const BEFORE: Duration = Duration::from_millis(5);
 pub struct Received {
     /// Time of [`pace::now`]; of a source inside that for which the sample is.
     pub arrival: Duration,
-    /// The sample.
+    /// Motion of the vehicle.
     pub sample: Sample,
 }
 

@@ -42,9 +42,9 @@ const NUMBERS: usize = 17;
 /// Limits of the actuators.
 #[derive(Clone, Copy, Debug)]
 pub struct Actuators {
-    /// Largest speed \[m/s\].
+    /// Largest speed of an actuator \[m/s\].
     pub speed: f64,
-    /// Largest acceleration \[m/s2\].
+    /// Largest acceleration of an actuator \[m/s2\].
     pub acceleration: f64,
     /// Shortest and longest length \[m\].
     pub stroke: [f64; 2],

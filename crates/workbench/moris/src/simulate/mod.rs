@@ -194,7 +194,7 @@ struct Case {
 enum Foreign {
     /// A file with its motion.
     Felt(PathBuf),
-    /// Its FMU.
+    /// The washout as an FMU.
     Fmu(WashoutFmu),
 }
 

@@ -7,7 +7,7 @@ use moris_setup::Setup;
 
 use crate::text_table::{Column, TextTable};
 
-/// The whole text.
+/// The tables of all studies, as text.
 pub fn text(setup: &Setup, rides: usize, studies: &[Study]) -> String {
     let machines = studies.first().map_or(0, |study| study.machines.len());
     let mut text = format!(

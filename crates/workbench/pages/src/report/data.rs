@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::report::encode::{curve, curves, flags, times};
 use crate::report::simulator::Simulator;
 
-/// The whole page.
+/// Data of a report's page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// The heading, for instance the recording's name.

@@ -5,7 +5,7 @@ use crate::report::page::{Head, escaped};
 /// A table of the page.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PageTable {
-    /// Its heading.
+    /// Heading above the table.
     pub title: String,
     /// A sentence on its figures.
     pub text: String,

@@ -16,7 +16,7 @@ pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wa
 pub struct Page {
     /// One line below the heading.
     pub subtitle: String,
-    /// The compiled crate.
+    /// The compiled WebAssembly.
     #[serde(serialize_with = "shared::bytes")]
     pub module: Vec<u8>,
     pub rig: Rig,

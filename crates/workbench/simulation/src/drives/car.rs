@@ -22,17 +22,17 @@ pub type Change = (f64, f64, f64);
 /// A car.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Car {
-    /// \[kg\]
+    /// Mass of the car \[kg\].
     pub mass: f64,
     /// Moment of inertia about the vertical axis \[kg m2\].
     pub inertia: f64,
-    /// From the centre of gravity to the axles \[m\].
+    /// Distance of the front axle from the centre of gravity \[m\].
     pub to_front: f64,
-    /// See `to_front`.
+    /// Distance of the rear axle from the centre of gravity \[m\].
     pub to_rear: f64,
-    /// Cornering stiffness of each axle \[N/rad\].
+    /// Cornering stiffness of the front axle \[N/rad\].
     pub front_stiffness: f64,
-    /// See `front_stiffness`.
+    /// Cornering stiffness of the rear axle \[N/rad\].
     pub rear_stiffness: f64,
     /// Roll of the body to a lateral acceleration \[rad/(m/s2)\].
     pub roll_gradient: f64,
@@ -69,7 +69,7 @@ pub const KART: Car = Car {
 pub struct Course {
     /// The car.
     pub car: Car,
-    /// \[s\]
+    /// Duration of the drive \[s\].
     pub duration: f64,
     /// Speed at the start \[m/s\].
     pub speed: f64,

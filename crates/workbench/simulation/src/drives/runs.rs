@@ -52,7 +52,7 @@ pub struct Manoeuvre {
     pub name: &'static str,
     /// Description of the motorcycle's motion.
     pub text: &'static str,
-    /// \[s\]
+    /// Duration of the run \[s\].
     pub duration: f64,
     motion: fn(f64) -> Motion,
 }

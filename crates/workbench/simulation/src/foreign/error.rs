@@ -27,7 +27,7 @@ pub enum ForeignError {
         argument: &'static str,
         /// Number of rows of the argument.
         found: usize,
-        /// The least number.
+        /// Least number of samples that fits.
         fewest: usize,
     },
     /// A value is not a number.

@@ -30,9 +30,9 @@ pub enum Limit {
     Shortest,
     /// Longest length.
     Longest,
-    /// Speed.
+    /// Largest speed.
     Speed,
-    /// Acceleration.
+    /// Largest acceleration.
     Acceleration,
 }
 

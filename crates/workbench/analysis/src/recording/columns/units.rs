@@ -174,7 +174,7 @@ impl Dimension {
         }
     }
 
-    /// Its units.
+    /// All units of the dimension.
     pub fn units(self) -> impl Iterator<Item = Unit> {
         self.spelled_units().iter().map(|(unit, _)| *unit)
     }

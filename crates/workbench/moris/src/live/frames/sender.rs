@@ -21,11 +21,11 @@ use super::{Device, Loss, Message, Sending, Sink};
 /// Numbers of frames.
 #[derive(Clone, Debug, Default)]
 pub struct Sent {
-    /// Taken by the socket.
+    /// Frames that the socket took.
     pub sent: u64,
-    /// Refused by it.
+    /// Frames that the socket refused.
     pub failed: u64,
-    /// Left out because a newer one was there.
+    /// Frames left out because a newer one was there.
     pub skipped: u64,
     /// Time from a sample's arrival to the next frame.
     pub passage: Lateness,

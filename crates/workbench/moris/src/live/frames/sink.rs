@@ -36,7 +36,7 @@ pub enum Sink {
     Udp(UdpSocket),
     #[cfg(feature = "serial")]
     Serial(Serial),
-    /// Standard output.
+    /// No device: frames go to standard output.
     Dry,
     /// One with an error of this program in its third and fifth message.
     #[cfg(test)]

@@ -59,7 +59,7 @@ enum Ask {
     Set(BTreeMap<String, f64>),
     /// The vehicle's controls as they are held.
     Drive(RiderCommand),
-    /// A new ride.
+    /// The vehicle begins a new ride.
     BeginAgain,
     /// The parameters in force become one of the two sets.
     Keep(Which),

@@ -20,7 +20,7 @@ pub enum Which {
 }
 
 impl Which {
-    /// The set's name.
+    /// Name of the set on the page.
     pub fn name(self) -> &'static str {
         ["A", "B"][self as usize]
     }

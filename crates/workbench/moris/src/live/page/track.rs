@@ -4,7 +4,7 @@ use moris_laps::Laps;
 
 /// Distance of the places, at least \[m\].
 const SPACING: f64 = 5.0;
-/// Most places.
+/// Largest number of places kept.
 const MOST: usize = 6000;
 
 /// Places of the road along x and y \[m\]; none where it is interrupted.
