@@ -90,8 +90,13 @@ def fuzz(seconds, source=None):
                 counts[0] += 1
             except OSError:
                 pass
-        answer = browser.ask(order())
-        assert answer in (200, 400, 403, 413, 422, 503), answer
+        asked = time.monotonic()
+        try:
+            answer = browser.ask(order())
+            assert answer in (200, 400, 403, 413, 422, 503), answer
+        except OSError:
+            # A request of more than a second is closed: on a busy computer this script may be so slow.
+            assert time.monotonic() - asked > 1.0
         counts[1] += 1
         held.append(connect(browser))
         counts[2] += 1
