@@ -53,17 +53,20 @@ impl Law for Optimal {
     }
 }
 
-/// Travel above which its weight no longer falls with the square of its limit \[m\].
-const WEIGHED_TRAVEL: f64 = 0.45;
+/// Travel above which its weight no longer falls with the square of its limit, and the least that a
+/// longer one counts as \[m\].
+const WEIGHED_TRAVEL: [f64; 2] = [0.45, 0.3];
 
 /// The model whose limit of travel the weights refer to.
 ///
 /// A long travel is used up before the tilt, whose rate is the same on every rig, can give it
-/// back. Beyond [`WEIGHED_TRAVEL`] D the weights of the travel L therefore grow: L counts as
-/// D^2/L.
+/// back. Beyond D, the first of [`WEIGHED_TRAVEL`], the weights of the travel L therefore grow: L
+/// counts as D^2/L. They do not grow without end: a platform that keeps too near to its middle
+/// gives less.
 pub(in crate::cueing) fn weighed(model: &AxisModel) -> AxisModel {
-    let longer = (model.position_limit / WEIGHED_TRAVEL).max(1.0);
-    AxisModel { position_limit: model.position_limit.min(WEIGHED_TRAVEL) / longer, ..*model }
+    let [most, least] = WEIGHED_TRAVEL;
+    let limit = model.position_limit;
+    AxisModel { position_limit: limit.min((most * most / limit).max(least)), ..*model }
 }
 
 impl Optimal {
@@ -147,6 +150,14 @@ mod tests {
             let Decision { dropped_force, tilt_acceleration } = decisions[k];
             assert!((dropped_force - expected[0]).abs() < 1e-12, "{dropped_force} beside {expected:?}");
             assert!((tilt_acceleration - expected[1]).abs() < 1e-12, "{tilt_acceleration} beside {expected:?}");
+        }
+    }
+
+    #[test]
+    fn a_longer_travel_counts_as_less_but_not_as_none() {
+        let counts_as = |position_limit| weighed(&AxisModel { position_limit, ..MODEL }).position_limit;
+        for (limit, expected) in [(0.1, 0.1), (0.45, 0.45), (0.5, 0.405), (0.675, 0.3), (0.9, 0.3), (1e9, 0.3)] {
+            assert!((counts_as(limit) - expected).abs() < 1e-12, "{limit} m as {} m", counts_as(limit));
         }
     }
 
