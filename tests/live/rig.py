@@ -65,6 +65,8 @@ class Controller:
                 time.sleep(0.05)
                 continue
             with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+                # Frames wait for a script that waits for a processor: what is lost is lost by the command.
+                taken.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
                 taken.bind(("127.0.0.1", self.port))
                 taken.settimeout(0.2)
                 if TIMESTAMP:
