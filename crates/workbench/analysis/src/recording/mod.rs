@@ -127,6 +127,7 @@ impl Recording {
         })?;
         warnings.extend(stops.into_iter().map(Message::from));
         warnings.extend(frozen::repeats(&table, conventions));
+        warnings.extend(frozen::coarse(&table, conventions));
         warnings.extend(exchanged::warnings(&table, &inputs, conventions));
         warnings.extend(dead::warnings(&table, &inputs, conventions));
         warnings.extend(consistency::warnings(&table, &inputs, conventions));

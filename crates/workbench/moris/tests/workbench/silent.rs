@@ -133,6 +133,43 @@ fn channels_that_come_too_late_or_too_early_are_named() {
 }
 
 #[test]
+fn an_axis_with_the_values_of_another_is_named() {
+    let forces = said(|_, mut sample| {
+        sample.force[1] = -sample.force[0];
+        sample
+    });
+    assert!(forces.contains("Columns ax and ay hold the same values"), "{forces}");
+    let rates = said(|_, mut sample| {
+        sample.rate[0] = sample.rate[2];
+        sample
+    });
+    assert!(rates.contains("Columns wx and wz hold the same values"), "{rates}");
+}
+
+#[test]
+fn values_of_few_digits_are_steps() {
+    let rounded = |digit: f64| {
+        said(|_, mut sample| {
+            sample.force[1] = (sample.force[1] / digit).round() * digit;
+            sample
+        })
+    };
+    assert!(rounded(0.5).contains("The values of ay are 0.5 m/s2 apart or more"), "{}", rounded(0.5));
+    assert_eq!(rounded(0.1), "");
+}
+
+#[test]
+fn times_that_cannot_be_meant_have_their_own_remedy() {
+    let times = |change: &dyn Fn(usize) -> f64| said(|k, sample| Sample { t: change(k), ..sample });
+    let counter = times(&|k| (k % 256) as f64);
+    assert!(counter.contains("time begins again every 256 samples") && counter.contains("--rate HERTZ"), "{counter}");
+    let jumped = times(&|k| 0.02 * k as f64 + if k > 700 { 3600.0 } else { 0.0 });
+    assert!(jumped.contains("the clock has jumped") && !jumped.contains("--resample"), "{jumped}");
+    let hours = times(&|k| (0.02 * k as f64 / 3600.0 * 1e5).floor() / 1e5);
+    assert!(hours.contains("give the unit of time with --time-unit") && !hours.contains("--resample"), "{hours}");
+}
+
+#[test]
 fn values_that_are_repeated_are_steps() {
     let held = said(|k, sample| {
         let held = car(k / 10 * 10);

@@ -52,10 +52,10 @@ fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64
         values.iter().map(|value| value - mean).collect::<Vec<f64>>()
     };
     let (desired_centred, felt_centred) = (centred(desired), centred(felt));
-    let products = products(&desired_centred, &felt_centred, longest);
     // Each is added up from the end that stays, so that no large sums cancel.
     let sums = |values: &[f64]| (sums(values.iter(), longest), sums(values.iter().rev(), longest));
     let ((desired_first, desired_last), (felt_first, felt_last)) = (sums(&desired_centred), sums(&felt_centred));
+    let products = products(desired_centred, felt_centred, longest);
     let energy = desired_first[0].variation() * felt_first[0].variation();
     (0..=2 * longest)
         .map(|index| {
@@ -78,13 +78,12 @@ fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64
 }
 
 /// Sums of desired\[k\] felt\[k + shift\] over all k, for shifts from `-longest` to `longest`.
-fn products(desired: &[f64], felt: &[f64], longest: usize) -> Vec<f64> {
+fn products(desired: Vec<f64>, felt: Vec<f64>, longest: usize) -> Vec<f64> {
     let length = (desired.len() + longest + 1).next_power_of_two();
     let mut planner = RealFftPlanner::<f64>::new();
     let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
-    let spectrum = |values: &[f64]| {
-        let mut padded = forward.make_input_vec();
-        padded[..values.len()].copy_from_slice(values);
+    let spectrum = |mut padded: Vec<f64>| {
+        padded.resize(length, 0.0);
         let mut spectrum = forward.make_output_vec();
         forward.process(&mut padded, &mut spectrum).expect("the buffers are the plan's own");
         spectrum

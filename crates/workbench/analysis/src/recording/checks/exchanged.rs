@@ -8,7 +8,7 @@ use super::consistency::{LEAST_CHANGE, changes, derivative_and_rate};
 use super::speeds::signed_speeds;
 use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Conventions, Quantity, RateFrame};
-use crate::recording::signal::{centred, integral, regression, root_mean_square};
+use crate::recording::signal::{centred, integral, is_constant, regression, root_mean_square};
 use crate::recording::table::Table;
 
 /// Ratios of two signals that are the same, of either sign.
@@ -16,10 +16,33 @@ const SAME: [f64; 2] = [0.67, 1.5];
 /// Least rate that is compared, as a root mean square \[rad/s\].
 const LEAST_RATE: f64 = 0.002;
 
-/// Warnings about a speed that goes with the force along y, and a roll that goes with the rate of
-/// pitch.
+/// Warnings about a speed that goes with the force along y, a roll that goes with the rate of pitch,
+/// and axes with the values of another one.
 pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
-    [forces(table, inputs, conventions), rates(table, inputs, conventions)].into_iter().flatten().collect()
+    let exchanged = [forces(table, inputs, conventions), rates(table, inputs, conventions)];
+    exchanged.into_iter().flatten().chain(repeated(table, conventions)).collect()
+}
+
+/// Warnings about two axes with the same values, of either sign. Those of a mounted sensor may be
+/// equal.
+fn repeated(table: &Table, conventions: &Conventions) -> Vec<Message> {
+    let axes = [Quantity::Force, Quantity::Rate].map(|of| [(of(0), of(1)), (of(0), of(2)), (of(1), of(2))]);
+    let is_repeated = |&(one, other): &(Quantity, Quantity)| {
+        let (Some(one), Some(other)) = (table.columns.get(&one), table.columns.get(&other)) else { return false };
+        let equals = |sign: f64| one.iter().zip(other).all(|(one, other)| *one == sign * other);
+        !is_constant(one) && (equals(1.0) || equals(-1.0))
+    };
+    let pairs = axes.concat().into_iter().filter(|pair| conventions.mounting.is_none() && is_repeated(pair));
+    let warning = |(one, other): (Quantity, Quantity)| {
+        let [one, other] = [one, other].map(|quantity| conventions.column(quantity));
+        message![
+            "Columns {one} and {other} hold the same values: one of them is not what its name says. Name the column that \
+             is with ",
+            named("columns"),
+            "."
+        ]
+    };
+    pairs.map(warning).collect()
 }
 
 fn is_same(ratio: Option<f64>) -> bool {

@@ -1,5 +1,6 @@
-//! Sensors that stop in the middle of a recording, and values that are repeated.
+//! Sensors that stop in the middle of a recording, values that are repeated, and values of few digits.
 
+use moris_interface::shown;
 use moris_washout::Input;
 
 use super::consistency::{LEAST_CHANGE, LEAST_SWAY, changes};
@@ -22,6 +23,11 @@ const STEPS: usize = 20;
 const MOSTLY: f64 = 0.6;
 /// Part of the steps that are as long as the usual one.
 const EVENLY: f64 = 0.9;
+
+/// Distance of a force's and of a rate's values from which its steps are felt \[m/s2, rad/s\].
+const COARSE: [f64; 2] = [0.15, 0.05];
+/// Number of values from which a signal is no test of a few steps.
+const LEVELS: usize = 4;
 
 /// Warnings about forces and yaw rates that stay at one value for seconds, while the speed changes
 /// or the vehicle drives bends.
@@ -74,6 +80,28 @@ fn stays(values: &[f64], least: usize) -> Vec<(usize, usize)> {
         (end - run.len(), end)
     });
     runs.filter(|(first, last)| last - first > least.max(REPEATED)).collect()
+}
+
+/// Warnings about channels whose values are so far apart that their steps are felt.
+pub fn coarse(table: &Table, conventions: &Conventions) -> Vec<Message> {
+    let distance = |quantity: Quantity, least: f64| {
+        let values = table.columns.get(&quantity)?;
+        let changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        let mut levels = sorted(values.iter().copied());
+        levels.dedup();
+        let nearest = levels.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+        (levels.len() >= LEVELS && changes >= STEPS && nearest >= least).then(|| {
+            let unit = table.unit(quantity).0;
+            let (name, distance) = (conventions.column(quantity), shown((nearest / unit.in_si * 1e6).round() / 1e6));
+            format!(
+                "The values of {name} are {distance} {} apart or more: their steps are felt as jolts. Record or export it \
+                 with more digits.",
+                unit.word
+            )
+        })
+    };
+    let all = (0..3).flat_map(|axis| [(Quantity::Force(axis), COARSE[0]), (Quantity::Rate(axis), COARSE[1])]);
+    all.filter_map(|(quantity, least)| distance(quantity, least)).map(Message::from).collect()
 }
 
 /// A warning about channels whose values come several times in a row: they were sampled at a lower

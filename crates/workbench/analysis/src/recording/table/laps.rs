@@ -7,6 +7,8 @@ use crate::recording::message::RecordingError;
 
 /// Least step back in time with which a lap begins \[s\].
 const RESTART: f64 = 1.0;
+/// Number of laps of equally many samples that are a counter's.
+const COUNTED: usize = 4;
 
 /// Keeps the lap that the conventions choose.
 ///
@@ -18,6 +20,15 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
     let laps = starts.len();
     let Some(lap) = conventions.lap else {
         let Some(&second) = starts.get(1) else { return Ok(()) };
+        let samples = |pair: &[usize]| pair[1] - pair[0];
+        if laps >= COUNTED && starts.windows(2).all(|pair| samples(pair) == second) {
+            let reason = message![
+                "time begins again every {second} samples, as a counter does; ",
+                given("rate", "HERTZ"),
+                " reads none of the times"
+            ];
+            return Err(table.refused_at(second, Quantity::Time, reason));
+        }
         let reason = message![
             "time starts again: there are {laps} laps; use ",
             given("lap", 1),

@@ -19,7 +19,7 @@ const JITTER: f64 = 0.2;
 /// Coarsest step of a usable recording \[s\].
 const COARSEST: f64 = 0.25;
 /// Finest step: below it, time is in another unit \[s\].
-const FINEST: f64 = 1e-4;
+pub const FINEST: f64 = 1e-4;
 /// Ticks of 100 ns of our days, since the year 1601 or 1.
 const TICKS: Range<f64> = 1.2e17..7e17;
 /// Gap from which it may be longer than the recording \[s\].
@@ -41,6 +41,7 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
         return Err(table.refused_at(wrong, Quantity::Time, reason));
     }
     check_unit(&table, conventions)?;
+    check_clock(&table)?;
     match conventions.resample {
         Some(rate) => resampled(table, rate),
         None => check_equal(&table).map(|()| (table, Vec::new())),
@@ -83,6 +84,21 @@ fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingE
     Err(table.refused(message!["samples come every {usual} s if time is in {unit}: ", reason]))
 }
 
+/// Refuses a gap that is longer than all the rest.
+fn check_clock(table: &Table) -> Result<(), RecordingError> {
+    let longest = (1..table.time.len()).max_by(|&a, &b| step_to(table, a).total_cmp(&step_to(table, b))).unwrap_or(1);
+    let gap = step_to(table, longest);
+    // Of a usual recording a gap is a small part.
+    if gap > LONGEST_REFUSED && gap > table.time[table.time.len() - 1] - table.time[0] - gap {
+        let reason = format!(
+            "nothing was recorded for {gap:.0} s before this line, which is longer than all that was: the clock has \
+             jumped, or these are two recordings; cut one of them off"
+        );
+        return Err(table.refused_at(longest, Quantity::Time, reason));
+    }
+    Ok(())
+}
+
 fn check_equal(table: &Table) -> Result<(), RecordingError> {
     let (step, usual) = (table.step(), usual_step(&table.time));
     let expected = |k: usize| table.time[0] + k as f64 * step;
@@ -110,16 +126,6 @@ fn step_to(table: &Table, sample: usize) -> f64 {
 /// Linear interpolation at `rate` samples a second, with warnings about gaps.
 fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<Message>), RecordingError> {
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
-    let longest = (1..table.time.len()).max_by(|&a, &b| step_to(&table, a).total_cmp(&step_to(&table, b))).unwrap_or(1);
-    let gap = step_to(&table, longest);
-    // Of a usual recording a gap is a small part.
-    if gap > LONGEST_REFUSED && gap > last - first - gap {
-        let reason = format!(
-            "nothing was recorded for {gap:.0} s before this line, which is longer than all that was: the clock has \
-             jumped, or these are two recordings; cut one of them off"
-        );
-        return Err(table.refused_at(longest, Quantity::Time, reason));
-    }
     let steps = (last - first) * rate + 1e-6;
     if steps > MOST_SAMPLES.max(4.0 * table.time.len() as f64) {
         let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);

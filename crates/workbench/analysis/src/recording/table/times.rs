@@ -2,7 +2,8 @@
 
 use moris_interface::shown;
 
-use crate::message::{Message, given, message};
+use super::sampling::FINEST;
+use crate::message::{Message, given, message, named};
 use crate::recording::signal::median;
 
 /// Longest gap that is interpolated over without a warning \[s\].
@@ -49,6 +50,13 @@ fn remedy_for_equal_times(time: &[f64], sample: usize) -> Message {
         return message!["; if the samples come at equal steps, ", given("rate", "HERTZ"), " reads none of the times"];
     }
     let rate = (time.len() - 1) as f64 / duration;
+    if rate > 1.0 / FINEST {
+        let unit = named("time-unit");
+        return message![
+            "; {rate:.0} samples a second are more than any recording has: give the unit of time with ",
+            unit
+        ];
+    }
     message!["; if the times are rounded, ", given("resample", format!("{rate:.0}")), " spreads equal ones evenly"]
 }
 
