@@ -16,8 +16,8 @@ const SAME: [f64; 2] = [0.67, 1.5];
 /// Least rate that is compared, as a root mean square \[rad/s\].
 const LEAST_RATE: f64 = 0.002;
 
-/// Warnings about a speed that goes with the force along y, a roll that goes with the rate of pitch,
-/// and axes with the values of another one.
+/// Warnings about a speed that goes with the force along y, a roll that goes with the rate of
+/// pitch, and axes with the values of another one.
 pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
     let exchanged = [forces(table, inputs, conventions), rates(table, inputs, conventions)];
     exchanged.into_iter().flatten().chain(repeated(table, conventions)).collect()

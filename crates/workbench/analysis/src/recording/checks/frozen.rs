@@ -1,4 +1,4 @@
-//! Sensors that stop in the middle of a recording, values that are repeated, and values of few digits.
+//! Sensors that stop in the middle of a recording, repeated values, and values of few digits.
 
 use moris_interface::shown;
 use moris_washout::Input;
