@@ -27,6 +27,8 @@ impl From<Candidate> for Alternative {
 /// Other scales at which the cues have the right sign and proportion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Advice {
+    /// Length of the part that was searched, where it is not the whole manoeuvre \[s\].
+    pub part: Option<f64>,
     /// With the same strategy and limits.
     pub scaled: Option<Alternative>,
     /// Alternative with a preview, and the preview's length \[s\].
@@ -35,11 +37,29 @@ pub struct Advice {
 
 /// Preview that is tried \[s\].
 const PREVIEW: f64 = 1.0;
+/// Longest part of a manoeuvre that is searched \[s\]: each scale is a simulation.
+const LONGEST: f64 = 120.0;
+
+/// The part of a manoeuvre with the largest surge and sway, if it is longer than [`LONGEST`].
+fn hardest(manoeuvre: &Manoeuvre) -> Option<Manoeuvre> {
+    let count = (LONGEST / manoeuvre.step()) as usize + 1;
+    let inputs = manoeuvre.inputs();
+    let (mut sum, mut sums) = (0.0, vec![0.0]);
+    for input in inputs {
+        sum += input.specific_force.xy().norm_squared();
+        sums.push(sum);
+    }
+    let of = |start: usize| sums[start + count] - sums[start];
+    let last = inputs.len().checked_sub(count).filter(|last| *last > 0)?;
+    let start = (0..=last).max_by(|one, other| of(*one).total_cmp(&of(*other)))?;
+    Some(Manoeuvre::new(manoeuvre.step(), inputs[start..start + count].to_vec()))
+}
 
 impl Advice {
     /// Searches for a scale at which a manoeuvre is felt the right way round, if it is not at its
-    /// own; the predictive strategy also with a preview. None where the scale is automatic, and for
-    /// the classical strategy, which no scale alone sets right.
+    /// own; the predictive strategy also with a preview. Of a long manoeuvre the part with the
+    /// largest forces is searched. None where the scale is automatic, and for the classical
+    /// strategy, which no scale alone sets right.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -55,14 +75,16 @@ impl Advice {
         if is_right || is_automatic || strategy == StrategyKind::Classical {
             return Ok(None);
         }
+        let part = hardest(manoeuvre);
+        let searched = part.as_ref().unwrap_or(manoeuvre);
         let found = |preview: f64| -> Result<Option<Alternative>, ParameterError> {
-            let found = Search::new(manoeuvre, preview, Aims::default()).scale(parameters)?;
+            let found = Search::new(searched, preview, Aims::default()).scale(parameters)?;
             // The quick simulation of the search may find the scale itself just right.
             Ok(found.map(Alternative::from).filter(|found| found.factor < 1.0))
         };
         let previews = strategy == StrategyKind::Predictive && preview < PREVIEW;
         let previewed = if previews { found(PREVIEW)?.map(|found| (PREVIEW, found)) } else { None };
-        Ok(Some(Advice { scaled: found(preview)?, previewed }))
+        Ok(Some(Advice { part: part.as_ref().map(Manoeuvre::duration), scaled: found(preview)?, previewed }))
     }
 
     /// Clauses of a sentence on inverted time.
@@ -73,7 +95,11 @@ impl Advice {
         let previewed = self.previewed.map(|(seconds, Alternative { factor, inverted })| {
             format!("; with a preview of {seconds} s at {factor:.2}: {:.0} %", 100.0 * inverted)
         });
-        [scaled, previewed].into_iter().flatten().collect()
+        let clauses: String = [scaled, previewed].into_iter().flatten().collect();
+        match self.part.filter(|_| !clauses.is_empty()) {
+            Some(part) => format!("; the hardest {part:.0} s alone{}", clauses.replacen(';', ":", 1)),
+            None => clauses,
+        }
     }
 }
 
@@ -116,6 +142,24 @@ mod tests {
             clauses.starts_with("; at a scale of 0.") && clauses.contains("; with a preview of 1 s at 0."),
             "{clauses}"
         );
+    }
+
+    #[test]
+    fn of_a_long_ride_the_hardest_part_is_searched() {
+        let quiet = slalom(0.5).inputs().to_vec();
+        let hard = slalom(4.5).inputs().to_vec();
+        let of = |parts: &[&[Input]]| Manoeuvre::new(0.01, parts.concat());
+        let long = of(&[&quiet, &quiet, &quiet, &hard, &hard, &hard, &hard, &quiet]);
+        let part = hardest(&long).unwrap();
+        assert_eq!(part.inputs()[..], long.inputs()[8999..21_000]);
+        assert!(hardest(&of(&[&hard, &hard, &hard, &hard])).is_none());
+        let parameters = presets::parameters(presets::PREDICTIVE);
+        let advice = Advice::of(&long, &parameters, 0.0, &inverted(0.1)).unwrap().unwrap();
+        let whole = Advice::of(&part, &parameters, 0.0, &inverted(0.1)).unwrap().unwrap();
+        assert_eq!((advice.scaled, advice.previewed), (whole.scaled, whole.previewed));
+        assert!(whole.part.is_none() && advice.scaled.is_some());
+        let clauses = advice.clauses();
+        assert!(clauses.starts_with("; the hardest 120 s alone: at a scale of 0."), "{clauses}");
     }
 
     #[test]
