@@ -21,21 +21,16 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
     let Some(lap) = conventions.lap else {
         let Some(&second) = starts.get(1) else { return Ok(()) };
         let samples = |pair: &[usize]| pair[1] - pair[0];
-        if laps >= COUNTED && starts.windows(2).all(|pair| samples(pair) == second) {
-            let reason = message![
-                "time begins again every {second} samples, as a counter does; ",
+        let is_counter = laps >= COUNTED && starts.windows(2).all(|pair| samples(pair) == second);
+        let begins = match is_counter {
+            true => message![
+                "time begins again every {second} samples, as a counter does: ",
                 given("rate", "HERTZ"),
-                " reads none of the times"
-            ];
-            return Err(table.refused_at(second, Quantity::Time, reason));
-        }
-        let reason = message![
-            "time starts again: there are {laps} laps; use ",
-            given("lap", 1),
-            " to ",
-            given("lap", laps),
-            " to read one of them"
-        ];
+                " reads none of the times; if these are {laps} laps, use "
+            ],
+            false => message!["time starts again: there are {laps} laps; use "],
+        };
+        let reason = message![begins, given("lap", 1), " to ", given("lap", laps), " to read one of them"];
         return Err(table.refused_at(second, Quantity::Time, reason));
     };
     let end = starts.get(lap).copied().unwrap_or(table.time.len());
