@@ -227,7 +227,9 @@ fn errors_say_what_to_do_and_fail() {
     assert!(failure(&["simulate", "missing.csv"]).contains("cannot read missing.csv"));
     assert!(failure(&["simulate", "ride.csv", "--columns", "ax=acc"]).contains("--columns ax=NAME"));
     assert!(failure(&["simulate", "ride.csv", "--columns", "bx=acc"]).contains("there is no key bx"));
-    assert!(failure(&["simulate", "ride.csv", "--resample", "0"]).contains("resample is 0, but must be from 1"));
+    assert!(
+        failure(&["simulate", "ride.csv", "--resample", "0"]).contains("resample is 0, but must be from 1 to 10000")
+    );
     let singular = singular_rig(directory.path());
     assert!(failure(&["simulate", "ride.csv", "--rig", &singular]).contains("singular inside the stroke"));
 }

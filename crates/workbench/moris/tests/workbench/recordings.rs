@@ -432,7 +432,7 @@ proptest! {
         steps in prop::collection::vec(prop_oneof![6 => Just(0.01), 1 => -1.0..1.0f64, 1 => any::<f64>()], 0..30),
         fields in prop::collection::vec(field(), 0..200),
         level in any::<bool>(),
-        resample in prop::option::of(1.0..1e5f64),
+        resample in prop::option::of(1.0..1e4f64),
     ) {
         let mut text = format!("{PLAIN},roll,pitch\n");
         let mut time = 0.0;

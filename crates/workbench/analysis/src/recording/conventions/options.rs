@@ -176,7 +176,7 @@ impl ConventionOptions {
     fn checked(&self) -> Result<Conventions, RecordingError> {
         let allowed = [
             ("rate", self.rate, 1.0..=1e5, "samples a second"),
-            ("resample", self.resample, 1.0..=1e5, "samples a second"),
+            ("resample", self.resample, 1.0..=1e4, "samples a second"),
             ("lap", self.lap, 1.0..=1e6, "and whole"),
             ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
         ];
