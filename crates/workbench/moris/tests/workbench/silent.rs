@@ -238,6 +238,16 @@ fn time_at_another_pace_is_named_with_and_without_a_speed() {
 
 /// A steady circle has a lasting lateral force and nothing else.
 #[test]
+fn a_roll_of_whole_turns_too_many_is_not_said_to_be_in_degrees_alone() {
+    let turned = said(|_, sample| {
+        let mut sample = sample;
+        sample.angle[0] += TAU;
+        sample
+    });
+    assert!(turned.contains("--angle-unit deg, or whole turns too many; write angles from -pi to pi"), "{turned}");
+}
+
+#[test]
 fn a_steady_circle_is_no_wrong_axis() {
     let steady = |k: usize, mut sample: Sample| {
         let yaw = 0.5 * 0.02 * k as f64;

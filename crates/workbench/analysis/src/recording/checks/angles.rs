@@ -32,7 +32,8 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     if steepest > STEEPEST {
         return Err(if is_radians(Quantity::Angle(0)) {
             let remedy = remedy(table, Quantity::Angle(0), AngleUnit::Degree.word());
-            message!["roll or pitch reaches {steepest:.0}: these are degrees, not radians; ", remedy]
+            let turns = ", or whole turns too many; write angles from -pi to pi";
+            message!["roll or pitch reaches {steepest:.0}: these are degrees, not radians; ", remedy, "{turns}"]
         } else {
             format!("roll or pitch reaches {:.0} degrees, which no vehicle does", steepest.to_degrees()).into()
         });
