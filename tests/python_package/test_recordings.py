@@ -133,7 +133,7 @@ def test_units_and_axes_are_converted(ride, expected):
         ({"time": lambda t: t + 0.005 * (t > 5)}, {}, "do not come at equal steps.*resample=100 interpolates"),
         ({"ay": lambda ay: np.where(ay > 0.3, np.nan, ay)}, {}, "column ay: is NaN; cut this part off"),
         ({}, {"force_unit": "G"}, "unknown variant `G`, expected one of `m/s2`, `g`, `mg`"),
-        ({}, {"resample": 0.1}, "resample is 0.1, but must be from 1 to 100000"),
+        ({}, {"resample": 0.1}, "resample is 0.1, but must be from 1 to 10000"),
         ({"ax": lambda ax: ax[:-1]}, {}, "values, others have"),
     ],
 )
