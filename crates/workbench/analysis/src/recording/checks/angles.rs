@@ -32,8 +32,11 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     if steepest > STEEPEST {
         return Err(if is_radians(Quantity::Angle(0)) {
             let remedy = remedy(table, Quantity::Angle(0), AngleUnit::Degree.word());
-            let turns = ", or whole turns too many; write angles from -pi to pi";
-            message!["roll or pitch reaches {steepest:.0}: these are degrees, not radians; ", remedy, "{turns}"]
+            message![
+                "roll or pitch reaches {steepest:.0}: these are degrees, not radians; ",
+                remedy,
+                ", or whole turns too many; write angles from -pi to pi"
+            ]
         } else {
             format!("roll or pitch reaches {:.0} degrees, which no vehicle does", steepest.to_degrees()).into()
         });

@@ -20,8 +20,7 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
     let laps = starts.len();
     let Some(lap) = conventions.lap else {
         let Some(&second) = starts.get(1) else { return Ok(()) };
-        let samples = |pair: &[usize]| pair[1] - pair[0];
-        let is_counter = laps >= COUNTED && starts.windows(2).all(|pair| samples(pair) == second);
+        let is_counter = laps >= COUNTED && starts.windows(2).all(|pair| pair[1] - pair[0] == second);
         let begins = match is_counter {
             true => message![
                 "time begins again every {second} samples, as a counter does: ",
