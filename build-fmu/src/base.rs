@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use clap::ValueEnum;
 use moris_fmi::{Overrides, SectionError, embedded};
 use moris_fmu_host::files::unpack;
 use quick_xml::de::from_str;
@@ -70,7 +69,7 @@ impl Base {
             let path = format!("binaries/{}/{}", platform.directory(*first), platform.packed_library(model.name));
             Some((platform, files.get(&path)?.clone()))
         };
-        let libraries: Vec<(Platform, Vec<u8>)> = Platform::value_variants().iter().filter_map(library).collect();
+        let libraries: Vec<(Platform, Vec<u8>)> = Platform::ALL.iter().filter_map(library).collect();
         let sources = Sources::of_files(&files);
         let start = |what: &str, overrides: Result<Overrides, SectionError>| {
             let overrides = overrides.map_err(|error| match error {

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use clap::ValueEnum;
-use clap::builder::PossibleValue;
+#[cfg(feature = "clap")]
+use clap::{ValueEnum, builder::PossibleValue};
 use moris_fmi::{fmi2, fmi3};
 use moris_model_description::fmi3::Layout;
 
@@ -15,9 +15,10 @@ pub enum FmiVersion {
 }
 
 /// The versions without array variables. Option `--arrays` makes arrays of the vectors.
+#[cfg(feature = "clap")]
 impl ValueEnum for FmiVersion {
     fn value_variants<'a>() -> &'a [Self] {
-        &[FmiVersion::Fmi2, FmiVersion::Fmi3(Layout::Scalars)]
+        Self::SCALARS
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
@@ -30,6 +31,9 @@ impl ValueEnum for FmiVersion {
 }
 
 impl FmiVersion {
+    /// The versions without array variables.
+    pub const SCALARS: &[Self] = &[FmiVersion::Fmi2, FmiVersion::Fmi3(Layout::Scalars)];
+
     /// Every version with every layout.
     pub const ALL: &[Self] = &[FmiVersion::Fmi2, FmiVersion::Fmi3(Layout::Scalars), FmiVersion::Fmi3(Layout::Arrays)];
 

@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use clap::ValueEnum;
-
 use crate::FmiVersion;
 
 /// A platform, by the name of its directory in an FMU of FMI 2.0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Platform {
     /// Linux on x86-64, glibc 2.17 or newer
     Linux64,
@@ -24,6 +23,16 @@ pub enum Platform {
 }
 
 impl Platform {
+    /// Every platform.
+    pub const ALL: &[Self] = &[
+        Platform::Linux64,
+        Platform::Win64,
+        Platform::Darwin64,
+        Platform::Aarch64Linux,
+        Platform::Aarch64Darwin,
+        Platform::Wasm32Wasip2,
+    ];
+
     /// The platform on which this program runs; none where FMI has no name for it.
     pub fn host() -> Option<Self> {
         match (std::env::consts::OS, std::env::consts::ARCH) {

@@ -8,20 +8,21 @@ use crate::model::{MOTORCYCLE, WASHOUT, path_values};
 use crate::{Error, FmuModel, Start};
 
 /// A rig, parameters and a path that replace the models' own start values.
-#[derive(Clone, Debug, Default, clap::Args)]
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct StartOptions {
     /// Rig file to embed, in the FMUs of models with a rig
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
     pub rig: Option<PathBuf>,
 
     /// Parameter file, or preset (motorcycle, car, ...), to embed in the washout's FMU; in another
     /// model's if that one alone is chosen. May be given several times: later ones override
     /// earlier ones, and all of them the rig
-    #[arg(long, value_name = "FILE|NAME")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE|NAME"))]
     pub parameters: Vec<String>,
 
     /// CSV file of a path (distance, curvature, speed) that the motorcycle's FMU rides
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
     pub path: Option<PathBuf>,
 }
 

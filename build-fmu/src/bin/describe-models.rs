@@ -7,13 +7,12 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::ValueEnum;
 use moris_build_fmu::tables::{TABLES, Table};
 use moris_build_fmu::{FmiVersion, MODELS, Start, workspace};
 
 fn main() -> ExitCode {
     for model in MODELS {
-        for &fmi in FmiVersion::value_variants() {
+        for &fmi in FmiVersion::SCALARS {
             let file = workspace::root().join(model.checked_in_description(fmi));
             if let Err(error) = write(&file, &model.model_description(fmi, &Start::own(model))) {
                 eprintln!("cannot write {}: {error}", file.display());

@@ -2,7 +2,6 @@
 
 use std::io::{Cursor, Read};
 
-use clap::ValueEnum;
 use moris_build_fmu::archive::{Contents, pack};
 use moris_build_fmu::contents::contents;
 use moris_build_fmu::model::WASHOUT;
@@ -13,8 +12,14 @@ use zip::ZipArchive;
 
 fn with_every_platform(model: &FmuModel, fmi: FmiVersion) -> Contents {
     let library = |&platform: &Platform| (platform, format!("library for {platform}").into_bytes());
-    let platforms = Platform::value_variants().iter().filter(|platform| platform.is_of(fmi));
+    let platforms = Platform::ALL.iter().filter(|platform| platform.is_of(fmi));
     contents(model, &Start::own(model), fmi, platforms.map(library).collect(), None)
+}
+
+#[cfg(feature = "clap")]
+#[test]
+fn every_platform_is_listed() {
+    assert_eq!(Platform::ALL, <Platform as clap::ValueEnum>::value_variants());
 }
 
 fn washout_with_every_platform() -> Contents {
@@ -92,7 +97,7 @@ fn an_fmu_holds_what_fmi_3_asks_for() {
 #[test]
 fn every_model_description_is_the_checked_in_one() {
     for model in MODELS {
-        for &fmi in FmiVersion::value_variants() {
+        for &fmi in FmiVersion::SCALARS {
             let file = model.checked_in_description(fmi);
             let checked_in = std::fs::read_to_string(workspace::root().join(&file)).unwrap_or_default();
             let packed = with_every_platform(model, fmi).remove("modelDescription.xml").unwrap();
