@@ -31,9 +31,9 @@ pub struct Map {
     #[serde(default)]
     pub start: BTreeMap<String, f64>,
     /// Inputs that take the recording's quantities.
-    pub inputs: BTreeMap<Quantity, Place>,
+    pub inputs: BTreeMap<Quantity, MappedVariable>,
     /// Outputs, by the columns of a table of felt motion, or constants.
-    pub outputs: BTreeMap<String, OutputPlace>,
+    pub outputs: BTreeMap<String, MappedOutput>,
 }
 
 /// Gravity in the specific force that the washout takes.
@@ -49,8 +49,8 @@ enum Gravity {
 
 /// A variable, with its unit and sign.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
+#[serde(deny_unknown_fields, expecting = "a table of at, unit, scale and offset")]
+pub struct MappedVariable {
     /// Name of the FMU's variable.
     pub at: String,
     /// Unit of the FMU's variable; that of its model description if none is given, and else of SI.
@@ -66,9 +66,9 @@ pub struct Place {
 /// A variable, or a constant in SI units.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged, expecting = "an output is a number, or a table of at, unit, scale and offset")]
-pub enum OutputPlace {
+pub enum MappedOutput {
     Constant(f64),
-    Variable(Place),
+    Variable(MappedVariable),
 }
 
 fn one() -> f64 {
@@ -113,12 +113,12 @@ impl Map {
             ensure!(STEPS.contains(&step), "step is {step}, but must be from 0.0001 to 0.5 s");
         }
         ensure!(!self.inputs.is_empty(), "[inputs] is empty; the washout needs the motion, such as ax, ay and az");
-        for (name, place) in &self.outputs {
+        for (name, output) in &self.outputs {
             if self.kind(name).is_none() {
                 let known: Vec<&str> = GROUPS.iter().flat_map(|(names, _)| *names).copied().collect();
                 bail!("[outputs] has {name}, but must have some of {}", known.join(", "));
             }
-            if let OutputPlace::Constant(value) = place {
+            if let MappedOutput::Constant(value) = output {
                 ensure!(value.is_finite(), "{name} is {value}, but must be a finite number");
             }
         }
@@ -134,19 +134,19 @@ impl Map {
         if !["ax", "x", "leg1"].iter().any(has) {
             bail!("[outputs] has nothing to judge; give x, y, z, roll, pitch, yaw, or leg1 to leg6, or ax, ay, az");
         }
-        for (name, place) in self.places() {
-            let is_usable = place.scale.is_finite() && place.scale != 0.0 && place.offset.is_finite();
+        for (name, variable) in self.variables() {
+            let is_usable = variable.scale.is_finite() && variable.scale != 0.0 && variable.offset.is_finite();
             ensure!(is_usable, "{name}: scale must be a number other than zero, and offset a number");
         }
         Ok(())
     }
 
     /// All variables, by the quantities.
-    fn places(&self) -> impl Iterator<Item = (String, &Place)> {
-        let inputs = self.inputs.iter().map(|(quantity, place)| (quantity.key().to_owned(), place));
-        let outputs = self.outputs.iter().filter_map(|(name, place)| match place {
-            OutputPlace::Constant(_) => None,
-            OutputPlace::Variable(place) => Some((name.clone(), place)),
+    fn variables(&self) -> impl Iterator<Item = (String, &MappedVariable)> {
+        let inputs = self.inputs.iter().map(|(quantity, variable)| (quantity.key().to_owned(), variable));
+        let outputs = self.outputs.iter().filter_map(|(name, output)| match output {
+            MappedOutput::Constant(_) => None,
+            MappedOutput::Variable(variable) => Some((name.clone(), variable)),
         });
         inputs.chain(outputs)
     }

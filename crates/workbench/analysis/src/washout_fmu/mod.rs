@@ -17,7 +17,7 @@ use crate::recording::Quantity;
 use crate::recording::Recording;
 use crate::recording::felt::{FeltTable, Kind};
 pub use map::Map;
-use map::{OutputPlace, Place};
+use map::{MappedOutput, MappedVariable};
 
 /// Tolerance of the ratio of two steps against a whole number.
 const ROUNDING: f64 = 1e-6;
@@ -133,23 +133,23 @@ impl WashoutFmu {
     }
 
     fn taken(&self, running: &Running) -> Result<Vec<Taken>> {
-        let taken = |(quantity, place): (&Quantity, &Place)| -> Result<Taken> {
-            let declaration = running.declaration(&place.at);
+        let taken = |(quantity, variable): (&Quantity, &MappedVariable)| -> Result<Taken> {
+            let declaration = running.declaration(&variable.at);
             ensure!(
                 declaration.is_some_and(|declaration| declaration.causality == Causality::Input),
                 "[inputs] {}: {} is no input of the FMU; {}",
                 quantity.key(),
-                place.at,
+                variable.at,
                 listed(running, Causality::Input)
             );
-            let in_si = unit(running, place, Kind::Of(quantity.dimension()), Causality::Input);
+            let in_si = unit(running, variable, Kind::Of(quantity.dimension()), Causality::Input);
             let in_si = in_si.about(|| format!("[inputs] {}", quantity.key()))?;
             let is_real = declaration.is_some_and(|declaration| declaration.element == "Real");
             Ok(Taken {
                 quantity: *quantity,
-                name: place.at.clone(),
-                factor: place.scale / in_si,
-                offset: place.offset,
+                name: variable.at.clone(),
+                factor: variable.scale / in_si,
+                offset: variable.offset,
                 has_slope: is_real && running.takes_slopes(),
             })
         };
@@ -157,14 +157,14 @@ impl WashoutFmu {
     }
 
     fn given(&self, running: &Running) -> Result<Vec<Given>> {
-        let given = |(name, place): (&String, &OutputPlace)| -> Result<Given> {
-            let (variable, offset) = match place {
-                OutputPlace::Constant(value) => (None, *value),
-                OutputPlace::Variable(place) => {
+        let given = |(name, output): (&String, &MappedOutput)| -> Result<Given> {
+            let (variable, offset) = match output {
+                MappedOutput::Constant(value) => (None, *value),
+                MappedOutput::Variable(variable) => {
                     let kind = self.map.kind(name).ok_or_else(|| Message::from("the map was checked"))?;
-                    let in_si = unit(running, place, kind, Causality::Output);
+                    let in_si = unit(running, variable, kind, Causality::Output);
                     let in_si = in_si.about(|| format!("[outputs] {name}"))?;
-                    (Some((place.at.clone(), place.scale * in_si)), place.offset)
+                    (Some((variable.at.clone(), variable.scale * in_si)), variable.offset)
                 }
             };
             Ok(Given { title: name.clone(), variable, offset })
@@ -174,15 +174,15 @@ impl WashoutFmu {
 }
 
 /// The factor of a variable to SI: by the map's unit, else by the FMU's.
-fn unit(running: &Running, place: &Place, kind: Kind, causality: Causality) -> Result<f64> {
-    let name = &place.at;
+fn unit(running: &Running, variable: &MappedVariable, kind: Kind, causality: Causality) -> Result<f64> {
+    let name = &variable.at;
     let Some(declaration) = running.declaration(name) else {
         bail!("the FMU has no variable {name} that is a number; {}", listed(running, causality));
     };
     ensure!(!running.is_array(name), "{name} is an array; the map needs its elements, such as \"{name}[1]\"");
     let declared = declaration.unit.as_deref().filter(|unit| *unit != "1");
     let of_fmu = declared.map(|unit| (unit, kind.factor(unit)));
-    let of_map = match &place.unit {
+    let of_map = match &variable.unit {
         Some(unit) => {
             let reason = || Message::from(format!("unit {unit}: write {}", kind.units()));
             Some(kind.factor(unit).ok_or_else(reason)?)
@@ -191,7 +191,7 @@ fn unit(running: &Running, place: &Place, kind: Kind, causality: Causality) -> R
     };
     match (of_map, of_fmu) {
         (Some(map), Some((unit, Some(fmu)))) if (map / fmu - 1.0).abs() > 1e-6 => {
-            let of_map = place.unit.as_deref().unwrap_or_default();
+            let of_map = variable.unit.as_deref().unwrap_or_default();
             bail!("{name} is in {unit} by the FMU, but in {of_map} by the map; correct or leave out `unit`")
         }
         (Some(factor), _) | (None, Some((_, Some(factor)))) => Ok(factor),
