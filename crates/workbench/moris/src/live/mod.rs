@@ -74,6 +74,7 @@ use page::{Desk, Server, Start};
 use place::LegPlace;
 use recorder::Recorder;
 use signals::{Interrupts, Signals};
+use telemetry::{Features, Input};
 use watch::{Failed, Part, watch};
 use wire::Actuators;
 
@@ -266,10 +267,11 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let setup = options.setup.load_to_drive()?;
     let from = options.from.as_deref().unwrap_or_default();
-    let input = telemetry::Input::open(from, options)?;
-    let laps = options.learn.as_ref().map(|file| known_laps(file.as_deref(), &input, &setup)).transpose()?;
+    let input = Input::open(from, options, &setup.parameters_name)?;
+    let features = &input.features;
+    let laps = options.learn.as_ref().map(|file| known_laps(file.as_deref(), features, &setup)).transpose()?;
     // The motorcycle's signs are known, and its falls are like nothing that the test knows.
-    let ignore_signs = options.ignore_signs || input.handling() == Some(Handling::Rider);
+    let ignore_signs = options.ignore_signs || features.handling == Some(Handling::Rider);
     // Until the end: another session has no part in this controller.
     let mut occupied = options.to.as_deref().map(Occupied::take).transpose()?;
     let was_left = occupied.as_ref().is_some_and(Occupied::was_left);
@@ -307,7 +309,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let settings = Settings {
         delay: options.delay,
         ignore_signs,
-        is_inside: input.is_inside(),
+        is_inside: features.is_inside,
         starts_settled: place.starts_settled(),
         slow_speed: place.slow_speed(),
         ..Settings::default()
@@ -334,9 +336,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     // As many as there are parameters, and more.
     let (to_loop, asked) = RingBuffer::new(1024);
     let (urgent, asked_at_once) = RingBuffer::new(64);
-    let controls = input.handling().map(|handling| Arc::new(Controls::new(handling)));
+    let controls = features.handling.map(|handling| Arc::new(Controls::new(handling)));
     let desk = Arc::new(Desk::new(&setup, votes, [to_loop, urgent], controls.clone(), options.allow_control)?);
-    let page = Start::of(&setup, &input, track);
+    let page = Start::of(&setup, features, track);
     let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
     let server = options.page.map(open).transpose()?;
     let (shown, showing) = RingBuffer::new(256);
@@ -450,12 +452,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 }
 
 /// The laps of the road that are known at first.
-fn known_laps(file: Option<&Path>, input: &telemetry::Input, setup: &Setup) -> Result<Laps> {
+fn known_laps(file: Option<&Path>, features: &Features, setup: &Setup) -> Result<Laps> {
     ensure!(
         setup.parameters.structure.strategy == StrategyKind::Predictive,
         "--learn is for the predictive strategy alone; add --strategy predictive"
     );
-    ensure!(input.has_position(), "--learn needs the vehicle's position, which this source does not send");
+    ensure!(features.has_position, "--learn needs the vehicle's position, which this source does not send");
     Ok(file.map_or_else(|| Ok(Laps::new()), learned_road::load)?)
 }
 

@@ -57,8 +57,28 @@ const LARGEST: usize = 65_536;
 /// Time after which a quiet socket is left to see whether all has ended.
 pub const PATIENCE: Duration = Duration::from_millis(100);
 
+/// What is known of a source before it runs.
+#[derive(Clone, Debug, Default)]
+pub struct Features {
+    /// It runs inside this program: its samples come before their time.
+    pub is_inside: bool,
+    /// It sends the vehicle's position, or may do so.
+    pub has_position: bool,
+    /// Kind of the vehicle's controls; none if it drives by itself.
+    pub handling: Option<Handling>,
+    /// Shape in which the vehicle is drawn; none for one that the parameters name.
+    pub shape: Option<Shape>,
+    /// The road on which the vehicle is ridden.
+    pub road: Option<RoadMap>,
+}
+
 /// A source of telemetry.
-pub enum Input {
+pub struct Input {
+    pub features: Features,
+    source: Source,
+}
+
+enum Source {
     /// Packets of a format.
     Udp(UdpSocket, Box<Format>),
     /// A topic of ROS 2.
@@ -71,19 +91,19 @@ pub enum Input {
 }
 
 impl Input {
-    /// The source that an option names.
+    /// The source that an option names, of a session with parameters of this name.
     ///
     /// # Errors
     /// The port, the format or the recording cannot be used.
-    pub fn open(from: &str, options: &Options) -> Result<Input> {
+    pub fn open(from: &str, options: &Options, parameters_name: &str) -> Result<Input> {
         let Options { format, map, listen, learn, .. } = options;
         let (format, map, listen) = (format.as_deref(), map.as_deref(), *listen);
         if from == "ride" {
-            return Ok(Input::Driven(Box::new(Motorcycle::new()?)));
+            return Ok(Input::driven(Motorcycle::new()?));
         }
         if let Some(file) = from.strip_prefix("fmu:") {
             let map = map.context("--map names the file that maps the FMU's variables")?;
-            return Ok(Input::Driven(Box::new(Fmu::open(Path::new(file), map)?)));
+            return Ok(Input::driven(Fmu::open(Path::new(file), map)?));
         }
         if let Some(topic) = from.strip_prefix("ros2:") {
             return Input::open_ros2(topic, listen);
@@ -93,19 +113,32 @@ impl Input {
             let format = format.map(logger).transpose()?;
             let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
             let conventions = conventions.with_position(learn.is_some());
-            return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
+            let recording = Recording::read(Path::new(from), &conventions)?;
+            let features = Features {
+                is_inside: true,
+                has_position: recording.road.is_some(),
+                shape: Some(drawn::vehicle(&recording, parameters_name)),
+                ..Features::default()
+            };
+            return Ok(Input { features, source: Source::Played(Box::new(recording)) });
         };
         let port: u16 = port.parse().ok().with_context(|| format!("--from is {from}, but {SOURCES}"))?;
         let format = tables::format(format.context("--format names the packets' format; see moris live formats")?)?;
         let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
         let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;
         socket.set_read_timeout(Some(PATIENCE))?;
-        Ok(Input::Udp(socket, Box::new(format)))
+        let features = Features { has_position: format.has_position(), shape: shape(&format), ..Features::default() };
+        Ok(Input { features, source: Source::Udp(socket, Box::new(format)) })
+    }
+
+    fn driven(vehicle: impl Vehicle + 'static) -> Input {
+        Input { features: vehicle.features(), source: Source::Driven(Box::new(vehicle)) }
     }
 
     #[cfg(feature = "ros2")]
     fn open_ros2(topic: &str, listen: bool) -> Result<Input> {
-        Ok(Input::Ros2(Box::new(Subscription::open(topic, listen)?)))
+        let source = Source::Ros2(Box::new(Subscription::open(topic, listen)?));
+        Ok(Input { features: Features::default(), source })
     }
 
     #[cfg(not(feature = "ros2"))]
@@ -113,59 +146,21 @@ impl Input {
         anyhow::bail!("moris was built without ROS 2; build it with --features ros2")
     }
 
-    /// True for a source that runs inside this program, whose samples come before their time.
-    pub fn is_inside(&self) -> bool {
-        matches!(self, Input::Played(_) | Input::Driven(_))
-    }
-
-    /// True if it sends the vehicle's position, or may do so.
-    pub fn has_position(&self) -> bool {
-        match self {
-            Input::Udp(_, format) => format.has_position(),
-            #[cfg(feature = "ros2")]
-            Input::Ros2(_) => false,
-            Input::Played(recording) => recording.road.is_some(),
-            Input::Driven(vehicle) => vehicle.has_position(),
-        }
-    }
-
-    /// The controls that it has.
-    pub fn handling(&self) -> Option<Handling> {
-        match self {
-            Input::Driven(vehicle) => vehicle.handling(),
-            #[cfg(feature = "ros2")]
-            Input::Ros2(_) => None,
-            Input::Udp(..) | Input::Played(_) => None,
-        }
-    }
-
-    /// Shape in which the vehicle is drawn, with parameters of this name.
-    pub fn shape(&self, parameters_name: &str) -> Shape {
-        let own = match self {
-            Input::Udp(_, format) => (format.vehicle == Kind::Car).then_some(Shape::Car),
-            #[cfg(feature = "ros2")]
-            Input::Ros2(_) => None,
-            Input::Played(recording) => Some(drawn::vehicle(recording, parameters_name)),
-            Input::Driven(vehicle) => vehicle.shape(),
-        };
-        own.unwrap_or_else(|| drawn::of_parameters(parameters_name))
-    }
-
-    /// The road on which the vehicle is ridden.
-    pub fn road(&self) -> Option<RoadMap> {
-        if let Input::Driven(vehicle) = self { vehicle.road() } else { None }
-    }
-
-    /// Passes samples on until all has ended. `controls` are those of [`Input::handling`].
+    /// Passes samples on until all has ended. `controls` are those that its features name.
     pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
-        match self {
-            Input::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
+        match self.source {
+            Source::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
             #[cfg(feature = "ros2")]
-            Input::Ros2(subscription) => subscription.run(samples, shared),
-            Input::Played(recording) => play(&recording, samples, shared),
-            Input::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
+            Source::Ros2(subscription) => subscription.run(samples, shared),
+            Source::Played(recording) => play(&recording, samples, shared),
+            Source::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
         }
     }
+}
+
+/// Shape of the vehicle that a format names.
+pub fn shape(format: &Format) -> Option<Shape> {
+    (format.vehicle == Kind::Car).then_some(Shape::Car)
 }
 
 fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {

@@ -20,9 +20,10 @@ use super::refusal::{Refusal, Status};
 use super::track::Track;
 use crate::live::Shared;
 use crate::live::controls::Handling;
-use crate::live::telemetry::Input;
+use crate::live::telemetry::Features;
 use crate::live::watch::{Part, watch};
 use crate::simulate::simulator::parameters;
+use crate::simulate::vehicle::of_parameters;
 
 /// Most connections at once that have not shown the token yet: a new one closes the oldest.
 const MOST_STRANGERS: usize = 16;
@@ -47,14 +48,14 @@ pub struct Start {
 impl Start {
     /// The page of a session with this rig, these parameters and telemetry, and of a road that is
     /// learned.
-    pub fn of(setup: &Setup, input: &Input, track: Option<Track>) -> Self {
+    pub fn of(setup: &Setup, features: &Features, track: Option<Track>) -> Self {
         Start {
             rig: (&setup.parameters).into(),
             parameters: parameters(&setup.parameters, &setup.rig_alone),
             subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
-            handling: input.handling(),
-            vehicle: input.shape(&setup.parameters_name),
-            road: input.road(),
+            handling: features.handling,
+            vehicle: features.shape.unwrap_or_else(|| of_parameters(&setup.parameters_name)),
+            road: features.road.clone(),
             track,
         }
     }

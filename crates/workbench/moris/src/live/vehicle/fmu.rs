@@ -7,12 +7,11 @@ use anyhow::{Context, Result, ensure};
 use moris_fmu_host::Running;
 use moris_fmu_host::files::TEXT;
 use moris_live::Sample;
-use moris_live::format::{FieldAddress, Format, Vehicle as Kind};
-use moris_pages::report::Vehicle as Shape;
+use moris_live::format::{FieldAddress, Format};
 use moris_pages::ride::RiderCommand;
 use serde::Deserialize;
 
-use super::{Handling, Vehicle};
+use super::{Features, Handling, Vehicle, shape};
 
 /// Words of a map that are not those of a table of fields.
 const OWN: [&str; 3] = ["start", "step", "controls"];
@@ -106,16 +105,14 @@ impl Vehicle for Fmu {
         self.step
     }
 
-    fn handling(&self) -> Option<Handling> {
-        (!self.controls.is_empty()).then_some(Handling::Inputs)
-    }
-
-    fn has_position(&self) -> bool {
-        self.fields.has_position()
-    }
-
-    fn shape(&self) -> Option<Shape> {
-        (self.fields.vehicle == Kind::Car).then_some(Shape::Car)
+    fn features(&self) -> Features {
+        Features {
+            is_inside: true,
+            has_position: self.fields.has_position(),
+            handling: (!self.controls.is_empty()).then_some(Handling::Inputs),
+            shape: shape(&self.fields),
+            road: None,
+        }
     }
 
     fn sample(&mut self) -> Result<Sample> {

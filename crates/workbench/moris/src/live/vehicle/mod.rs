@@ -8,12 +8,11 @@ use std::time::Duration;
 
 use anyhow::Result;
 use moris_live::Sample;
-use moris_pages::report::Vehicle as Shape;
-use moris_pages::ride::{RiderCommand, RoadMap, RoadPlace};
+use moris_pages::ride::{RiderCommand, RoadPlace};
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
-use super::telemetry::{BEFORE, Received, engages};
+use super::telemetry::{BEFORE, Features, Received, engages, shape};
 use super::{Shared, console, pace};
 pub use fmu::Fmu;
 pub use motorcycle::Motorcycle;
@@ -23,21 +22,8 @@ pub trait Vehicle: Send {
     /// Time of a step \[s\].
     fn step(&self) -> f64;
 
-    /// Kind of the vehicle's controls; none if it drives by itself.
-    fn handling(&self) -> Option<Handling>;
-
-    /// True if its samples have its place.
-    fn has_position(&self) -> bool;
-
-    /// Shape in which it is drawn; none for one that the parameters name.
-    fn shape(&self) -> Option<Shape> {
-        None
-    }
-
-    /// The road on which it is ridden.
-    fn road(&self) -> Option<RoadMap> {
-        None
-    }
+    /// What is known of it before it runs.
+    fn features(&self) -> Features;
 
     /// Its place on the road.
     fn place(&self) -> Option<RoadPlace> {

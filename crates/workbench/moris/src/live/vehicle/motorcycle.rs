@@ -4,9 +4,9 @@ use anyhow::Result;
 use moris_interface::Model;
 use moris_live::{Motion, Sample};
 use moris_pages::report::Vehicle as Shape;
-use moris_pages::ride::{Ridden, RiderCommand, RoadMap, RoadPlace, STEP};
+use moris_pages::ride::{Ridden, RiderCommand, RoadPlace, STEP};
 
-use super::{Handling, Vehicle};
+use super::{Features, Handling, Vehicle};
 
 /// Steps of the motorcycle to a sample.
 const DIVISIONS: u32 = 5;
@@ -33,20 +33,14 @@ impl Vehicle for Motorcycle {
         STEP * f64::from(DIVISIONS)
     }
 
-    fn handling(&self) -> Option<Handling> {
-        Some(Handling::Rider)
-    }
-
-    fn has_position(&self) -> bool {
-        true
-    }
-
-    fn shape(&self) -> Option<Shape> {
-        Some(Shape::Motorcycle)
-    }
-
-    fn road(&self) -> Option<RoadMap> {
-        Some(self.ridden.road())
+    fn features(&self) -> Features {
+        Features {
+            is_inside: true,
+            has_position: true,
+            handling: Some(Handling::Rider),
+            shape: Some(Shape::Motorcycle),
+            road: Some(self.ridden.road()),
+        }
     }
 
     fn place(&self) -> Option<RoadPlace> {
