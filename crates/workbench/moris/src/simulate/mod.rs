@@ -179,57 +179,47 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     })
 }
 
-/// Parameters on a rig, and the preview that they get.
+/// Parameters on a rig, and where the motion that is judged comes from.
 struct Case {
     setup: Setup,
-    /// Length of the preview \[s\]; 0: none.
-    preview: f64,
-    /// True with a preview that is learned.
-    learns: bool,
-    /// Another washout's motion; none: the parameters are simulated.
-    foreign: Option<Foreign>,
+    origin: Origin,
 }
 
-/// Source of another washout's motion.
-enum Foreign {
-    /// A file with its motion.
+enum Origin {
+    /// The washout, with a preview of this length \[s\]; 0: none.
+    Washout(f64),
+    /// The washout, with a preview that is learned.
+    Learned,
+    /// A file with another washout's motion.
     Felt(PathBuf),
-    /// The washout as an FMU.
+    /// Another washout as an FMU.
     Fmu(WashoutFmu),
-}
-
-impl Foreign {
-    fn file(&self) -> &Path {
-        match self {
-            Foreign::Felt(file) => file,
-            Foreign::Fmu(fmu) => &fmu.file,
-        }
-    }
-
-    fn motion(&self, recording: &Recording) -> Result<(ForeignMotion, Vec<String>)> {
-        match self {
-            Foreign::Felt(file) => FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg),
-            Foreign::Fmu(fmu) => Ok(fmu.motion(recording)?),
-        }
-    }
 }
 
 impl Case {
     fn of(setup: Setup) -> Self {
-        Case { setup, preview: 0.0, learns: false, foreign: None }
+        Case { setup, origin: Origin::Washout(0.0) }
     }
 
     fn outcome(&self, recording: &Recording, learned: Option<&Previewer>, progress: impl FnMut()) -> Result<Outcome> {
-        let Some(foreign) = &self.foreign else {
-            let learned = learned.filter(|_| self.learns).cloned();
-            let previewer = learned.or_else(|| Previewer::of(&recording.manoeuvre, self.preview));
-            let outcome = Outcome::of(recording, &self.setup, previewer, progress)?;
-            return Ok(if self.learns { outcome } else { outcome.advised(recording, self.preview)? });
+        let judged = |file: &Path, motion: Result<(ForeignMotion, Vec<String>)>| {
+            let judged = motion.and_then(|(motion, notes)| {
+                Ok(Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)?)
+            });
+            judged.with_context(|| file.display().to_string())
         };
-        let judged = foreign.motion(recording).and_then(|(motion, notes)| {
-            Ok(Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)?)
-        });
-        judged.with_context(|| foreign.file().display().to_string())
+        match &self.origin {
+            Origin::Washout(preview) => {
+                let previewer = Previewer::of(&recording.manoeuvre, *preview);
+                Ok(Outcome::of(recording, &self.setup, previewer, progress)?.advised(recording, *preview)?)
+            }
+            Origin::Learned => Ok(Outcome::of(recording, &self.setup, learned.cloned(), progress)?),
+            Origin::Felt(file) => {
+                let motion = || FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg);
+                judged(file, motion())
+            }
+            Origin::Fmu(fmu) => judged(&fmu.file, fmu.motion(recording).map_err(anyhow::Error::from)),
+        }
     }
 }
 
@@ -237,14 +227,12 @@ impl Case {
 /// and the motions of other washouts.
 fn cases(options: &Options) -> Result<Vec<Case>> {
     let first = options.setup.load()?;
-    let judged = |foreign: Foreign| {
-        let parameters_name = source::name(foreign.file());
-        Case { foreign: Some(foreign), ..Case::of(Setup { parameters_name, ..first.clone() }) }
-    };
+    let named = |file: &Path| Setup { parameters_name: source::name(file), ..first.clone() };
     let fmu = options.washout.as_ref().zip(options.map.as_ref());
     let fmu = fmu.map(|(file, map)| WashoutFmu::with_map(file, map)).transpose()?;
-    let felt = options.felt.iter().map(|file| Foreign::Felt(file.clone()));
-    let judged: Vec<Case> = felt.chain(fmu.map(Foreign::Fmu)).map(judged).collect();
+    let fmu = fmu.map(|fmu| Case { setup: named(&fmu.file), origin: Origin::Fmu(fmu) });
+    let felt = options.felt.iter().map(|file| Case { setup: named(file), origin: Origin::Felt(file.clone()) });
+    let judged: Vec<Case> = felt.chain(fmu).collect();
     let mut cases = vec![Case::of(first)];
     for other in &options.compare {
         let setup = Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?;
@@ -265,16 +253,14 @@ fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
             bail!("{option} is for the predictive strategy alone; add --strategy predictive");
         }
     }
-    let named = |case: &Case, preview: &str| {
-        let parameters_name = format!("{}, {preview}", case.setup.parameters_name);
-        Case::of(Setup { parameters_name, ..case.setup.clone() })
+    let with = |Case { setup, .. }: &Case, origin: Origin, preview: &str| {
+        let parameters_name = format!("{}, {preview}", setup.parameters_name);
+        Case { setup: Setup { parameters_name, ..setup.clone() }, origin }
     };
-    let previewed = predictive.iter().flat_map(|case| {
-        let previewed =
-            preview.map(|seconds| Case { preview: seconds, ..named(case, &format!("preview of {seconds} s")) });
-        previewed
-            .into_iter()
-            .chain(options.learn.is_some().then(|| Case { learns: true, ..named(case, "learned preview") }))
+    let previewed = predictive.into_iter().flat_map(|case| {
+        let ahead = preview.map(|seconds| with(case, Origin::Washout(seconds), &format!("preview of {seconds} s")));
+        let learned = options.learn.is_some().then(|| with(case, Origin::Learned, "learned preview"));
+        ahead.into_iter().chain(learned)
     });
     Ok(previewed.collect())
 }
