@@ -2,8 +2,8 @@
 
 use crate::measures::Row;
 
+use super::Foreign;
 use super::limits::{Excess, Limit};
-use super::{Foreign, Suspicion};
 use crate::Evaluated;
 use crate::spans::Spans;
 use crate::{Finding, Weight};
@@ -17,7 +17,7 @@ impl Foreign {
     pub(crate) fn findings(&self, outcome: &Evaluated, is_good: bool) -> Vec<Finding> {
         let finding = |weight, text: String| Finding { weight, text };
         let mut findings = vec![self.fit(outcome, is_good)];
-        findings.extend(self.suspicions.iter().map(|Suspicion(text)| finding(Weight::Warning, text.clone())));
+        findings.extend(self.suspicions.iter().map(|text| finding(Weight::Warning, text.clone())));
         findings.extend(self.notes.iter().map(|text| finding(Weight::Note, text.clone())));
         if !self.has_rate {
             let text = "No felt rate is given: rates are not judged, and count as none for motion sickness.";

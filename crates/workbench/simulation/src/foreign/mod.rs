@@ -22,7 +22,6 @@ use moris_washout::{Input, Output, Parameters};
 use crate::Simulation;
 pub use error::ForeignError;
 pub use limits::{Excess, Limit};
-pub(crate) use plausible::Suspicion;
 pub use times::on_samples;
 
 /// Motion of a platform as another washout commands it. Each series has a value for each sample of
@@ -53,15 +52,14 @@ pub struct Foreign {
     pub(crate) is_doubtful: bool,
     /// Sentences about the series, such as that they were interpolated.
     pub notes: Vec<String>,
-    /// Observations that let wrong units, signs or frames be suspected.
-    pub(crate) suspicions: Vec<Suspicion>,
+    /// Observations that let wrong units, signs or frames be suspected, as sentences.
+    pub(crate) suspicions: Vec<String>,
 }
 
 impl Foreign {
     /// Sentences on what is suspected of the motion, and on how it was read.
     pub fn remarks(&self) -> impl Iterator<Item = &str> {
-        let suspicions = self.suspicions.iter().map(|Suspicion(text)| text.as_str());
-        suspicions.chain(self.notes.iter().map(String::as_str))
+        self.suspicions.iter().chain(&self.notes).map(String::as_str)
     }
 }
 

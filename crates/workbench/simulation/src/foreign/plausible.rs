@@ -38,10 +38,6 @@ const LEAST_ROUNDING: f64 = 0.02;
 /// Decimals that are looked for in poses.
 const DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
 
-/// An observation that lets a wrong unit, sign or frame be suspected, as a sentence.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Suspicion(pub String);
-
 /// Checks that poses and legs can be meant on this rig.
 ///
 /// # Errors
@@ -105,26 +101,26 @@ fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> 
 }
 
 /// The error of forces that rounded poses cause, where it is worth a sentence.
-pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<Suspicion> {
+pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<String> {
     let (decimals, error) = rounded(poses, samples, step)?;
     let rate = ((poses.len() - 1) / (samples - 1)) as f64 / step;
     (error >= LEAST_ROUNDING).then(|| {
-        Suspicion(format!(
+        format!(
             "The poses have {decimals} decimals: at {rate:.0} a second, rounding alone makes an RMS of {error:.2} m/s² of felt force. \
              Write more decimals, or give felt forces."
-        ))
+        )
     })
 }
 
 /// Legs that are not those of the poses.
-pub fn other_legs(legs: &[[f64; 6]], of_poses: &[[f64; 6]]) -> Option<Suspicion> {
+pub fn other_legs(legs: &[[f64; 6]], of_poses: &[[f64; 6]]) -> Option<String> {
     let pairs = legs.iter().flatten().zip(of_poses.iter().flatten());
     let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     (legs.len() == of_poses.len() && difference > DIFFERENT_LEGS).then(|| {
-        Suspicion(format!(
+        format!(
             "The legs are not those of the poses on this rig: they differ by up to {:.0} mm. Check the rig, and the order of its legs.",
             1000.0 * difference
-        ))
+        )
     })
 }
 
@@ -135,7 +131,7 @@ pub fn contradiction(
     of_poses: &[[f64; 3]],
     samples: usize,
     step: f64,
-) -> Option<Suspicion> {
+) -> Option<String> {
     let parts = |series: &[[f64; 3]]| (series.len() - 1) / (samples - 1);
     let rest = [0.0, 0.0, STANDARD_GRAVITY];
     let [mut difference, mut size] = [0.0; 2];
@@ -149,23 +145,22 @@ pub fn contradiction(
     let rounding = rounded(poses, samples, step).map_or(0.0, |(_, error)| error);
     let allowed = LEAST_DIFFERENT.max(DIFFERENT * size) + MOST_ROUNDING * rounding;
     (difference > allowed).then(|| {
-        Suspicion(format!(
+        format!(
             "The felt force is not that of the poses: they differ by an RMS of {difference:.2} m/s². Check head.height, the axes (head \
              axes: x forward, y left, z up) and the sign of pitch (positive is nose down)."
-        ))
+        )
     })
 }
 
 /// Suspicions about units and signs of what is felt, against what is desired.
-pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
+pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
     let gravity = simulation.parameters.structure.gravity;
     let scale = &simulation.parameters.conditioning.force_scale;
     let vertical = median(simulation.outputs.iter().map(|output| output.felt_specific_force.z));
-    let mut found = Vec::new();
     if let Some(sentence) = of_vertical(vertical, gravity) {
-        found.push(Suspicion(sentence));
-        return found;
+        return vec![sentence];
     }
+    let mut found = Vec::new();
     for (axis, name) in ["Surge", "Sway"].into_iter().enumerate() {
         let pairs = || {
             simulation
@@ -176,15 +171,15 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
         };
         let Some(Likeness { correlation, size }) = likeness(pairs, ENOUGH[0]) else { continue };
         if correlation < OPPOSED {
-            found.push(Suspicion(format!(
+            found.push(format!(
                 "{name} is felt with the wrong sign: its correlation with the desired force is {correlation:.2}. If the washout is not \
                  to blame, its {} points the other way; axes are x forward, y left, z up, and positive pitch is nose down.",
                 ["x", "y"][axis]
-            )));
+            ));
         } else if correlation > ALIKE && (size / scale[axis] * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE {
-            found.push(Suspicion(format!(
+            found.push(format!(
                 "{name} is felt 9.8 times too small, as in units of g. If it is, multiply it by 9.80665."
-            )));
+            ));
         }
     }
     let rates = if has_rate { simulation.desired_rates() } else { Vec::new() };
@@ -197,13 +192,13 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
         };
         let Some(Likeness { correlation, size }) = likeness(pairs, ENOUGH[1]) else { continue };
         if correlation > -OPPOSED && size > 10.0 {
-            found.push(Suspicion(format!(
+            found.push(format!(
                 "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
-            )));
+            ));
         } else if axis == YAW && correlation < -ALIKE {
-            found.push(Suspicion(format!(
+            found.push(format!(
                 "{name} is felt with the wrong sign: its correlation with the desired rate is {correlation:.2}. Positive is to the left."
-            )));
+            ));
         }
     }
     found
