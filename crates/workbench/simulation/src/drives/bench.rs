@@ -5,7 +5,7 @@ use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY as GRAVITY
 
 use super::car::{CAR, Course, KART, STEP};
 use super::runs;
-use super::smooth::{changes, rise};
+use super::smooth::{Change, changes, rise};
 use crate::Manoeuvre;
 
 /// A drive of the bench.
@@ -174,11 +174,11 @@ impl Drive {
 /// A light aircraft: take-off run, rotation and climb, two turns without sideslip, gusts.
 fn flight(t: f64) -> Input {
     /// Changes of the bank, positive to the right, and of the pitch, nose down \[rad\].
-    const BANK: [(f64, f64, f64); 4] = [(0.45, 30.0, 3.0), (-0.45, 42.0, 3.0), (-0.35, 50.0, 3.0), (0.35, 64.0, 3.0)];
-    const PITCH: [(f64, f64, f64); 2] = [(-0.14, 16.0, 2.5), (0.10, 26.0, 3.0)];
+    const BANK: [Change; 4] = [(0.45, 30.0, 3.0), (-0.45, 42.0, 3.0), (-0.35, 50.0, 3.0), (0.35, 64.0, 3.0)];
+    const PITCH: [Change; 2] = [(-0.14, 16.0, 2.5), (0.10, 26.0, 3.0)];
     const SPEED: f64 = 55.0;
     let step = 1e-4;
-    let rate = |of: &[(f64, f64, f64)]| (changes(of, t + step) - changes(of, t - step)) / (2.0 * step);
+    let rate = |of: &[Change]| (changes(of, t + step) - changes(of, t - step)) / (2.0 * step);
     let (bank, pitch) = (changes(&BANK, t), changes(&PITCH, t));
     // The engine's and the brakes' force; a climb at steady speed feels gravity along the axis.
     let thrust = 2.6 * (rise(t, 3.0, 1.5) - rise(t, 17.0, 3.0));

@@ -7,7 +7,7 @@
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
-use super::smooth::{changes, changes_integral};
+use super::smooth::{Change, changes, changes_integral};
 use crate::Manoeuvre;
 
 /// Time between samples \[s\], and integration steps to each.
@@ -15,9 +15,6 @@ pub const STEP: f64 = 0.01;
 const SUBSTEPS: usize = 10;
 /// Speed below which the tyres' equations are those at it \[m/s\]; they are singular at rest.
 const SLOWEST: f64 = 3.0;
-
-/// A change of a function of time: size, start and duration \[s\].
-pub type Change = (f64, f64, f64);
 
 /// A car.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
-use super::smooth::{rise, rise_integral, rise_rate};
+use super::smooth::{Change, changes, changes_integral, rise, rise_rate};
 
 /// Time at which run c stops \[s\].
 ///
@@ -125,18 +125,16 @@ fn town(t: f64) -> Motion {
     ];
     let bends = [(2.0, 20.5, 0.8), (-2.0, 23.5, 0.8), (-1.8, 31.0, 1.0), (1.8, 34.5, 1.0)];
     let lane_change = [(1.2, 52.5, 0.6), (-2.4, 54.0, 0.8), (1.2, 55.7, 0.6)];
-    let sway = bends.iter().chain(&lane_change).map(|&(change, a, b)| change * rise(t, a, b)).sum();
-    let Motion { acceleration: [surge, ..], speed, .. } = straight(t, starts_and_stops.as_flattened());
-    Motion { acceleration: [surge, sway, 0.0], speed, ..Motion::default() }
+    let mut motion = straight(t, starts_and_stops.as_flattened());
+    motion.acceleration[1] = changes(&[&bends[..], &lane_change].concat(), t);
+    motion
 }
 
-/// A run in a straight line from rest. Each change of the acceleration has its size \[m/s2\],
-/// start and duration \[s\].
-fn straight(t: f64, changes: &[(f64, f64, f64)]) -> Motion {
-    let sum = |term: fn(f64, f64, f64) -> f64| changes.iter().map(|&(change, a, b)| change * term(t, a, b)).sum();
+/// A run in a straight line from rest with these changes of the acceleration \[m/s2\].
+fn straight(t: f64, along: &[Change]) -> Motion {
     // At the end, rounding may leave a speed slightly below zero.
-    let speed = f64::max(sum(rise_integral), 0.0);
-    Motion { acceleration: [sum(rise), 0.0, 0.0], speed, ..Motion::default() }
+    let speed = changes_integral(along, t).max(0.0);
+    Motion { acceleration: [changes(along, t), 0.0, 0.0], speed, ..Motion::default() }
 }
 
 /// Constant speed of run b \[m/s\].

@@ -1,5 +1,8 @@
 //! Smooth functions of time.
 
+/// A change of a function of time: size, start and duration \[s\].
+pub type Change = (f64, f64, f64);
+
 /// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].
 pub fn rise(t: f64, start: f64, duration: f64) -> f64 {
     let x = ((t - start) / duration).clamp(0.0, 1.0);
@@ -7,7 +10,7 @@ pub fn rise(t: f64, start: f64, duration: f64) -> f64 {
 }
 
 /// The integral of [`rise`] over time.
-pub fn rise_integral(t: f64, start: f64, duration: f64) -> f64 {
+fn rise_integral(t: f64, start: f64, duration: f64) -> f64 {
     let x = ((t - start) / duration).clamp(0.0, 1.0);
     duration * (x * x * x - 0.5 * x * x * x * x) + (t - start - duration).max(0.0)
 }
@@ -18,12 +21,12 @@ pub fn rise_rate(t: f64, start: f64, duration: f64) -> f64 {
     6.0 * x * (1.0 - x) / duration
 }
 
-/// Sum of changes, each with its size, start and duration \[s\].
-pub fn changes(changes: &[(f64, f64, f64)], t: f64) -> f64 {
+/// Sum of changes.
+pub fn changes(changes: &[Change], t: f64) -> f64 {
     changes.iter().map(|&(change, start, duration)| change * rise(t, start, duration)).sum()
 }
 
 /// The integral of [`changes`].
-pub fn changes_integral(changes: &[(f64, f64, f64)], t: f64) -> f64 {
+pub fn changes_integral(changes: &[Change], t: f64) -> f64 {
     changes.iter().map(|&(change, start, duration)| change * rise_integral(t, start, duration)).sum()
 }
