@@ -49,7 +49,9 @@ impl Format {
                 (FieldAddress::Key(key), _) => object.as_ref().and_then(|object| value(at_path(object, key)?)),
                 _ => None,
             };
-            let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed(*quantity);
+            // Without these a packet of text says nothing.
+            let is_needed = matches!(quantity, Quantity::Ax | Quantity::Ay);
+            let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed;
             match read {
                 Some(value) => values[*quantity as usize] = Some(value * factor(field, *quantity)),
                 None if optional => (),
@@ -126,11 +128,6 @@ fn at_path<'a>(object: &'a Value, path: &str) -> Option<&'a Value> {
         _ => object.get(key),
     };
     object.get(path).or_else(|| path.split('.').try_fold(object, inner))
-}
-
-/// True for the fields without which a packet of text says nothing.
-fn is_needed(quantity: Quantity) -> bool {
-    matches!(quantity, Quantity::Ax | Quantity::Ay)
 }
 
 /// A binary number at an offset.

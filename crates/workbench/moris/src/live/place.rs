@@ -55,11 +55,9 @@ impl LegPlace {
             is_own: !encoder.moves_actuators(),
             given: settled.then_some(Legs::Settled),
             is_given_before: settled,
-            doubted: None,
             slow_speed: slow_start.or(template.slow_start),
             asks: encoder.asks(),
-            report: None,
-            rest: None,
+            ..LegPlace::default()
         }
     }
 

@@ -265,17 +265,13 @@ impl Steps<'_> {
         }
     }
 
-    /// True if a person or the controller says where the legs are, which may be elsewhere than the
-    /// last frame has left them.
-    fn is_given_anew(&self) -> bool {
-        self.session.state() == State::Off && self.place.is_known_anew(self.session.time())
-    }
-
     /// Asks for an event. True if it has an effect.
     fn ask(&mut self, event: Event, summary: &mut Summary) -> bool {
         let state = self.session.state();
         let moves = matches!(event, Event::Start | Event::Clear) && state.after(event) != state;
-        if moves && (self.is_given_anew() || !self.session.is_located()) {
+        // A person or the controller may say that they are elsewhere than the last frame has left them.
+        let is_given_anew = state == State::Off && self.place.is_known_anew(self.session.time());
+        if moves && (is_given_anew || !self.session.is_located()) {
             self.locate(summary);
         }
         self.record(Happening::Event(event), summary);

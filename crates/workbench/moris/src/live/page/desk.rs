@@ -187,13 +187,9 @@ impl Desk {
 
     /// Makes messages of what the loop shows, until it has ended.
     pub fn show(&self, mut moments: Consumer<Shown>, shared: &Shared) {
-        let mut taken = Vec::new();
         loop {
             let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
-            taken.clear();
-            while let Ok(moment) = moments.pop() {
-                taken.push(moment);
-            }
+            let taken: Vec<Shown> = std::iter::from_fn(|| moments.pop().ok()).collect();
             let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
             let place = self.controls.as_ref().and_then(|controls| controls.place());
