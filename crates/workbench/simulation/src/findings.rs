@@ -90,15 +90,11 @@ impl Evaluated<'_> {
             .filter(|channel| channel.is_worse_than_rest())
             .map(|channel| name(channel.axis).to_owned())
             .collect();
-        let is_judged = self.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_legs);
-        let fit = if !is_judged {
-            "limits not judged"
-        } else if fits_freely(self.measures) {
-            "fits"
-        } else if fits_the_rig(self.measures) {
-            "within the rig by soft limits alone"
-        } else {
-            "does not fit"
+        let fit = match fit(self) {
+            None => "limits not judged",
+            Some(true) if fits_freely(self.measures) => "fits",
+            Some(true) => "within the rig by soft limits alone",
+            Some(false) => "does not fit",
         };
         match worse.as_slice() {
             [] => format!("{fit}, better than at rest"),

@@ -2,6 +2,8 @@
 
 use std::array::from_fn;
 
+use moris_washout::interface::STANDARD_GRAVITY;
+
 use super::comfort::{Comfort, Reference, comfort_once, divisions};
 use super::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use super::effort::{Effort, effort};
@@ -11,9 +13,6 @@ use super::run::{Run, RunError, Series, axis};
 use super::shape::{Desired, Shape};
 use super::sickness::{dose, share_sick};
 use super::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
-
-/// Standard gravity, at which the otoliths are at rest \[m/s2\].
-const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Something of each axis x, y, z.
 pub type Axes<T> = [T; 3];
@@ -86,6 +85,7 @@ impl Measures {
     /// As [`Measures::of`].
     pub fn with(run: &Run, mut references: Option<&mut References>) -> Result<Self, RunError> {
         run.check()?;
+        // The otoliths are at rest at standard gravity.
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
         let force = SensedSignal { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
         let rate = SensedSignal { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };

@@ -20,6 +20,7 @@
 //!
 //! The model has no vision, and its data are of passengers.
 
+use moris_washout::interface::STANDARD_GRAVITY;
 use nalgebra::{SMatrix, SVector, Vector3};
 
 const KA: f64 = 0.1;
@@ -124,7 +125,7 @@ pub fn dose(force: &[[f64; 3]], step: f64) -> f64 {
     for pair in force.windows(2) {
         let before = numerator.dot(&state);
         state = runge_kutta(state, block, |state, fraction| {
-            let acceleration = pair[0].lerp(&pair[1], fraction).z - GRAVITY_AT_REST;
+            let acceleration = pair[0].lerp(&pair[1], fraction).z - STANDARD_GRAVITY;
             let mut slope = SVector::<f64, 5>::zeros();
             slope[0] = acceleration - denominator.dot(state);
             slope.fixed_rows_mut::<4>(1).copy_from(&state.fixed_rows::<4>(0));
@@ -136,9 +137,6 @@ pub fn dose(force: &[[f64; 3]], step: f64) -> f64 {
     }
     integral.sqrt()
 }
-
-/// The specific force along z at rest \[m/s2\].
-const GRAVITY_AT_REST: f64 = 9.80665;
 
 /// Means over blocks of samples, and a block's length \[s\].
 fn means(series: &[[f64; 3]], step: f64) -> (Vec<Vector3<f64>>, f64) {
