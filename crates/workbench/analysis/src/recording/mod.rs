@@ -51,7 +51,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use crate::message::Message;
-use checks::{consistency, dead, delayed, exchanged, frozen, interleaved, outliers, unusual};
+use checks::{Channels, consistency, dead, delayed, exchanged, frozen, interleaved, outliers, unusual};
 pub(crate) use columns::{Quantity, units};
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
@@ -119,8 +119,9 @@ impl Recording {
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = axes::inputs(&table, conventions)?;
         warnings.extend(mounting);
-        let stops = frozen::stops(&table, &inputs);
-        checks::plausibility(&table, &inputs, conventions).map_err(|error| match stops.first() {
+        let channels = Channels::new(&table, &inputs, conventions);
+        let stops = frozen::stops(&channels);
+        checks::plausibility(&channels).map_err(|error| match stops.first() {
             // What a sensor shows after it has stopped is no unit or axis.
             Some(reason) => table.refused(reason.trim_end_matches('.')),
             None => error,
@@ -128,10 +129,10 @@ impl Recording {
         warnings.extend(stops.into_iter().map(Message::from));
         warnings.extend(frozen::repeats(&table, conventions));
         warnings.extend(frozen::coarse(&table, conventions));
-        warnings.extend(exchanged::warnings(&table, &inputs, conventions));
-        warnings.extend(dead::warnings(&table, &inputs, conventions));
-        warnings.extend(consistency::warnings(&table, &inputs, conventions));
-        warnings.extend(delayed::warnings(&table, &inputs, conventions));
+        warnings.extend(exchanged::warnings(&channels));
+        warnings.extend(dead::warnings(&channels));
+        warnings.extend(consistency::warnings(&channels));
+        warnings.extend(delayed::warnings(&channels));
         axes::fade_in(&mut inputs, table.step(), conventions.fade_in);
         warnings.extend(unusual::warnings(&table, &inputs));
         Ok(Recording {

@@ -1,5 +1,7 @@
 //! Statistics of signals.
 
+use std::ops::Range;
+
 pub use moris_simulation::measures::statistics::median;
 
 /// Correlation above which two signals count as correlated.
@@ -17,6 +19,15 @@ pub fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
 /// The least and the greatest value.
 pub fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), v| (least.min(v), greatest.max(v)))
+}
+
+/// The runs of samples that are alike.
+pub fn runs(values: &[f64], are_alike: impl FnMut(&f64, &f64) -> bool) -> impl Iterator<Item = Range<usize>> {
+    let mut end = 0;
+    values.chunk_by(are_alike).map(move |run| {
+        end += run.len();
+        end - run.len()..end
+    })
 }
 
 /// True for a signal that has one value throughout.

@@ -2,15 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use moris_washout::Input;
-
-use super::consistency::derivative_and_rate;
-use super::remedy;
+use super::{Channels, remedy};
 use crate::message::{Message, given, message};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{AngleUnit, Conventions, Quantity, RateFrame};
+use crate::recording::conventions::{AngleUnit, Quantity};
 use crate::recording::signal::{median, regression, root_mean_square};
-use crate::recording::table::Table;
 
 /// Roll or pitch that no vehicle exceeds \[rad\].
 const STEEPEST: f64 = 3.2;
@@ -25,7 +21,8 @@ const LEAST_RATE: f64 = 0.005;
 
 /// Rejects angles that no vehicle reaches, and those that change as degrees would. A given unit
 /// overrides all tests but the first.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), Message> {
+pub fn check(channels: &Channels) -> Result<(), Message> {
+    let Channels { table, inputs, .. } = channels;
     let angles = inputs.iter().map(|input| input.orientation.roll.abs().max(input.orientation.pitch.abs()));
     let steepest = angles.fold(0.0, f64::max);
     let is_radians = |quantity| table.unit(quantity).0 == AngleUnit::Radian.unit();
@@ -45,7 +42,7 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     let lean = inputs.iter().map(|input| input.lean.abs()).fold(0.0, f64::max);
     let evidence = (0..3)
         .filter(|&axis| is_open(Quantity::Angle(axis)))
-        .find_map(|axis| evidence(table, inputs, conventions, axis))
+        .find_map(|axis| evidence(channels, axis))
         .map(|evidence| (Quantity::Angle(0), evidence))
         .or_else(|| {
             (is_open(Quantity::Lean) && lean > STEEP).then(|| (Quantity::Lean, format!("lean reaches {lean:.1}")))
@@ -57,36 +54,29 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
 }
 
 /// Evidence that an angle is in degrees.
-fn evidence(table: &Table, inputs: &[Input], conventions: &Conventions, axis: usize) -> Option<String> {
-    let name = ["roll", "pitch", "yaw"][axis];
+fn evidence(channels: &Channels, axis: usize) -> Option<String> {
+    let name = Quantity::Angle(axis).key();
     let ratio = |period: f64| {
-        let (derivative, rate) = derivative_and_rate(inputs, axis, table.step(), period);
+        let (derivative, rate) = channels.derivative_and_rate(axis, period);
         let is_small = |values: &[f64]| root_mean_square(values) < LEAST_RATE;
         if is_small(&derivative) || is_small(&rate) { None } else { regression(&rate, &derivative) }
     };
-    let is_body = conventions.rate_frame == RateFrame::Body;
-    // A steady turn has nothing but the two means.
-    let steady = || is_body.then(|| steady_ratio(inputs, axis, table.step())).flatten();
-    // Degrees jump by 360.
-    let of_changes = ratio(360.0).filter(|_| is_body).or_else(steady);
-    let degrees = || of_changes.filter(|ratio| (DEGREES[0]..DEGREES[1]).contains(&ratio.abs()));
-    if let Some(ratio) = degrees() {
+    // Degrees jump by 360. A steady turn has nothing but the two means.
+    let of_changes = || ratio(360.0).or_else(|| steady_ratio(channels, axis));
+    let of_changes = channels.has_body_rates().then(of_changes).flatten();
+    if let Some(ratio) = of_changes.filter(|ratio| (DEGREES[0]..DEGREES[1]).contains(&ratio.abs())) {
         return Some(format!("{name} changes {:.0} times as fast as its rate", ratio.abs()));
     }
-    let reach = inputs.iter().map(|input| input.orientation.to_vector()[axis].abs()).fold(0.0, f64::max);
+    let reach = channels.inputs.iter().map(|input| input.orientation.to_vector()[axis].abs()).fold(0.0, f64::max);
     let is_confirmed = || ratio(TAU).is_some_and(|ratio| (0.5..2.0).contains(&ratio.abs()));
     (axis < 2 && reach > STEEP && !is_confirmed()).then(|| format!("{name} reaches {reach:.1}"))
 }
 
 /// Ratio of an angle's derivative in degrees and a rate that hardly vary; none of others.
-fn steady_ratio(inputs: &[Input], axis: usize, step: f64) -> Option<f64> {
-    let angle = |input: &Input| input.orientation.to_vector()[axis];
-    let change = |pair: &[Input]| {
-        let change = angle(&pair[1]) - angle(&pair[0]);
-        (change - 360.0 * (change / 360.0).round()) / step
-    };
-    let usual = median(inputs.windows(2).map(change));
-    let rate = median(inputs.iter().map(|input| input.angular_velocity[axis]));
-    let spread = median(inputs.windows(2).map(|pair| (change(pair) - usual).abs()));
+fn steady_ratio(channels: &Channels, axis: usize) -> Option<f64> {
+    let derivative = || channels.derivative(axis, 360.0);
+    let usual = median(derivative());
+    let rate = median(channels.rate(axis));
+    let spread = median(derivative().map(|change| (change - usual).abs()));
     (rate.abs() > LEAST_RATE && spread < STEADY * usual.abs()).then(|| usual / rate)
 }

@@ -6,26 +6,18 @@
 
 use std::f64::consts::TAU;
 
-use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use super::speeds::signed_speeds;
-use super::{remedy, remedy_with};
+use super::channels::{Channels, LEAST_CHANGE, LEAST_SWAY};
+use super::remedy;
 use crate::message::{Message, given, message, named};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{
-    Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, SpeedUnit, TimeUnit, Unit,
-};
-use crate::recording::signal::{centred, integral, regression, root_mean_square, smooth};
+use crate::recording::conventions::{Conventions, ForceUnit, Gravity, Quantity, RateUnit, SpeedUnit, TimeUnit, Unit};
+use crate::recording::signal::{centred, integral, regression, root_mean_square};
 use crate::recording::table::Table;
 
-/// Time over which changes of speed are compared with the force \[s\].
-pub const WINDOW: f64 = 2.0;
-/// Least change of speed in it that is compared, as a root mean square \[m/s\].
-pub const LEAST_CHANGE: f64 = 0.3;
-/// Least lateral force of bends that is compared, as a root mean square \[m/s2\].
-pub const LEAST_SWAY: f64 = 0.3;
-/// Fraction of these sizes down to which the other signal is compared: it may be in a larger unit.
+/// Fraction of the least sizes that are compared, down to which the other signal is: it may be in a
+/// larger unit.
 const FAINT: f64 = 0.01;
 /// Least rate that is compared with an angle, as a root mean square \[rad/s\].
 pub const LEAST_RATE: f64 = 0.005;
@@ -48,20 +40,19 @@ const OPPOSITE: f64 = -0.5;
 const BACKWARD: f64 = -3.0;
 
 /// Warnings that name the options for channels that contradict each other.
-pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
+pub fn warnings(channels: &Channels) -> Vec<Message> {
+    let Channels { table, conventions, .. } = *channels;
     let mut warnings = Vec::new();
-    if table.columns.contains_key(&Quantity::Speed) {
-        let (speeds, reversing) = signed_speeds(inputs, table.step());
-        let surge = surge_ratio(table.step(), inputs, &speeds);
-        let sway = sway_ratio(table.step(), inputs, &speeds);
+    if channels.has(Quantity::Speed) {
+        let surge = surge_ratio(channels);
+        let sway = ratio(&channels.turning(), &channels.lateral(), LEAST_SWAY);
         let of_surge = surge.and_then(|surge| speed_and_force(table, conventions, surge, sway));
         let is_explained = of_surge.is_some() || surge.is_some_and(is_equal);
         warnings.extend(of_surge);
         warnings.extend(sway.and_then(|sway| bends(table, conventions, sway, is_explained)));
-        warnings.extend(reversing.map(Message::from));
-    }
-    if !table.columns.contains_key(&Quantity::Speed) && conventions.mounting.is_none() {
-        let speed = speed_of_bends(inputs, table.step());
+        warnings.extend(channels.reversing.clone().map(Message::from));
+    } else if conventions.mounting.is_none() {
+        let speed = channels.speed_of_bends();
         warnings.extend(speed.filter(|speed| *speed < BACKWARD).map(|speed| {
             let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|of| turned(conventions, of));
             message![
@@ -74,16 +65,8 @@ pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> V
             ]
         }));
     }
-    warnings.extend(angles_and_rates(table, inputs, conventions));
+    warnings.extend(angles_and_rates(channels));
     warnings
-}
-
-/// The speed at which the lateral force of bends is speed times yaw rate \[m/s\]; none where the
-/// two do not go together.
-pub fn speed_of_bends(inputs: &[Input], step: f64) -> Option<f64> {
-    let yaw = smooth(inputs.iter().map(|input| input.angular_velocity.z), step);
-    let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
-    if root_mean_square(&lateral) < LEAST_SWAY { None } else { regression(&yaw, &lateral) }
 }
 
 /// True for a ratio that slopes and bias explain.
@@ -99,50 +82,35 @@ fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
     if is_small { None } else { regression(expected, found) }
 }
 
-/// Changes of a signal over [`WINDOW`], or a quarter of a short one.
-pub fn changes(values: &[f64], step: f64) -> Vec<f64> {
-    let window = ((WINDOW / step).round() as usize).min(values.len() / 4).max(1);
-    values.iter().skip(window).zip(values).map(|(after, before)| after - before).collect()
-}
-
 /// Ratio of the changes of speed and the integral of the force along x. Where slopes explain it, as
 /// the pitch or the rate of pitch gives them, it is 1.
-fn surge_ratio(step: f64, inputs: &[Input], speeds: &[f64]) -> Option<f64> {
-    let force: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
-    let ratio = ratio_of_force(step, &force, speeds);
+fn surge_ratio(channels: &Channels) -> Option<f64> {
+    let ratio = ratio_of_force(channels, channels.force(0));
     if ratio.is_some_and(is_equal) {
         return ratio;
     }
-    if slopes_explain(step, inputs, speeds) { Some(1.0) } else { ratio }
+    if slopes_explain(channels) { Some(1.0) } else { ratio }
 }
 
 /// Ratio of the changes of speed and the integral of a force.
-fn ratio_of_force(step: f64, force: &[f64], speeds: &[f64]) -> Option<f64> {
-    let found = changes(speeds, step);
-    let expected = centred(changes(&integral(force.iter().copied(), step), step).into_iter());
+fn ratio_of_force(channels: &Channels, force: impl Iterator<Item = f64>) -> Option<f64> {
+    let found = channels.changes(&channels.speeds);
+    let expected = channels.driven(force);
     let is_small = root_mean_square(&found) < LEAST_CHANGE || root_mean_square(&expected) < FAINT * LEAST_CHANGE;
     if is_small { None } else { regression(&expected, &centred(found.into_iter())) }
 }
 
 /// True where slopes explain the changes of speed beside the force along x, as the pitch or the
 /// rate of pitch gives them.
-pub fn slopes_explain(step: f64, inputs: &[Input], speeds: &[f64]) -> bool {
+pub fn slopes_explain(channels: &Channels) -> bool {
     // Pitch is positive with the nose down, where gravity accelerates.
-    let pitch: Vec<f64> = inputs.iter().map(|input| input.orientation.pitch).collect();
-    let of_rate = centred(integral(inputs.iter().map(|input| input.angular_velocity.y), step).into_iter());
+    let pitch: Vec<f64> = channels.inputs.iter().map(|input| input.orientation.pitch).collect();
+    let of_rate = centred(integral(channels.rate(1), channels.step).into_iter());
     let on_slopes = |pitch: &Vec<f64>| {
-        let force =
-            inputs.iter().zip(pitch).map(|(input, pitch)| input.specific_force.x + STANDARD_GRAVITY * pitch.sin());
-        ratio_of_force(step, &force.collect::<Vec<_>>(), speeds).is_some_and(is_equal)
+        let force = channels.force(0).zip(pitch).map(|(force, pitch)| force + STANDARD_GRAVITY * pitch.sin());
+        ratio_of_force(channels, force).is_some_and(is_equal)
     };
     [pitch, of_rate].iter().any(on_slopes)
-}
-
-/// Ratio of the lateral force and speed times yaw rate.
-fn sway_ratio(step: f64, inputs: &[Input], speeds: &[f64]) -> Option<f64> {
-    let expected = smooth(inputs.iter().zip(speeds).map(|(input, speed)| speed * input.angular_velocity.z), step);
-    let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
-    ratio(&expected, &lateral, LEAST_SWAY)
 }
 
 /// A unit, or a scale of time, that explains a ratio.
@@ -171,19 +139,13 @@ fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: O
         return None;
     }
     let meaning = match cause(table, conventions, surge, sway) {
-        Some(Cause::Unit(Quantity::Speed, unit)) => {
-            let remedy = remedy(table, Quantity::Speed, unit.word);
-            message![
-                format!("it seems to be in {}, not in {}: ", unit.word, table.unit(Quantity::Speed).0.word),
-                remedy
-            ]
-        }
         Some(Cause::Unit(quantity, unit)) => {
-            let (name, remedy) = (quantity.dimension().name(), remedy(table, quantity, unit.word));
-            message![
-                format!("the {name} seems to be in {}, not in {}: ", unit.word, table.unit(quantity).0.word),
-                remedy
-            ]
+            let name = match quantity {
+                Quantity::Speed => "it".to_owned(),
+                _ => format!("the {}", quantity.dimension().name()),
+            };
+            let (given, other) = (table.unit(quantity).0.word, unit.word);
+            message!["{name} seems to be in {other}, not in {given}: ", remedy(table, quantity, other)]
         }
         Some(Cause::TimeScale(scale)) => {
             let pace = time_scale(conventions, scale);
@@ -289,17 +251,13 @@ fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool
     if is_explained || sway >= 1.0 / RATIO {
         return None;
     }
-    let (given, source) = table.unit(Quantity::Speed);
-    let quantity = match cause(table, conventions, 1.0 / sway, Some(sway))? {
-        Cause::Unit(Quantity::Speed, unit) if source == UnitSource::Default => (Quantity::Speed, unit, given, "speed"),
-        Cause::Unit(Quantity::Force(0), unit) => {
-            (Quantity::Force(0), unit, table.unit(Quantity::Force(0)).0, "specific force")
-        }
-        _ => return None,
-    };
-    let (quantity, other, given, name) = quantity;
+    let Cause::Unit(quantity, other) = cause(table, conventions, 1.0 / sway, Some(sway))? else { return None };
+    let (given, source) = table.unit(quantity);
+    if quantity != Quantity::Force(0) && (quantity != Quantity::Speed || source != UnitSource::Default) {
+        return None;
+    }
     let remedy = remedy(table, quantity, other.word);
-    let (other, given) = (other.word, given.word);
+    let (name, other, given) = (quantity.dimension().name(), other.word, given.word);
     Some(message![
         "In bends the lateral force is {sway:.2} times speed by yaw rate. If the vehicle does not lean, its {name} is in \
          {other}, not in {given}: ",
@@ -326,33 +284,20 @@ fn rate_unit(table: &Table, ratio: f64, fact: &str) -> Option<Message> {
     })
 }
 
-/// Smoothed derivative of an angle and the rate about its axis. Yaw jumps by a turn.
-pub fn derivative_and_rate(inputs: &[Input], axis: usize, step: f64, period: f64) -> (Vec<f64>, Vec<f64>) {
-    let angle = |input: &Input| input.orientation.to_vector()[axis];
-    let changes = inputs.windows(2).map(|pair| {
-        let change = angle(&pair[1]) - angle(&pair[0]);
-        (change - period * (change / period).round()) / step
-    });
-    let derivative = smooth(changes, step);
-    (derivative, smooth(inputs[1..].iter().map(|input| input.angular_velocity[axis]), step))
-}
-
 /// Compares rates with the derivatives of angles.
-fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
-    if conventions.rate_frame != RateFrame::Body {
-        return Vec::new();
-    }
+fn angles_and_rates(channels: &Channels) -> Vec<Message> {
+    let Channels { table, conventions, .. } = *channels;
     let ratio = |axis: usize| {
-        table.columns.get(&Quantity::Angle(axis))?;
-        let (derivative, rate) = derivative_and_rate(inputs, axis, table.step(), TAU);
+        let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
         Some((axis, ratio(&derivative, &rate, LEAST_RATE)?))
     };
-    let ratios: Vec<(usize, f64)> = (0..3).filter_map(ratio).collect();
+    let measured = (0..3).filter(|&axis| channels.has_body_rates() && channels.has(Quantity::Angle(axis)));
+    let ratios: Vec<(usize, f64)> = measured.filter_map(ratio).collect();
     let opposite = |&(axis, ratio): &(usize, f64)| {
-        let name = ["roll", "pitch", "yaw"][axis];
-        let [remedy, other] = [Quantity::Rate(axis), Quantity::Angle(axis)].map(|of| turned(conventions, of));
+        let quantities = [Quantity::Rate(axis), Quantity::Angle(axis)];
+        let ([key, name], [remedy, other]) =
+            (quantities.map(Quantity::key), quantities.map(|of| turned(conventions, of)));
         (ratio < OPPOSITE).then(|| {
-            let key = Quantity::Rate(axis).key();
             message![
                 "The angular velocity {key} is {ratio:.1} times the derivative of {name}: one of them has the wrong sign. If \
                  it is the angular velocity, ",
@@ -381,7 +326,5 @@ fn turned(conventions: &Conventions, quantity: Quantity) -> Message {
     if conventions.mounting.is_some() {
         return message!["check ", named("mounting")];
     }
-    let name = conventions.column(quantity);
-    let turned = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned);
-    remedy_with(quantity, &turned)
+    message!["use ", given("columns", format!("{}={}", quantity.key(), conventions.turned_column(quantity)))]
 }

@@ -4,14 +4,13 @@ use std::f64::consts::TAU;
 
 use moris_simulation::measures::delay::delay;
 use moris_simulation::measures::statistics::correlation;
-use moris_washout::Input;
 
-use super::consistency::{LEAST_CHANGE, LEAST_RATE, changes, derivative_and_rate};
-use super::speeds::signed_speeds;
+use super::Channels;
+use super::channels::LEAST_CHANGE;
+use super::consistency::LEAST_RATE;
 use crate::message::{Message, message};
-use crate::recording::conventions::{Conventions, Quantity, RateFrame};
+use crate::recording::conventions::Quantity;
 use crate::recording::signal::{integral, root_mean_square};
-use crate::recording::table::Table;
 
 /// Least delay that is warned of, of either sign \[s\].
 const LEAST_DELAY: f64 = 0.2;
@@ -20,24 +19,22 @@ const CLEARER: f64 = 0.2;
 
 /// Warnings about a speed that comes later or earlier than the force along x, and about angles and
 /// their rates.
-pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
-    let step = table.step();
+pub fn warnings(channels: &Channels) -> Vec<Message> {
+    let step = channels.step;
     let speed = || {
-        table.columns.get(&Quantity::Speed)?;
-        let found = changes(&signed_speeds(inputs, step).0, step);
-        let force = integral(inputs.iter().map(|input| input.specific_force.x), step);
-        let delay = clear_delay(&changes(&force, step), &found, LEAST_CHANGE, step)?;
+        let found = channels.changes(&channels.speeds);
+        let expected = channels.changes(&integral(channels.force(0), step));
+        let delay = clear_delay(&expected, &found, LEAST_CHANGE, step)?;
         Some(warning(Quantity::Speed, "the force along x that changes it", delay))
     };
     let angle = |axis: usize| {
-        table.columns.get(&Quantity::Angle(axis))?;
-        let (derivative, rate) = derivative_and_rate(inputs, axis, step, TAU);
+        let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
         let delay = clear_delay(&rate, &derivative, LEAST_RATE, step)?;
         Some(warning(Quantity::Angle(axis), "the angular velocity that changes it", delay))
     };
-    let in_body = conventions.rate_frame == RateFrame::Body;
-    let angles = (0..3).filter(|_| in_body).filter_map(angle);
-    speed().into_iter().chain(angles).collect()
+    let angles = (0..3).filter(|&axis| channels.has_body_rates() && channels.has(Quantity::Angle(axis)));
+    let speed = channels.has(Quantity::Speed).then(speed).flatten();
+    speed.into_iter().chain(angles.filter_map(angle)).collect()
 }
 
 /// The delay of a signal behind the one that is expected, where it explains most of their

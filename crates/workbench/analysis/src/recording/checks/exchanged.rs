@@ -2,14 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use moris_washout::Input;
-
-use super::consistency::{LEAST_CHANGE, changes, derivative_and_rate};
-use super::speeds::signed_speeds;
+use super::Channels;
+use super::channels::LEAST_CHANGE;
 use crate::message::{Message, given, message, named};
-use crate::recording::conventions::{Conventions, Quantity, RateFrame};
-use crate::recording::signal::{centred, integral, is_constant, regression, root_mean_square};
-use crate::recording::table::Table;
+use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::signal::{centred, is_constant, regression, root_mean_square};
 
 /// Ratios of two signals that are the same, of either sign.
 const SAME: [f64; 2] = [0.67, 1.5];
@@ -18,14 +15,13 @@ const LEAST_RATE: f64 = 0.002;
 
 /// Warnings about a speed that goes with the force along y, a roll that goes with the rate of
 /// pitch, and axes with the values of another one.
-pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
-    let exchanged = [forces(table, inputs, conventions), rates(table, inputs, conventions)];
-    exchanged.into_iter().flatten().chain(repeated(table, conventions)).collect()
+pub fn warnings(channels: &Channels) -> Vec<Message> {
+    [forces(channels), rates(channels)].into_iter().flatten().chain(repeated(channels)).collect()
 }
 
 /// Warnings about two axes with the same values, of either sign. Those of a mounted sensor may be
 /// equal.
-fn repeated(table: &Table, conventions: &Conventions) -> Vec<Message> {
+fn repeated(Channels { table, conventions, .. }: &Channels) -> Vec<Message> {
     let axes = [Quantity::Force, Quantity::Rate].map(|of| [(of(0), of(1)), (of(0), of(2)), (of(1), of(2))]);
     let is_repeated = |&(one, other): &(Quantity, Quantity)| {
         let (Some(one), Some(other)) = (table.columns.get(&one), table.columns.get(&other)) else { return false };
@@ -49,17 +45,13 @@ fn is_same(ratio: Option<f64>) -> bool {
     ratio.is_some_and(|ratio| (SAME[0]..SAME[1]).contains(&ratio.abs()))
 }
 
-fn forces(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<Message> {
-    table.columns.get(&Quantity::Speed)?;
-    let step = table.step();
-    let (speeds, _) = signed_speeds(inputs, step);
-    let needed = centred(changes(&speeds, step).into_iter());
-    if root_mean_square(&needed) < LEAST_CHANGE {
+fn forces(channels: &Channels) -> Option<Message> {
+    let needed = centred(channels.changes(&channels.speeds).into_iter());
+    if !channels.has(Quantity::Speed) || root_mean_square(&needed) < LEAST_CHANGE {
         return None;
     }
     let ratio = |axis: usize| {
-        let force = integral(inputs.iter().map(|input| input.specific_force[axis]), step);
-        let driven = centred(changes(&force, step).into_iter());
+        let driven = channels.driven(channels.force(axis));
         // Noise goes with nothing.
         (root_mean_square(&driven) > 0.0).then(|| regression(&driven, &needed)).flatten()
     };
@@ -69,16 +61,15 @@ fn forces(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<
     let sign = if ratio(1)? > 0.0 { "" } else { "-" };
     Some(message![
         "The speed goes with the force along y, and not with that along x: the axes seem to be exchanged. ",
-        remedy(conventions, [Quantity::Force(0), Quantity::Force(1)], sign)
+        remedy(channels.conventions, [Quantity::Force(0), Quantity::Force(1)], sign)
     ])
 }
 
-fn rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<Message> {
-    let has_angles = [0, 1].iter().all(|axis| table.columns.contains_key(&Quantity::Angle(*axis)));
-    if !has_angles || conventions.rate_frame != RateFrame::Body {
+fn rates(channels: &Channels) -> Option<Message> {
+    if !channels.table.has_orientation() || !channels.has_body_rates() {
         return None;
     }
-    let signals = [0, 1].map(|axis| derivative_and_rate(inputs, axis, table.step(), TAU));
+    let signals = [0, 1].map(|axis| channels.derivative_and_rate(axis, TAU));
     let ratio = |angle: usize, rate: usize| {
         let (derivative, rate) = (&signals[angle].0, &signals[rate].1);
         let is_small = |values: &[f64]| root_mean_square(values) < LEAST_RATE;
@@ -88,7 +79,7 @@ fn rates(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<M
     is_exchanged.then(|| {
         message![
             "Roll goes with the angular velocity wy, and pitch with wx: the rates seem to be exchanged. ",
-            remedy(conventions, [Quantity::Rate(0), Quantity::Rate(1)], "")
+            remedy(channels.conventions, [Quantity::Rate(0), Quantity::Rate(1)], "")
         ]
     })
 }

@@ -1,13 +1,14 @@
 //! Sensors that stop in the middle of a recording, repeated values, and values of few digits.
 
-use moris_interface::shown;
-use moris_washout::Input;
+use std::ops::Range;
 
-use super::consistency::{LEAST_CHANGE, LEAST_SWAY, changes};
-use super::speeds::signed_speeds;
+use moris_interface::shown;
+
+use super::Channels;
+use super::channels::{LEAST_CHANGE, LEAST_SWAY};
 use crate::message::{Message, given, message};
 use crate::recording::conventions::{Conventions, Quantity};
-use crate::recording::signal::{is_constant, median, root_mean_square, smooth, sorted};
+use crate::recording::signal::{is_constant, median, root_mean_square, runs, smooth, sorted};
 use crate::recording::table::Table;
 
 /// Time from which a value that stays is looked at \[s\].
@@ -31,32 +32,30 @@ const LEVELS: usize = 4;
 
 /// Warnings about forces and yaw rates that stay at one value for seconds, while the speed changes
 /// or the vehicle drives bends.
-pub fn stops(table: &Table, inputs: &[Input]) -> Vec<String> {
-    if !table.columns.contains_key(&Quantity::Speed) {
+pub fn stops(channels: &Channels) -> Vec<String> {
+    if !channels.has(Quantity::Speed) {
         return Vec::new();
     }
-    let step = table.step();
-    let (speeds, _) = signed_speeds(inputs, step);
-    let forces: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
-    let lateral = |part: std::ops::Range<usize>| smooth(inputs[part].iter().map(|input| input.specific_force.y), step);
-    let of_force = |&(first, last): &(usize, usize)| {
-        let speeds = changes(&speeds[first..last], step);
-        let span = speeds.len();
-        let window = (last - first - span) as f64 * step;
-        let left: Vec<f64> = speeds.iter().map(|change| change - forces[first] * window).collect();
+    let Channels { table, inputs, speeds, step, .. } = channels;
+    let of_force = |part: &Range<usize>| {
+        let speeds = channels.changes(&speeds[part.clone()]);
+        let window = (part.len() - speeds.len()) as f64 * step;
+        let force = inputs[part.start].specific_force.x;
+        let left: Vec<f64> = speeds.iter().map(|change| change - force * window).collect();
         root_mean_square(&left) >= LEAST_CHANGE
     };
-    let of_rate = |&(first, last): &(usize, usize)| {
-        median(speeds[first..last].iter().map(|speed| speed.abs())) > DRIVES
-            && root_mean_square(&lateral(first..last)) >= LEAST_SWAY
+    let of_rate = |part: &Range<usize>| {
+        let lateral = || smooth(inputs[part.clone()].iter().map(|input| input.specific_force.y), *step);
+        median(speeds[part.clone()].iter().map(|speed| speed.abs())) > DRIVES
+            && root_mean_square(&lateral()) >= LEAST_SWAY
     };
-    let found = |quantity: Quantity, contradicts: &dyn Fn(&(usize, usize)) -> bool, fact: &str| {
+    let found = |quantity: Quantity, contradicts: &dyn Fn(&Range<usize>) -> bool, fact: &str| {
         let values = table.columns.get(&quantity).filter(|values| !is_constant(values))?;
+        let least = ((STAYS / step) as usize).max(REPEATED);
         // One that stays throughout is not measured at all.
-        let is_part = |(first, last): &(usize, usize)| ((last - first) as f64) < MOST * values.len() as f64;
-        let stays = stays(values, (STAYS / step) as usize);
-        let (first, last) = stays.into_iter().filter(is_part).find(contradicts)?;
-        let [from, to] = [first, last].map(|sample| sample as f64 * step);
+        let stays = |run: &Range<usize>| run.len() > least && (run.len() as f64) < MOST * values.len() as f64;
+        let stop = runs(values, |a, b| a == b).filter(stays).find(contradicts)?;
+        let [from, to] = [stop.start, stop.end].map(|sample| sample as f64 * step);
         Some(format!(
             "Column {} stays at one value from {from:.1} s to {to:.1} s, while {fact}: the sensor has stopped. Cut this \
              part off.",
@@ -70,16 +69,6 @@ pub fn stops(table: &Table, inputs: &[Input]) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
-}
-
-/// The stretches in which a value stays the same, from the first sample to behind the last.
-fn stays(values: &[f64], least: usize) -> Vec<(usize, usize)> {
-    let mut end = 0;
-    let runs = values.chunk_by(|a, b| a == b).map(|run| {
-        end += run.len();
-        (end - run.len(), end)
-    });
-    runs.filter(|(first, last)| last - first > least.max(REPEATED)).collect()
 }
 
 /// Warnings about channels whose values are so far apart that their steps are felt.

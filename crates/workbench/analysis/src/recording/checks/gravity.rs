@@ -4,12 +4,10 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use super::consistency::speed_of_bends;
-use super::remedy;
+use super::{Channels, remedy};
 use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Axes, Conventions, Gravity, Quantity, Unit};
 use crate::recording::signal::median;
-use crate::recording::table::Table;
 
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
 /// are biased and tilted.
@@ -20,8 +18,9 @@ const COUNTS: f64 = 60.0;
 const NO_GRAVITY: f64 = 3.0;
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), Message> {
-    let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis])));
+pub fn check(channels: &Channels) -> Result<(), Message> {
+    let Channels { table, inputs, conventions, .. } = channels;
+    let median = Vector3::from_fn(|axis, _| median(channels.force(axis)));
     let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     let is_near = (median - gravity).norm() < GRAVITY_TOLERANCE;
     if is_near || is_driven_hard(&median, inputs) || is_steady_bend(&median, inputs) {
@@ -42,7 +41,7 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
             message![format!("which is gravity in {}, not in {}: ", other.word, unit.word), remedy]
         }
         None if size > COUNTS => counts(size, conventions),
-        None => meaning(&median, inputs, table.step(), conventions),
+        None => meaning(&median, channels),
     };
     let (x, y, z, unit) = (raw.x, raw.y * signs[1], raw.z * signs[2], unit.word);
     let turned = if is_mounted { message![", turned by ", named("mounting"), ","] } else { Message::default() };
@@ -85,22 +84,20 @@ fn counts(size: f64, conventions: &Conventions) -> Message {
 }
 
 /// The meaning of a median in the right unit that is not gravity along z.
-fn meaning(median: &Vector3<f64>, inputs: &[Input], step: f64, conventions: &Conventions) -> Message {
+fn meaning(median: &Vector3<f64>, channels: &Channels) -> Message {
+    let conventions = channels.conventions;
     if conventions.gravity == Gravity::Removed {
         let (removed, included) = (given("gravity", "removed"), given("gravity", "included"));
         message!["which includes gravity although ", removed, " was given: use ", included]
     } else if (median + Vector3::new(0.0, 0.0, STANDARD_GRAVITY)).norm() < GRAVITY_TOLERANCE {
         let opposite = || {
-            let opposite = |axis: usize| {
-                let name = conventions.column(Quantity::Force(axis));
-                let turned = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned);
-                format!("{}={turned}", Quantity::Force(axis).key())
-            };
-            given("columns", format!("\"{}\"", [0, 1, 2].map(opposite).join(",")))
+            let forces = [0, 1, 2].map(Quantity::Force);
+            let turned = forces.map(|force| format!("{}={}", force.key(), conventions.turned_column(force)));
+            given("columns", format!("\"{}\"", turned.join(",")))
         };
         match conventions.axes {
             // Axes that point down keep the sign of bends.
-            _ if speed_of_bends(inputs, step).is_some_and(|speed| speed < 0.0) => {
+            _ if channels.speed_of_bends().is_some_and(|speed| speed < 0.0) => {
                 message!["so all forces have the opposite sign, as the bends' have: use ", opposite()]
             }
             Axes::ForwardLeftUp => message!["so z points down: use ", given("axes", "forward-right-down")],

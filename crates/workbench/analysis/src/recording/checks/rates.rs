@@ -12,12 +12,11 @@
 
 use moris_washout::Input;
 
-use super::remedy;
+use super::{Channels, remedy};
 use crate::message::{Message, given, message};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{Conventions, Quantity, RateFrame, RateUnit};
+use crate::recording::conventions::{Quantity, RateUnit};
 use crate::recording::signal::{extremes, integral, regression, root_mean_square, smooth, sorted};
-use crate::recording::table::Table;
 
 /// Angular velocity that no head exceeds for a hundredth of a recording \[rad/s\].
 const FASTEST: f64 = 10.0;
@@ -33,7 +32,8 @@ const TIGHTEST: f64 = 1.0;
 
 /// Rejects rates that are plausible only as deg/s. A given unit overrides all
 /// tests except the first.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), Message> {
+pub fn check(channels: &Channels) -> Result<(), Message> {
+    let Channels { table, inputs, .. } = channels;
     let (unit, source) = table.unit(Quantity::Rate(0));
     if unit != RateUnit::RadianPerSecond.unit() {
         return Ok(());
@@ -43,7 +43,7 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
         (Some(format!("angular velocities reach {fast:.0}")), Message::default())
     } else if source == UnitSource::Default {
         let option = given(Quantity::Rate(0).dimension().option(), "rad/s");
-        (not_radians(table, inputs, conventions), message![" (or ", option, ", if they are)"])
+        (not_radians(channels), message![" (or ", option, ", if they are)"])
     } else {
         (None, Message::default())
     };
@@ -59,41 +59,38 @@ pub fn usual_maximum(inputs: &[Input]) -> f64 {
 }
 
 /// Evidence that angular velocities are not in rad/s.
-fn not_radians(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
-    let step = table.step();
-    let by_angle = |(axis, name)| {
-        let derivative = || derivative_differs(inputs, axis, name, step).filter(|_| table.has_orientation());
-        derivative().or_else(|| swings_too_wide(inputs, axis, name, step))
+fn not_radians(channels: &Channels) -> Option<String> {
+    let by_angle = |axis: usize| {
+        let name = Quantity::Angle(axis).key();
+        let derivative = || derivative_differs(channels, axis, name).filter(|_| channels.table.has_orientation());
+        derivative().or_else(|| swings_too_wide(channels, axis, name))
     };
-    let angles = [(0, "roll"), (1, "pitch")];
-    let is_body = conventions.rate_frame == RateFrame::Body;
-    angles.into_iter().filter(|_| is_body).find_map(by_angle).or_else(|| turns_too_tight(inputs, step))
+    // Roll and pitch.
+    let mut angles = (0..2).filter(|_| channels.has_body_rates());
+    angles.find_map(by_angle).or_else(|| turns_too_tight(channels))
 }
 
-fn rates(inputs: &[Input], axis: usize) -> impl Iterator<Item = f64> {
-    inputs.iter().map(move |input| input.angular_velocity[axis])
-}
-
-fn derivative_differs(inputs: &[Input], axis: usize, name: &str, step: f64) -> Option<String> {
+fn derivative_differs(channels: &Channels, axis: usize, name: &str) -> Option<String> {
     let angle = |input: &Input| input.orientation.to_vector()[axis];
-    let derivative: Vec<f64> = inputs.windows(2).map(|pair| (angle(&pair[1]) - angle(&pair[0])) / step).collect();
-    let rates: Vec<f64> = rates(inputs, axis).take(derivative.len()).collect();
+    let changes = channels.inputs.windows(2).map(|pair| angle(&pair[1]) - angle(&pair[0]));
+    let derivative: Vec<f64> = changes.map(|change| change / channels.step).collect();
+    let rates: Vec<f64> = channels.rate(axis).take(derivative.len()).collect();
     let scale = regression(&derivative, &rates).filter(|scale| (30.0..100.0).contains(scale))?;
     Some(format!("angular velocities are {scale:.0} times the derivative of {name}"))
 }
 
-fn swings_too_wide(inputs: &[Input], axis: usize, name: &str, step: f64) -> Option<String> {
-    let swing = widest_swing(rates(inputs, axis), step);
+fn swings_too_wide(channels: &Channels, axis: usize, name: &str) -> Option<String> {
+    let swing = widest_swing(channels.rate(axis), channels.step);
     (swing > WIDEST_SWING)
         .then(|| format!("in rad/s, {name} would swing by {:.0} degrees within {DRIFT} s", swing.to_degrees()))
 }
 
-fn turns_too_tight(inputs: &[Input], step: f64) -> Option<String> {
-    let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
+fn turns_too_tight(channels: &Channels) -> Option<String> {
+    let lateral = channels.lateral();
     if root_mean_square(&lateral) < TURN {
         return None;
     }
-    let yaw = smooth(rates(inputs, 2), step);
+    let yaw = smooth(channels.rate(2), channels.step);
     // a = v omega of a turn; a two-wheeler has no lateral force in its turns, and none that has the yaw rate's sign.
     let speed = regression(&yaw, &lateral)?;
     let radius = speed / root_mean_square(&yaw);

@@ -81,6 +81,12 @@ impl Conventions {
         self.columns.get(&quantity).map_or(quantity.key(), String::as_str)
     }
 
+    /// The column with the other sign.
+    pub fn turned_column(&self, quantity: Quantity) -> String {
+        let name = self.column(quantity);
+        name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned)
+    }
+
     /// True for a quantity that a recording must have.
     pub fn needs(&self, quantity: Quantity) -> bool {
         let has_rate = quantity == Quantity::Time && self.rate.is_some();

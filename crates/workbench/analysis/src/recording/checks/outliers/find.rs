@@ -3,7 +3,7 @@
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::recording::conventions::{Dimension, Quantity};
-use crate::recording::signal::{extremes, median, sorted};
+use crate::recording::signal::{extremes, median, runs, sorted};
 use crate::recording::table::Table;
 
 /// Values that loggers and converters write where they have none, of either sign.
@@ -89,14 +89,7 @@ fn is_cut(values: &[f64], first: usize, length: usize) -> bool {
 /// been cut off.
 pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
     let (least, greatest) = extremes(values.iter().copied());
-    let mut start = 0;
-    let runs: Vec<(usize, usize)> = values
-        .chunk_by(|a, b| a == b)
-        .map(|run| {
-            start += run.len();
-            (start - run.len(), run.len())
-        })
-        .collect();
+    let runs: Vec<(usize, usize)> = runs(values, |a, b| a == b).map(|run| (run.start, run.len())).collect();
     // A computed ride stands still at the extreme where all its bends are to one side.
     let usual = median(values.iter().copied());
     let is_rest = |extreme: &f64| {
