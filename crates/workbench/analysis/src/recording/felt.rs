@@ -19,7 +19,7 @@ pub struct Names<const N: usize> {
     pub argument: &'static str,
     sets: &'static [[&'static str; N]],
     dimensions: [Kind; N],
-    of: fn(&FeltTable) -> &Series<N>,
+    of: fn(&ForeignMotion) -> &Series<N>,
 }
 
 /// A row for each sample; none if the table has no such columns.
@@ -61,14 +61,14 @@ pub const FORCE: Names<3> = Names {
         ["fx", "fy", "fz"],
     ],
     dimensions: [Kind::Of(Dimension::Force); 3],
-    of: |table| &table.force,
+    of: |motion| &motion.force,
 };
 /// Felt angular velocity.
 pub const RATE: Names<3> = Names {
     argument: "felt_rate",
     sets: &[["rider.angularVelocity.x", "rider.angularVelocity.y", "rider.angularVelocity.z"], ["wx", "wy", "wz"]],
     dimensions: [Kind::Of(Dimension::Rate); 3],
-    of: |table| &table.rate,
+    of: |motion| &motion.rate,
 };
 /// Poses of the platform.
 pub const POSE: Names<6> = Names {
@@ -84,15 +84,11 @@ pub const POSE: Names<6> = Names {
         ],
         ["x", "y", "z", "roll", "pitch", "yaw"],
     ],
-    dimensions: [
-        Kind::Length,
-        Kind::Length,
-        Kind::Length,
-        Kind::Of(Dimension::Angle),
-        Kind::Of(Dimension::Angle),
-        Kind::Of(Dimension::Angle),
-    ],
-    of: |table| &table.pose,
+    dimensions: {
+        let (length, angle) = (Kind::Length, Kind::Of(Dimension::Angle));
+        [length, length, length, angle, angle, angle]
+    },
+    of: |motion| &motion.pose,
 };
 /// Lengths of the actuators.
 pub const LEGS: Names<6> = Names {
@@ -109,7 +105,7 @@ pub const LEGS: Names<6> = Names {
         ["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"],
     ],
     dimensions: [Kind::Length; 6],
-    of: |table| &table.legs,
+    of: |motion| &motion.legs,
 };
 
 /// Spellings of units of length, and their factors to SI.
@@ -121,17 +117,11 @@ pub struct FeltTable {
     /// The file's name without directory and extension.
     pub name: String,
     /// Times \[s\]; none if the table has no times.
-    pub time: Option<Vec<f64>>,
-    /// Felt specific force.
-    pub force: Series<3>,
-    /// Felt angular velocity.
-    pub rate: Series<3>,
-    /// Position, then roll, pitch, yaw.
-    pub pose: Series<6>,
-    /// Lengths of the actuators.
-    pub legs: Series<6>,
+    time: Option<Vec<f64>>,
+    /// The motion at the table's times.
+    motion: ForeignMotion,
     /// Titles of all columns.
-    pub titles: Vec<String>,
+    titles: Vec<String>,
 }
 
 impl FeltTable {
@@ -162,8 +152,7 @@ impl FeltTable {
                 Some(samples.time.iter().map(|time| time * unit.in_si).collect())
             }
         };
-        let table = Self::of(&sheet.header, time, column).map_err(|reason| sheet.refused(reason))?;
-        Ok(FeltTable { name: source::name(file), ..table })
+        Self::of(source::name(file), &sheet.header, time, column).map_err(|reason| sheet.refused(reason))
     }
 
     /// The table of columns in memory, each a title and its values.
@@ -171,7 +160,7 @@ impl FeltTable {
     /// # Errors
     /// Columns differ in length, or a unit is unknown.
     pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)]) -> Result<Self, RecordingError> {
-        let refused = |reason: Message| RecordingError::whole(Path::new(name), reason);
+        let refused = |reason| RecordingError::whole(Path::new(name), reason);
         let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
         let conventions = Conventions::default();
         let time = match header.terms("time").map_err(refused)? {
@@ -182,21 +171,23 @@ impl FeltTable {
             }
             None => None,
         };
-        let table =
-            Self::of(&header, time, |place| columns[place].1.clone()).map_err(|reason| refused(reason.into()))?;
-        Ok(FeltTable { name: name.to_owned(), ..table })
+        Self::of(name.to_owned(), &header, time, |place| columns[place].1.clone()).map_err(refused)
     }
 
-    fn of(header: &Header, time: Option<Vec<f64>>, column: impl Fn(usize) -> Vec<f64>) -> Result<Self, String> {
-        Ok(FeltTable {
-            name: String::new(),
-            time,
+    fn of(
+        name: String,
+        header: &Header,
+        time: Option<Vec<f64>>,
+        column: impl Fn(usize) -> Vec<f64>,
+    ) -> Result<Self, Message> {
+        let motion = ForeignMotion {
             force: FORCE.rows(header, &column)?,
             rate: RATE.rows(header, &column)?,
             pose: POSE.rows(header, &column)?,
             legs: LEGS.rows(header, &column)?,
-            titles: (0..header.width()).map(|place| header.shown(place)).collect(),
-        })
+        };
+        let titles = (0..header.width()).map(|place| header.shown(place)).collect();
+        Ok(FeltTable { name, time, motion, titles })
     }
 
     /// The motion at the samples of a recording, and sentences about interpolations. A table
@@ -205,7 +196,7 @@ impl FeltTable {
     /// # Errors
     /// There is nothing to judge, or the times do not cover the recording.
     pub fn motion(&self, recording: &Recording) -> Result<(ForeignMotion, Vec<String>), String> {
-        if self.force.is_none() && self.pose.is_none() && self.legs.is_none() {
+        if self.motion.force.is_none() && self.motion.pose.is_none() && self.motion.legs.is_none() {
             return Err(format!(
                 "there are no columns {}, {} or {}; there are {}",
                 FORCE.shown(),
@@ -234,12 +225,10 @@ impl FeltTable {
         recording: &Recording,
         notes: &mut Vec<String>,
     ) -> Result<Vec<[f64; N]>, String> {
-        self.placed(names, recording, notes)?.ok_or_else(|| self.without(names))
-    }
-
-    fn without<const N: usize>(&self, names: &Names<N>) -> String {
-        let titles = self.titles.join(", ");
-        format!("{}: there are no columns {}; there are {titles}", names.argument, names.shown())
+        self.placed(names, recording, notes)?.ok_or_else(|| {
+            let titles = self.titles.join(", ");
+            format!("{}: there are no columns {}; there are {titles}", names.argument, names.shown())
+        })
     }
 
     fn placed<const N: usize>(
@@ -248,7 +237,7 @@ impl FeltTable {
         recording: &Recording,
         notes: &mut Vec<String>,
     ) -> Result<Series<N>, String> {
-        let series = (names.of)(self);
+        let series = (names.of)(&self.motion);
         let (Some(series), Some(time)) = (series, &self.time) else { return Ok(series.clone()) };
         let samples = recording.inputs().len();
         let placed = on_samples(names.argument, time, series, recording.start, recording.step(), samples);
