@@ -11,7 +11,6 @@ use crate::message::{Message, message};
 use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
 use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
-use mounting::{MountingEstimate, SensorMotion};
 
 /// The washout's input at each sample, with a warning where the mounting was found.
 ///
@@ -22,8 +21,8 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, O
         None => (None, None),
         Some(Mounting::Angles(angles)) => (Some(Orientation::new(angles).rotation), None),
         Some(Mounting::Auto) => {
-            let found = find_mounting(table, conventions).map_err(|reason| table.refused(reason))?;
-            (Some(found.rotation), Some(found.warning))
+            let (rotation, warning) = find_mounting(table, conventions).map_err(|reason| table.refused(reason))?;
+            (Some(rotation), Some(warning))
         }
     };
     let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
@@ -37,7 +36,7 @@ fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(
     Vector3::from_fn(|axis, _| table.value(quantity(axis), sample) * signs[axis])
 }
 
-fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, Message> {
+fn find_mounting(table: &Table, conventions: &Conventions) -> Result<(Matrix3<f64>, Message), Message> {
     if conventions.gravity == Gravity::Removed {
         let [auto, angles] = Mounting::options();
         return Err(message![auto, " needs gravity in the accelerations; give ", angles]);
@@ -45,12 +44,8 @@ fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEst
     let vectors = |quantity| -> Vec<Vector3<f64>> {
         (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()
     };
-    mounting::find(&SensorMotion {
-        step: table.step(),
-        forces: &vectors(Quantity::Force),
-        rates: &vectors(Quantity::Rate),
-        speeds: table.columns.get(&Quantity::Speed).map(Vec::as_slice),
-    })
+    let speeds = table.columns.get(&Quantity::Speed).map_or(&[][..], Vec::as_slice);
+    mounting::find(table.step(), &vectors(Quantity::Force), &vectors(Quantity::Rate), speeds)
 }
 
 /// The input at a sample; `mounting` turns the sensor's axes to the vehicle's.

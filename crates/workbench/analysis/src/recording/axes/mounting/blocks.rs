@@ -2,7 +2,6 @@
 
 use moris_washout::nalgebra::Vector3;
 
-use super::SensorMotion;
 use crate::recording::signal::{extremes, median};
 
 /// Time over which samples are averaged before the search \[s\].
@@ -18,23 +17,22 @@ const REST_RATE: f64 = 0.05;
 pub struct Blocks {
     pub forces: Vec<Vector3<f64>>,
     pub rates: Vec<Vector3<f64>>,
-    /// Empty without a column of speed.
+    /// Empty where the speed is not known.
     pub speeds: Vec<f64>,
     /// First blocks of the stretches at rest or at constant speed.
     rests: Vec<usize>,
 }
 
 impl Blocks {
-    pub fn new(motion: &SensorMotion) -> Self {
-        let size = ((BLOCK / motion.step).round() as usize).max(1);
+    pub fn new(step: f64, forces: &[Vector3<f64>], rates: &[Vector3<f64>], speeds: &[f64]) -> Self {
+        let size = ((BLOCK / step).round() as usize).max(1);
         let means = |vectors: &[Vector3<f64>]| vectors.chunks_exact(size).map(mean).collect::<Vec<_>>();
-        let speeds = motion.speeds.unwrap_or_default().chunks_exact(size);
-        let (forces, rates) = (means(motion.forces), means(motion.rates));
+        let (forces, rates) = (means(forces), means(rates));
         Blocks {
             rests: rests(&forces, &rates),
             forces,
             rates,
-            speeds: speeds.map(|speeds| speeds.iter().sum::<f64>() / speeds.len() as f64).collect(),
+            speeds: speeds.chunks_exact(size).map(|speeds| speeds.iter().sum::<f64>() / speeds.len() as f64).collect(),
         }
     }
 

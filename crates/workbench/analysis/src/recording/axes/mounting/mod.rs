@@ -15,40 +15,28 @@ use crate::recording::conventions::Mounting;
 use blocks::{Blocks, mean};
 use forward::Forward;
 
-/// A recording in the sensor's axes.
-pub struct SensorMotion<'a> {
-    /// Time between samples \[s\].
-    pub step: f64,
-    /// Specific force with gravity \[m/s2\].
-    pub forces: &'a [Vector3<f64>],
-    /// Angular velocity \[rad/s\].
-    pub rates: &'a [Vector3<f64>],
-    /// Speed of the vehicle \[m/s\].
-    pub speeds: Option<&'a [f64]>,
-}
-
-/// A mounting that was found.
-pub struct MountingEstimate {
-    /// Rotation from the sensor's axes to the vehicle's.
-    pub rotation: Matrix3<f64>,
-    /// The angles and their evidence, in a sentence.
-    pub warning: Message,
-}
-
 /// Largest standard error of the forward direction \[rad\].
 const LARGEST_ERROR: f64 = 15f64.to_radians();
 
-/// Finds the mounting. Up is the direction of the specific force at rest, and the module
-/// `forward` finds forward.
+/// The rotation from the sensor's axes to the vehicle's, and a warning with its angles and their
+/// evidence. Specific force with gravity \[m/s2\] and angular velocity \[rad/s\] are in the
+/// sensor's axes; the vehicle's speed \[m/s\] is empty where it is not known.
+///
+/// Up is the direction of the specific force at rest, and the module `forward` finds forward.
 ///
 /// # Errors
 /// The recording contains no gravity, or forward is unknown, uncertain or contradictory. The
 /// message names the option that gives the mounting.
-pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, Message> {
+pub fn find(
+    step: f64,
+    forces: &[Vector3<f64>],
+    rates: &[Vector3<f64>],
+    speeds: &[f64],
+) -> Result<(Matrix3<f64>, Message), Message> {
     let [auto, angles] = Mounting::options();
-    let blocks = Blocks::new(motion);
+    let blocks = Blocks::new(step, forces, rates, speeds);
     let rest = blocks.rest_force();
-    let gravity = rest.unwrap_or_else(|| mean(motion.forces));
+    let gravity = rest.unwrap_or_else(|| mean(forces));
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
         let (size, unit) = (gravity.norm(), named("force-unit"));
         return Err(message![
@@ -82,7 +70,7 @@ pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, Message> {
         let turned = self::option(&axes(&up, &-direction));
         warning.push(message![" If that acceleration is a braking, forward is backward: use ", turned, "."]);
     }
-    Ok(MountingEstimate { rotation, warning })
+    Ok((rotation, warning))
 }
 
 /// Rotation from the sensor's axes to the vehicle's, of the upward and the forward direction.
