@@ -137,15 +137,7 @@ impl Foreign {
 pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign: &[Foreign]) -> Result<Vec<Row>> {
     let of = || format!("{} on {}", drive.name, rig.name);
     let setup = rig.setup().about(of)?;
-    let recording = Recording {
-        name: drive.name.to_owned(),
-        manoeuvre: drive.manoeuvre(),
-        start: 0.0,
-        angular_velocity_frame: FRAME,
-        has_orientation: false,
-        road: None,
-        warnings: Vec::new(),
-    };
+    let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);
     let unscaled = recording.parameters(&unscaled(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
     let bounds = bounds::bounds_at(&asked, INTERVAL).about(of)?;

@@ -124,15 +124,7 @@ impl Usual {
 
     /// The drive as a recording.
     pub fn recording(&self, name: &str) -> Recording {
-        Recording {
-            name: name.to_owned(),
-            manoeuvre: self.drive(),
-            start: 0.0,
-            angular_velocity_frame: AngularVelocityFrame::Body,
-            has_orientation: false,
-            road: None,
-            warnings: Vec::new(),
-        }
+        Recording::computed(name, self.drive(), AngularVelocityFrame::Body)
     }
 }
 

@@ -108,6 +108,19 @@ impl Recording {
         Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
     }
 
+    /// A computed drive, without orientation and position.
+    pub fn computed(name: &str, manoeuvre: Manoeuvre, angular_velocity_frame: AngularVelocityFrame) -> Self {
+        Recording {
+            name: name.to_owned(),
+            manoeuvre,
+            start: 0.0,
+            angular_velocity_frame,
+            has_orientation: false,
+            road: None,
+            warnings: Vec::new(),
+        }
+    }
+
     fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
         if let Some(reason) = interleaved::refusal(&table) {
             return Err(table.refused(reason));
