@@ -12,7 +12,7 @@ use super::channels::{Channels, LEAST_CHANGE, LEAST_SWAY};
 use super::remedy;
 use crate::message::{Message, given, message, named};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{Conventions, ForceUnit, Gravity, Quantity, RateUnit, SpeedUnit, TimeUnit, Unit};
+use crate::recording::conventions::{Conventions, Dimension, ForceUnit, Gravity, Quantity, SpeedUnit, Unit};
 use crate::recording::signal::{centred, integral, regression, root_mean_square};
 use crate::recording::table::Table;
 
@@ -153,15 +153,11 @@ fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: O
             message![pace, slopes]
         }
         Some(Cause::SpeedScale(factor)) => {
-            let scaled = format!("\"speed={} * {factor}\"", conventions.column(Quantity::Speed));
-            message!["its unit seems to be {factor} m/s: use ", given("columns", scaled)]
+            let columns = conventions.scaled(&[Quantity::Speed], &format!("* {factor}"));
+            message!["its unit seems to be {factor} m/s: use ", columns]
         }
         Some(Cause::Horizontal(factor, [unit, other])) => {
-            let scaled = |axis: usize| {
-                let quantity = Quantity::Force(axis);
-                format!("{}={} * {factor:.5}", quantity.key(), conventions.column(quantity))
-            };
-            let columns = given("columns", format!("\"{}\"", [0, 1].map(scaled).join(",")));
+            let columns = conventions.scaled(&[0, 1].map(Quantity::Force), &format!("* {factor:.5}"));
             let (unit, other) = (unit.word, other.word);
             message!["the forces along x and y seem to be in {unit}, and that along z in {other}: use ", columns]
         }
@@ -172,8 +168,7 @@ fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: O
 
 /// The fact that time runs at another pace, and the remedy.
 fn time_scale(conventions: &Conventions, scale: f64) -> Message {
-    let scaled = format!("\"time={} * {scale:.3}\"", conventions.column(Quantity::Time));
-    let (unit, columns) = (named("time-unit"), given("columns", scaled));
+    let (unit, columns) = (named("time-unit"), conventions.scaled(&[Quantity::Time], &format!("* {scale:.3}")));
     let (times, pace) = if scale < 1.0 { (1.0 / scale, "slow") } else { (scale, "fast") };
     message!["the time seems to run {times:.1} times too {pace}: check ", unit, ", or use ", columns]
 }
@@ -188,24 +183,22 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
     let fits_bends = sway.is_some_and(|sway| near(sway, 1.0) < FITS) && !(1.0 / PACE..PACE).contains(&surge);
     let of_others = of_others && !fits_bends;
     let mut causes: Vec<(f64, Cause)> = Vec::new();
-    let mut consider = |quantity: Quantity, units: Vec<Unit>, effect: fn(f64, f64) -> f64| {
+    let mut consider = |quantity: Quantity, effect: fn(f64, f64) -> f64| {
         let given = table.unit(quantity).0;
-        for unit in units.into_iter().filter(|unit| *unit != given) {
+        // Feet are too near to km/h.
+        let is_other = |unit: &Unit| *unit != given && *unit != SpeedUnit::FootPerSecond.unit();
+        for unit in quantity.dimension().units().filter(is_other) {
             causes.push((near(surge, effect(given.in_si, unit.in_si)), Cause::Unit(quantity, unit)));
         }
     };
     if of_others {
-        // Feet are too near to km/h.
-        let speeds = SpeedUnit::ALL.iter().filter(|unit| **unit != SpeedUnit::FootPerSecond);
-        consider(Quantity::Speed, speeds.map(|unit| unit.unit()).collect(), |given, other| given / other);
+        consider(Quantity::Speed, |given, other| given / other);
         if conventions.gravity == Gravity::Removed {
-            let forces = ForceUnit::ALL.iter().map(|unit| unit.unit()).collect();
-            consider(Quantity::Force(0), forces, |given, other| other / given);
+            consider(Quantity::Force(0), |given, other| other / given);
         }
     }
     if of_time {
-        let times = TimeUnit::ALL.iter().map(|unit| unit.unit()).collect();
-        consider(Quantity::Time, times, |given, other| other / given);
+        consider(Quantity::Time, |given, other| other / given);
     }
     if of_others && sway.is_some() && conventions.gravity == Gravity::Included {
         let (unit, units) = (table.unit(Quantity::Force(0)).0, [ForceUnit::MetrePerSecondSquared, ForceUnit::Gravity]);
@@ -215,9 +208,7 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
         }
     }
     if of_others {
-        for factor in [0.01, 0.001] {
-            causes.push((near(surge, 1.0 / factor), Cause::SpeedScale(factor)));
-        }
+        causes.extend([0.01, 0.001].map(|factor| (near(surge, 1.0 / factor), Cause::SpeedScale(factor))));
     }
     let nearest =
         causes.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(distance, _)| *distance < UNIT_TOLERANCE);
@@ -269,12 +260,10 @@ fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool
 /// A unit of the rates that explains the ratio of what they should be and what they are.
 fn rate_unit(table: &Table, ratio: f64, fact: &str) -> Option<Message> {
     let given = table.unit(Quantity::Rate(2)).0;
-    let others = RateUnit::ALL.iter().map(|unit| unit.unit()).filter(|other| *other != given);
-    let other = others.min_by(|a, b| {
-        let distance = |unit: &Unit| (ratio * given.in_si / unit.in_si).ln().abs();
-        distance(a).total_cmp(&distance(b))
-    })?;
-    let is_near = ratio > 0.0 && (ratio * given.in_si / other.in_si).ln().abs() < RATE_TOLERANCE;
+    let distance = |unit: &Unit| (ratio * given.in_si / unit.in_si).ln().abs();
+    let others = Dimension::Rate.units().filter(|other| *other != given);
+    let other = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let is_near = ratio > 0.0 && distance(&other) < RATE_TOLERANCE;
     is_near.then(|| {
         message![
             format!("{fact}: the angular velocities seem to be in {}, not in {}: ", other.word, given.word),

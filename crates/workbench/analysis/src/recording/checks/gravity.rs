@@ -67,11 +67,7 @@ fn is_steady_bend(median: &Vector3<f64>, inputs: &[Input]) -> bool {
 
 /// Gravity in counts of a sensor, and its scale.
 fn counts(size: f64, conventions: &Conventions) -> Message {
-    let scaled = |axis: usize| {
-        let quantity = Quantity::Force(axis);
-        format!("{}={} / {size:.0}", quantity.key(), conventions.column(quantity))
-    };
-    let columns = given("columns", format!("\"{}\"", [0, 1, 2].map(scaled).join(",")));
+    let columns = conventions.scaled(&[0, 1, 2].map(Quantity::Force), &format!("/ {size:.0}"));
     let unit = given("force-unit", "g");
     message![
         "which is gravity in no unit: if they are counts of the sensor, its scale factor is about {size:.0} a g, and the \

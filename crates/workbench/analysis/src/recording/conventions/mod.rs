@@ -20,6 +20,7 @@ mod options;
 
 use std::collections::BTreeMap;
 
+use crate::message::{Remedy, given};
 pub use crate::recording::columns::Quantity;
 pub use crate::recording::columns::units::{
     AngleUnit, Dimension, ForceUnit, LengthUnit, RateUnit, SpeedUnit, TimeUnit, Unit,
@@ -85,6 +86,12 @@ impl Conventions {
     pub fn turned_column(&self, quantity: Quantity) -> String {
         let name = self.column(quantity);
         name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned)
+    }
+
+    /// The remedy that scales columns: `scale` stands behind each name.
+    pub fn scaled(&self, quantities: &[Quantity], scale: &str) -> Remedy {
+        let scaled = |&quantity: &Quantity| format!("{}={} {scale}", quantity.key(), self.column(quantity));
+        given("columns", format!("\"{}\"", quantities.iter().map(scaled).collect::<Vec<_>>().join(",")))
     }
 
     /// True for a quantity that a recording must have.

@@ -10,7 +10,7 @@ use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
 use moris_interface::shown;
 
 use crate::message::{Message, given, message, named};
-use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
+use crate::recording::conventions::{Conventions, Dimension, Quantity, Unit};
 use crate::recording::message::RecordingError;
 
 /// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
@@ -51,15 +51,17 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
 fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingError> {
     let usual = usual_step(&table.time);
     let (unit, _) = table.unit(Quantity::Time);
-    let others = TimeUnit::ALL.iter().map(|other| other.unit());
     let rate = |other: Unit| unit.in_si / (usual * other.in_si);
     let fits = |other: &Unit| (4.0..=2000.0).contains(&rate(*other));
-    let fitting: Vec<String> =
-        others.filter(fits).map(|other| format!("{} if it is in {}", shown(rate(other).round()), other.word)).collect();
+    let fitting: Vec<String> = Dimension::Time
+        .units()
+        .filter(fits)
+        .map(|other| format!("{} if it is in {}", shown(rate(other).round()), other.word))
+        .collect();
     let fitting = if fitting.is_empty() { String::new() } else { format!(" ({})", fitting.join(", ")) };
     let reason = if usual > COARSEST && TICKS.contains(&(table.time[0] / unit.in_si)) {
-        let scaled = format!("\"time={} / 10000000\"", conventions.column(Quantity::Time));
-        message!["these are ticks of 100 ns, as Windows counts them; use ", given("columns", scaled)]
+        let scaled = conventions.scaled(&[Quantity::Time], "/ 10000000");
+        message!["these are ticks of 100 ns, as Windows counts them; use ", scaled]
     } else if usual > COARSEST {
         message![
             "too coarse for a washout",
@@ -107,9 +109,8 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     };
     // The sample that is farthest off rarely has the unusual step. So the first
     // unusual step is named.
-    let step_to = |k: usize| table.time[k] - table.time[k - 1];
-    let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
-    let step = step_to(odd);
+    let odd = (1..table.time.len()).find(|&k| (step_to(table, k) - usual).abs() > JITTER * usual).unwrap_or(off);
+    let step = step_to(table, odd);
     let reason = message![
         "the samples do not come at equal steps: here {step:.4} s after the one before, otherwise {usual:.4} s; ",
         given("resample", format!("{:.0}", 1.0 / usual)),
