@@ -144,14 +144,8 @@ impl FeltTable {
             let found = samples.columns.iter().find(|(other, _)| *other == place);
             found.map(|(_, values)| values.clone()).unwrap_or_default()
         };
-        let time = match (&sheet.time, sheet.has_written_times) {
-            (None, _) => None,
-            (Some(_), true) => Some(samples.time.clone()),
-            (Some(terms), false) => {
-                let (unit, _) = sheet.header.time_unit(terms, &conventions).map_err(|reason| sheet.refused(reason))?;
-                Some(samples.time.iter().map(|time| time * unit.in_si).collect())
-            }
-        };
+        let unit = sheet.time.as_ref().map(|terms| sheet.time_unit(terms, &conventions)).transpose()?;
+        let time = unit.map(|(unit, _)| samples.time.iter().map(|time| time * unit.in_si).collect());
         Self::of(source::name(file), &sheet.header, time, column).map_err(|reason| sheet.refused(reason))
     }
 

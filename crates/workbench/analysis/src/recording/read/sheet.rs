@@ -10,8 +10,8 @@ use super::text::{Text, text};
 use super::time::is_written_out;
 use super::{serial, source, tagged, vbox};
 use crate::message::{Message, given, message};
-use crate::recording::columns::{Header, Term};
-use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::columns::{Header, Term, UnitSource};
+use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
 use crate::recording::message::RecordingError;
 
 /// Lines that show a form.
@@ -93,6 +93,14 @@ impl Sheet {
         let rate = given("rate", "HERTZ");
         self.refused(message!["there is no column {time}; if its samples come at equal steps, use ", rate])
     }
+
+    /// The unit of its samples' times and its source: seconds where they are written out.
+    pub fn time_unit(&self, terms: &[Term], conventions: &Conventions) -> Result<(Unit, UnitSource), RecordingError> {
+        if self.has_written_times {
+            return Ok((TimeUnit::Second.unit(), UnitSource::Header));
+        }
+        self.header.time_unit(terms, conventions).map_err(|reason| self.refused(reason))
+    }
 }
 
 /// True where each line stands in quotation marks as a whole.
@@ -137,7 +145,8 @@ fn descriptions(
     let mut record = next()?.unwrap_or_default();
     let has_number = |record: &StringRecord| record.iter().any(|field| is_number(field) || is_written_out(field));
     // A line that describes the columns, between their names and their units.
-    let is_description = record.len() == header.width() && !has_number(&record) && !record.iter().all(is_word_for_none);
+    let is_description =
+        record.len() == header.width() && !has_number(&record) && !record.iter().all(|field| is_empty(Some(field)));
     if !header.take_units(record.iter()) {
         let units = if is_description { next()?.unwrap_or_default() } else { return Ok(record) };
         if !header.take_units(units.iter()) {
@@ -154,11 +163,6 @@ fn descriptions(
         record = next()?.unwrap_or_default();
     }
     Ok(record)
-}
-
-/// True for a field without a value.
-fn is_word_for_none(field: &str) -> bool {
-    is_empty(Some(field))
 }
 
 /// True for a line without any text, also one of separators alone, and for one that underlines.

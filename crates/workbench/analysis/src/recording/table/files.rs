@@ -6,7 +6,7 @@ use super::clocks::Clock;
 use super::join::{self, Part};
 use super::{Table, gaps, placeholders};
 use crate::recording::columns::{Column, Header, UnitSource, value_places};
-use crate::recording::conventions::{Conventions, TimeUnit};
+use crate::recording::conventions::Conventions;
 use crate::recording::message::RecordingError;
 use crate::recording::read::{Samples, Sheet, source};
 
@@ -104,15 +104,14 @@ fn samples(
     let mut samples = sheet.samples(places, conventions)?;
     if conventions.rate.is_none() {
         let terms = sheet.time.clone().ok_or_else(|| sheet.without_time(conventions))?;
-        let is_written = sheet.has_written_times;
-        let (unit, source) = if is_written {
-            (TimeUnit::Second.unit(), UnitSource::Header)
-        } else {
-            sheet.header.time_unit(&terms, conventions).map_err(|reason| sheet.refused(reason))?
+        let (unit, source) = sheet.time_unit(&terms, conventions)?;
+        let clock = Clock {
+            time: &mut samples.time,
+            unit: unit.in_si,
+            factor: if let [one] = &terms[..] { one.factor } else { 1.0 },
+            is_open: source == UnitSource::Default,
+            is_written: sheet.has_written_times,
         };
-        let (unit, is_open) = (unit.in_si, source == UnitSource::Default);
-        let factor = if let [one] = &terms[..] { one.factor } else { 1.0 };
-        let clock = Clock { time: &mut samples.time, unit, factor, is_open, is_written };
         samples.warnings.extend(clock.into_seconds());
     }
     gaps::fill(&mut samples, sheet, layout)?;
