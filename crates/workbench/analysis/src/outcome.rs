@@ -3,12 +3,11 @@
 use moris_setup::Setup;
 use moris_simulation::advice::Advice;
 use moris_simulation::foreign::ForeignMotion;
-use moris_simulation::measures::bound::BoundError;
 use moris_simulation::measures::{Axes, Measures};
 use moris_simulation::preview::Previewer;
 use moris_simulation::{Evaluated, Simulation, measures};
 
-use crate::bounds::{AxisBound, bounds};
+use crate::bounds::AxisBound;
 use crate::error::Result;
 use crate::recording::Recording;
 
@@ -82,14 +81,6 @@ impl Outcome {
     pub fn evaluated(&self) -> Evaluated<'_> {
         let bounds = self.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error));
         Evaluated { simulation: &self.simulation, measures: &self.measures, bounds, advice: self.advice }
-    }
-
-    /// The bounds of its recording on its rig.
-    ///
-    /// # Errors
-    /// The recording is too short, or the solver fails.
-    pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>, BoundError> {
-        bounds(&self.simulation)
     }
 }
 

@@ -321,7 +321,8 @@ fn outcomes(
             let is_same = |other: &&Outcome| other.setup.parameters == outcomes[index].setup.parameters;
             outcomes[index].bounds = match outcomes[..index].iter().find(is_same) {
                 Some(same) => same.bounds.clone(),
-                None => outcomes[index].bounds().context("cannot compute the bound (--no-bound omits it)")?,
+                None => bounds::bounds(&outcomes[index].simulation)
+                    .context("cannot compute the bound (--no-bound omits it)")?,
             };
         }
     }
