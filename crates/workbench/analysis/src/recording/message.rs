@@ -1,4 +1,4 @@
-//! Reasons why a recording cannot be simulated.
+//! Errors of recordings, and quotations of the file.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use moris_interface::shown;
 
 use crate::message::{Message, Words};
+
+/// Longest text of a file that a message quotes \[characters\].
+const LONGEST_QUOTE: usize = 40;
 
 /// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
@@ -45,4 +48,14 @@ impl RecordingError {
             RecordingError::Read { .. } | RecordingError::Option { .. } => self.to_string(),
         }
     }
+}
+
+/// Text of a file for a message: shortened, and without control characters.
+pub fn quoted(text: &str) -> String {
+    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let mut quoted: String = text.chars().take(LONGEST_QUOTE).map(visible).collect();
+    if text.chars().nth(LONGEST_QUOTE).is_some() {
+        quoted.push('…');
+    }
+    quoted
 }
