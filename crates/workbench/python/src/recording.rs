@@ -97,17 +97,11 @@ impl PyRecording {
 /// Names, units and axes by the options' names, with underscores for hyphens.
 fn conventions(options: &Bound<PyDict>) -> PyResult<Conventions> {
     let py = options.py();
+    // All numbers among the options are real.
+    let real = |value| if let Value::Integer(number) = value { Value::Float(number as f64) } else { value };
     let given: Table = table(options)?.into_iter().map(|(name, value)| (name.replace('_', "-"), real(value))).collect();
     let refused = |message: String| error::recording(py, message);
     let options: ConventionOptions =
         toml::from_str(&given.to_string()).map_err(|error| refused(error.message().to_owned()))?;
     options.load().map_err(|error| refused(error.worded(argument)))
-}
-
-/// Whole numbers as reals: all numbers among the options are.
-fn real(value: Value) -> Value {
-    match value {
-        Value::Integer(number) => Value::Float(number as f64),
-        other => other,
-    }
 }

@@ -51,11 +51,8 @@ type State = (
     Vec<Output>,
     Vec<[f64; 3]>,
     bool,
-    Option<(MotionState, Vec<String>)>,
+    Option<(ForeignMotion, Vec<String>)>,
 );
-
-/// The parts of a motion.
-type MotionState = (Option<Vec<[f64; 3]>>, Option<Vec<[f64; 3]>>, Option<Vec<[f64; 6]>>, Option<Vec<[f64; 6]>>);
 
 /// A simulated recording.
 #[pyclass(frozen, module = "moris._moris", name = "Simulation")]
@@ -84,7 +81,7 @@ impl PySimulation {
         road: Option<PathBuf>,
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
-        let host = Host { learns: learn, ..host(preview)? };
+        let host = host(preview)?;
         check_preview(&setup, preview).map_err(PyValueError::new_err)?;
         check_learning(&setup, &recording.inner, preview, learn).map_err(PyValueError::new_err)?;
         let recording = Arc::clone(&recording.inner);
@@ -143,6 +140,7 @@ impl PySimulation {
         let setup = &self.outcome.setup;
         let evaluated = self.outcome.evaluated();
         let findings = evaluated.findings().into_iter().map(|finding| finding.text).collect();
+        let measure = |row: Row| (row.subject, row.name, row.value, row.unit, row.definition, row.source);
         let measures = evaluated.rows().into_iter().map(measure).collect();
         let names = [setup.rig_name.as_str(), &setup.parameters_name];
         let parameters = parameter_dict(py, &setup.parameters)?;
@@ -176,10 +174,7 @@ impl PySimulation {
             simulation.outputs.clone(),
             simulation.felt_within_steps.iter().map(|felt| (*felt).into()).collect(),
             bounds.iter().any(Option::is_some),
-            self.judged.as_ref().map(|(motion, notes)| {
-                let ForeignMotion { force, rate, pose, legs } = motion.clone();
-                ((force, rate, pose, legs), notes.clone())
-            }),
+            self.judged.clone(),
         );
         let bytes = postcard::to_allocvec(&(guid::<Washout>(), state))
             .map_err(|reason| PyValueError::new_err(reason.to_string()))?;
@@ -200,8 +195,6 @@ impl PySimulation {
         let [parameters, rig_alone] = parameters;
         let felt_within_steps = felt.into_iter().map(Into::into).collect();
         let setup = Setup { rig_name, parameters_name, parameters, rig_alone, actuator_diameter: None };
-        let judged =
-            judged.map(|((force, rate, pose, legs), notes)| (ForeignMotion { force, rate, pose, legs }, notes));
         let outcome = match &judged {
             Some((motion, notes)) => {
                 Outcome::foreign(&recording.inner, &setup, &setup.parameters_name, motion, notes.clone())
@@ -246,11 +239,10 @@ pub fn host(preview: f64) -> PyResult<Host> {
 /// # Errors
 /// Why not, and the argument that helps.
 pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), &'static str> {
-    match setup.parameters.structure.strategy {
-        StrategyKind::Predictive => Ok(()),
-        _ if preview > 0.0 => Err("preview is for the predictive strategy alone; add strategy=\"predictive\""),
-        _ => Ok(()),
+    if preview > 0.0 && setup.parameters.structure.strategy != StrategyKind::Predictive {
+        return Err("preview is for the predictive strategy alone; add strategy=\"predictive\"");
     }
+    Ok(())
 }
 
 /// The preview that a recording learns, and keeps in a file if there is one.
@@ -279,10 +271,6 @@ fn bounds_of(py: Python, simulation: &Simulation) -> PyResult<Axes<Option<AxisBo
     py.detach(|| bounds::bounds(simulation)).map_err(|reason| error::bound(py, &reason))
 }
 
-fn measure(row: Row) -> Measure {
-    (row.subject, row.name, row.value, row.unit, row.definition, row.source)
-}
-
 /// The bound on surge, sway and heave: least RMS error, RMS of the desired signal, and felt
 /// specific force of the best trajectory. None on an axis with no desired motion.
 ///
@@ -302,9 +290,9 @@ pub fn bound<'py>(
     let bounds = bounds_of(py, &simulation)?;
     let times = simulation.times();
     let of = |bound: &Option<AxisBound>| {
-        let AxisBound { bound: best, .. } = bound.as_ref()?;
-        let felt = times.iter().map(|time| best.trajectory.felt(*time)).collect();
-        Some((best.rms_error, bound.as_ref()?.desired_rms(), PyArray1::from_vec(py, felt)))
+        let bound = bound.as_ref()?;
+        let felt = times.iter().map(|time| bound.bound.trajectory.felt(*time)).collect();
+        Some((bound.bound.rms_error, bound.desired_rms(), PyArray1::from_vec(py, felt)))
     };
     Ok(bounds.iter().map(of).collect())
 }
@@ -331,5 +319,5 @@ pub fn parameter_values<'py>(
 pub fn parameter_file(py: Python, heading: &str, rig: Given, parameters: Given) -> PyResult<String> {
     let setup = setup::load(py, rig, parameters, None)?;
     let values = differing(&setup.parameters, &setup.rig_alone);
-    Ok(moris_setup::parameter_file::write(heading, &values, moris_washout::Parameters::ROWS))
+    Ok(moris_setup::parameter_file::write(heading, &values, Parameters::ROWS))
 }

@@ -15,9 +15,8 @@ use crate::setup::{self, Given};
 use crate::simulation::{check_preview, host};
 
 /// All measures of a sweep, on every axis: subject, name and unit.
-static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock::new(|| {
-    moris_simulation::measures::all_rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect()
-});
+static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> =
+    LazyLock::new(|| measures::all_rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect());
 
 /// The measures of a sweep: subject, name and unit.
 #[pyfunction]
@@ -50,16 +49,13 @@ pub fn sweep_chunk<'py>(
     let mut errors = Vec::with_capacity(sets.len());
     let mut setups = Vec::with_capacity(sets.len());
     for set in &sets {
-        match setup::load(py, rig, Some(set), strategy) {
-            Ok(setup) => match check_preview(&setup, preview) {
-                Ok(()) => (setups.push(Some(setup)), errors.push(None)),
-                Err(reason) => (setups.push(None), errors.push(Some(reason.to_owned()))),
-            },
-            Err(error) if error.is_instance(py, &refused) => {
-                (setups.push(None), errors.push(Some(error.value(py).to_string())))
-            }
+        let loaded = match setup::load(py, rig, Some(set), strategy) {
+            Ok(setup) => check_preview(&setup, preview).map(|()| setup).map_err(str::to_owned),
+            Err(error) if error.is_instance(py, &refused) => Err(error.value(py).to_string()),
             Err(error) => return Err(error),
         };
+        errors.push(loaded.as_ref().err().cloned());
+        setups.push(loaded.ok());
     }
     let recordings: Vec<Arc<Recording>> = recordings.iter().map(|recording| Arc::clone(&recording.inner)).collect();
     let count = recordings.len() * MEASURES.len();

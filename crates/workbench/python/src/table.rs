@@ -47,22 +47,13 @@ fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>>
                 Causality::Output => py.None().into_bound_py_any(py)?,
                 _ => variables.scalar(py, slot, values[slot])?,
             };
-            let name = variables.names[slot].clone();
+            let (name, causality) = (variables.names[slot].clone(), row.causality.name());
             let (kind, unit, items) = kind(row);
             let (of, usual, group) = (row.array_name(), row.usual, row.group);
-            rows.push((name, causality(row), kind, unit, least, greatest, start, items, row.text(), of, usual, group));
+            rows.push((name, causality, kind, unit, least, greatest, start, items, row.text(), of, usual, group));
         }
     }
     Ok(rows)
-}
-
-fn causality(row: &Row) -> &'static str {
-    match row.causality {
-        Causality::Input => "input",
-        Causality::Output => "output",
-        Causality::Parameter => "parameter",
-        _ => "independent",
-    }
 }
 
 fn kind(row: &Row) -> (&'static str, &'static str, Vec<&'static str>) {

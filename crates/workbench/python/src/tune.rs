@@ -189,10 +189,10 @@ impl PyTuning {
         })?;
         let was_interrupted = interrupted.load(Ordering::Relaxed);
         let text = summary::text(&self.before, &tuned, &results, fraction, was_interrupted, argument);
-        let errors = results.iter().map(|result| {
-            let error = |cost: Option<Cost>| cost.map(|cost| cost.error);
-            (result.name.clone(), result.before.error, error(result.tuned), error(result.unseen))
-        });
+        let error = |cost: Option<Cost>| cost.map(|cost| cost.error);
+        let errors = results
+            .iter()
+            .map(|result| (result.name.clone(), result.before.error, error(result.tuned), error(result.unseen)));
         Ok((
             parameter_dict(py, &tuned.parameters)?,
             text,

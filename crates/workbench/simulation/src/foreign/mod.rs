@@ -18,6 +18,7 @@ mod times;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{Input, Output, Parameters};
+use serde::{Deserialize, Serialize};
 
 use crate::Simulation;
 pub use error::ForeignError;
@@ -26,7 +27,7 @@ pub use times::on_samples;
 
 /// Motion of a platform as another washout commands it. Each series has a value for each sample of
 /// the recording, or, for finer steps, one for each of a whole number of equal parts of a step.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ForeignMotion {
     /// Felt specific force in head axes, gravity's reaction included \[m/s2\].
     pub force: Option<Vec<[f64; 3]>>,
