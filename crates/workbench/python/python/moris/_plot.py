@@ -20,9 +20,7 @@ RATES = ("roll rate", "pitch rate", "yaw rate")
 
 
 def _figure(figure: Any, size: tuple[float, float]) -> Any:
-    if figure is None:
-        figure = need("matplotlib.pyplot", "a plot").figure(figsize=size, layout="constrained")
-    return figure
+    return need("matplotlib.pyplot", "a plot").figure(figsize=size, layout="constrained") if figure is None else figure
 
 
 def plot(simulation: Simulation, figure: Any = None) -> Any:
@@ -48,12 +46,15 @@ def plot(simulation: Simulation, figure: Any = None) -> Any:
 def _channel(axis: Any, time: NDArray[Any], desired: NDArray[Any], felt: NDArray[Any], title: str) -> None:
     axis.plot(time, desired, color="0.6", linewidth=1.2, label="desired")
     axis.plot(time, felt, color="C0", linewidth=1.0, label="felt")
-    axis.set_title(title, fontsize="medium")
-    axis.grid(alpha=0.3)
+    _frame(axis, title)
 
 
 def _lines(axis: Any, time: NDArray[Any], values: NDArray[Any], title: str) -> None:
     axis.plot(time, values, linewidth=0.9)
+    _frame(axis, title)
+
+
+def _frame(axis: Any, title: str) -> None:
     axis.set_title(title, fontsize="medium")
     axis.grid(alpha=0.3)
 
@@ -65,8 +66,7 @@ def _limits(axis: Any, simulation: Simulation) -> None:
         axis.fill_between(simulation.time, height - 0.3, height + 0.3, where=active, color="C3", step="pre", linewidth=0)
     axis.set_yticks(range(3), list(flags), fontsize="small")
     axis.set_ylim(-0.6, 2.6)
-    axis.set_title("limits active", fontsize="medium")
-    axis.grid(alpha=0.3)
+    _frame(axis, "limits active")
 
 
 def plot_response(response: FrequencyResponse, figure: Any = None) -> Any:

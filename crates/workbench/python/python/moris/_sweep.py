@@ -233,6 +233,3 @@ def _elsewhere(workers: Workers, chunks: Iterator[list[ParameterSet]], cancelled
     finally:
         for future, _ in underway:
             future.cancel()
-
-
-__all__ = ["MEASURES", "Recording", "Result", "Sweep", "best", "sweep"]

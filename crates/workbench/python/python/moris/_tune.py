@@ -140,6 +140,7 @@ def tune(
     tuning = _moris.Tuning(*arguments)
     remote = None if executor is None else Workers(executor, workers, _moris.Tuning, arguments)
     searches = 1 + (min(folds, len(tuned_on)) if len(tuned_on) > 1 else 0)
+    costs = _moris.Tuning.costs
     bar = Progress(progress, searches * evaluations, "tuning", "set")
     begun: list[str] = []
 
@@ -157,7 +158,7 @@ def tune(
             folds,
             patience,
             observe,
-            None if remote is None else lambda *given: remote.result(remote.submit(_costs, *given), _costs, *given),
+            None if remote is None else lambda *given: remote.result(remote.submit(costs, *given), costs, *given),
             0 if remote is None else max(16, 2 * remote.count),
         )
     finally:
@@ -185,10 +186,3 @@ def _best(tune_one: Callable[[Strategy], Tuned]) -> Tuned:
     best = min(found.values(), key=lambda tuned: tuned.error)
     best.strategies = found
     return best
-
-
-def _costs(tuning: _moris.Tuning, names: list[str], values: Any) -> Any:
-    return tuning.costs(names, values)
-
-
-__all__ = ["Tuned", "tune"]
