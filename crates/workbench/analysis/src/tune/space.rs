@@ -137,38 +137,36 @@ impl Space {
 
     /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
     pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
-        let logarithm = |tuned: &Tuned| if tuned.is_in(TuningGroup::Scale) { factor.ln() } else { 0.0 };
-        let logarithms = self.tuned.iter().map(logarithm).collect();
-        self.clamped(&DVector::from_vec(logarithms)).0
+        self.moved(&DVector::zeros(self.dimension()), |tuned| tuned.is_in(TuningGroup::Scale).then_some(factor))
     }
 
     /// A point with other frequencies and another scale on one channel, 0 to 5: those of the start
     /// times these factors, as far as the box goes.
     pub fn with_channel(&self, point: &DVector<f64>, channel: usize, frequency: f64, scale: f64) -> DVector<f64> {
-        let mut moved = point.clone();
-        for (coordinate, tuned) in moved.iter_mut().zip(&self.tuned).filter(|(_, tuned)| tuned.channel == Some(channel))
-        {
-            if tuned.is_frequency() {
-                *coordinate = frequency.ln();
-            } else if tuned.is_in(TuningGroup::Scale) {
-                *coordinate = scale.ln();
-            }
-        }
-        self.clamped(&moved).0
+        self.moved(point, |tuned| match tuned.channel {
+            Some(of) if of != channel => None,
+            Some(_) if tuned.is_frequency() => Some(frequency),
+            Some(_) if tuned.is_in(TuningGroup::Scale) => Some(scale),
+            _ => None,
+        })
     }
 
     /// A point with other scales of surge, sway and all rates, and other frequencies of surge and
     /// sway. They are those of the start times these factors, as far as the box goes.
     pub fn with_all_channels(&self, point: &DVector<f64>, frequency: f64, scale: f64) -> DVector<f64> {
-        let mut moved = point.clone();
-        for (coordinate, tuned) in moved.iter_mut().zip(&self.tuned) {
-            match tuned.channel {
-                Some(0 | 1 | 3..) if tuned.is_in(TuningGroup::Scale) => *coordinate = scale.ln(),
-                Some(0 | 1) if tuned.is_frequency() => *coordinate = frequency.ln(),
-                _ => {}
-            }
-        }
-        self.clamped(&moved).0
+        self.moved(point, |tuned| match tuned.channel {
+            Some(0 | 1 | 3..) if tuned.is_in(TuningGroup::Scale) => Some(scale),
+            Some(0 | 1) if tuned.is_frequency() => Some(frequency),
+            _ => None,
+        })
+    }
+
+    /// A point with other coordinates where `factor` gives the ratio to the start, as far as the
+    /// box goes.
+    fn moved(&self, point: &DVector<f64>, factor: impl Fn(&Tuned) -> Option<f64>) -> DVector<f64> {
+        let coordinates = point.iter().zip(&self.tuned);
+        let moved = coordinates.map(|(coordinate, tuned)| factor(tuned).map_or(*coordinate, f64::ln));
+        self.clamped(&DVector::from_iterator(point.len(), moved)).0
     }
 
     /// The spaces in which the order number `k` of [`Orders`] has its other values; none unless
