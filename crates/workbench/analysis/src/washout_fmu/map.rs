@@ -12,6 +12,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::error::{About, Result, bail, ensure};
 use crate::recording::Quantity;
+use crate::recording::conventions::Gravity;
 use crate::recording::felt::Kind;
 use crate::recording::units::Dimension;
 
@@ -24,8 +25,8 @@ const STEPS: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
 pub struct Map {
     /// Communication step \[s\]; that of the recording if none is given.
     pub step: Option<f64>,
-    /// Gravity in `ax ay az`.
-    #[serde(default)]
+    /// Gravity in `ax ay az`, as an accelerometer measures it; removed, they are zero at rest.
+    #[serde(default = "included")]
     gravity: Gravity,
     /// Values of parameters and inputs at the start.
     #[serde(default)]
@@ -34,17 +35,6 @@ pub struct Map {
     pub inputs: BTreeMap<Quantity, MappedVariable>,
     /// Outputs, by the columns of a table of felt motion, or constants.
     pub outputs: BTreeMap<String, MappedOutput>,
-}
-
-/// Gravity in the specific force that the washout takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Gravity {
-    /// As an accelerometer measures: +g upward at rest.
-    #[default]
-    Included,
-    /// Zero at rest: the vehicle's acceleration.
-    Removed,
 }
 
 /// A variable, with its unit and sign.
@@ -69,6 +59,10 @@ pub struct MappedVariable {
 pub enum MappedOutput {
     Constant(f64),
     Variable(MappedVariable),
+}
+
+fn included() -> Gravity {
+    Gravity::Included
 }
 
 fn one() -> f64 {
