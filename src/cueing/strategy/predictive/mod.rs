@@ -20,7 +20,7 @@ pub mod program;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Rows, Status};
@@ -119,7 +119,8 @@ impl Law for Box<Predictive> {
         for (homing, cue) in self.homing.iter_mut().zip(cue) {
             homing.advance(cue, unknown, step);
         }
-        self.observe(*references, [0, 1].map(|k: usize| references[k] - cue[k]), step);
+        let rates = circumstances.angles.velocity;
+        self.observe(*references, [0, 1].map(|k: usize| references[k] - cue[k]), &rates, step);
         decisions.map(|decisions| {
             [0, 1].map(|k: usize| Decision {
                 dropped_force: decisions[k].dropped_force + self.homing[k].force(&states[k]),
@@ -245,9 +246,9 @@ impl Predictive {
 
     /// Advances by `step` seconds with these references of surge and sway; `beside` is the angular
     /// channel's part of them.
-    pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], step: f64) {
+    pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], rates: &Vector3<f64>, step: f64) {
         for (forecaster, beside) in self.forecasters.iter_mut().zip(beside) {
-            forecaster.set_beside(beside);
+            forecaster.set_angular(beside, rates);
         }
         let mut left = step;
         loop {

@@ -40,7 +40,7 @@ fn passed_in(
     let mut decisions = None;
     for _ in 0..steps {
         decisions = predictive.decide(states, surroundings, f64::INFINITY, 0.001);
-        predictive.observe(references, [0.0; 2], 0.001);
+        predictive.observe(references, [0.0; 2], &Vector3::zeros(), 0.001);
     }
     decisions
 }
@@ -166,7 +166,7 @@ fn the_dropped_force_is_continuous_from_plan_to_plan() {
             before[axis] = dropped;
             *state = moved(state, &decisions[axis], references[axis], STEP);
         }
-        predictive.observe(references, [0.0; 2], STEP);
+        predictive.observe(references, [0.0; 2], &Vector3::zeros(), STEP);
     }
     assert!(largest > 0.5 && steepest < 0.05, "{steepest} m/s2 in a step, {largest} m/s2 at most");
 }
@@ -219,7 +219,7 @@ fn a_plan_is_made_from_the_same_forecast_by_any_steps() {
         for k in (0..12_000).step_by(step) {
             // Constant over 60 ms.
             let reference = |phase: f64| 2.0 * (0.1 * (k / 60) as f64 + phase).sin();
-            predictive.observe([reference(0.0), reference(1.0)], [0.0; 2], 0.001 * step as f64);
+            predictive.observe([reference(0.0), reference(1.0)], [0.0; 2], &Vector3::zeros(), 0.001 * step as f64);
         }
         predictive
     };
@@ -273,7 +273,7 @@ fn each_axis_is_planned_for_its_own_reference() {
 fn begun(predictive: &mut Predictive, reference: f64, time_to_stop: f64) {
     let geometry = Geometry::from(&Rig::default());
     for _ in 0..1000 {
-        predictive.observe([reference; 2], [0.0; 2], 0.001);
+        predictive.observe([reference; 2], [0.0; 2], &Vector3::zeros(), 0.001);
     }
     predictive.begin(&[AxisState::default(); 2], &surroundings(&geometry), time_to_stop);
 }
@@ -393,7 +393,7 @@ fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds(
         for (axis, state) in states.iter_mut().enumerate() {
             *state = moved(state, &decisions[axis], references[axis], STEP);
         }
-        predictive.observe(references, [0.0; 2], STEP);
+        predictive.observe(references, [0.0; 2], &Vector3::zeros(), STEP);
     }
     // The ride is long and demands more than the platform can do.
     assert!(begun > 1000 && limited > 1000, "{begun} programs, {limited}");

@@ -1,21 +1,23 @@
 //! The forecast of one axis's reference over the horizon, learned while it is followed.
 //!
 //! Four experts forecast the reference's mean over each block, and its slow and fast part at the
-//! horizon's end. Each is linear in the reference and low-passes of it. Three are fixed. The fourth
-//! is the least-squares fit to what followed in the past (direct multi-step: one regression for
-//! each target), which forgets and falls back on a prior. The forecast is a mixture of the four,
-//! weighted by their latest errors.
+//! horizon's end. Three are fixed, and linear in the reference and low-passes of it. The fourth is
+//! the least-squares fit to what followed these and the angular velocity in the past. It forgets,
+//! and falls back on a prior (direct multi-step: one [regression] for each target). The forecast
+//! is a mixture of the four, weighted by their latest errors.
 //!
-//! Only the past enters: an error is used once the time that was forecast is over.
+//! Only the past enters: a target is used once the time that was forecast is over. So the fits of
+//! near blocks learn what has just happened.
 //!
 //! Where the reference is [previewed](super::preview), the preview replaces the mixture. After the
 //! preview's end, the mixture as of that time follows. Preview and mixture are weighted by their
 //! latest errors, as the experts are, so that a wrong preview loses its weight.
 
+mod regression;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::expected::{FADE_DECAY, Forecast};
@@ -23,23 +25,28 @@ use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLE
 use super::preview::{Ahead, Previewed, PreviewedCue, PreviewedCues};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
+use regression::{Covariance, FEATURES, Features, Regression};
 
 /// Time constants of the reference's low-passes \[s\]: those that the fit uses, and two for a
 /// trend.
-const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.06, 0.2, 0.6, 2.0, 6.0, 0.1, 0.3];
+const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.03, 0.1, 0.3, 1.0, 3.0, 0.6, 0.06];
 const LOW_PASSES: usize = 7;
 /// The low-pass that stands for the slow part of the reference.
-const SLOW: usize = 2;
+const SLOW: usize = 5;
+/// The one of the fit's low-passes that stands for it in the prior.
+const FIT_SLOW: usize = 3;
 /// The low-pass that leaves out vibration alone.
-const QUICK: usize = 0;
+const QUICK: usize = 6;
 /// The two low-passes for a trend.
-const TREND: [usize; 2] = [5, 6];
-/// Number of features of the fit: the reference and its first five low-passes.
-const FEATURES: usize = 6;
+const TREND: [usize; 2] = [1, 2];
 /// Number of targets of a forecast: the means over the blocks, and the slow and the fast part
 /// at the horizon's end.
 const TARGETS: usize = BLOCKS + 2;
 const EXPERTS: usize = 4;
+/// Number of features that are forces: the reference and its low-passes of the fit.
+const FORCES: usize = 6;
+/// Variance of each angular velocity in the prior \[(rad/s)^2\].
+const RATE_VARIANCE: f64 = 0.1;
 
 /// Samples that are remembered: the horizon's and the present one.
 const MEMORY: usize = FORECAST_SAMPLES + 1;
@@ -48,8 +55,9 @@ const MEMORY: usize = FORECAST_SAMPLES + 1;
 const HOLD_DECAY: f64 = 0.02;
 /// Time constant with which a trend fades \[s\].
 const TREND_TIME: f64 = 1.5;
-/// The prior of the fit has the weight of samples over this time \[s\].
-const PRIOR_TIME: f64 = 1.0;
+/// The prior of a target's fit has the weight of samples over this fraction of the time to the
+/// target's end.
+const PRIOR_FRACTION: f64 = 0.1;
 /// Ridge of the prior \[(m/s2)^2\].
 const RIDGE: f64 = 3e-3;
 /// Poles \[rad/s\] and variances \[(m/s2)^2\] of the prior's reference: a sum of
@@ -70,14 +78,12 @@ const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
 const UNCERTAINTY_FACTOR: f64 = 1.6;
 /// The first block that is as long as the usual time between the elements of a preview.
 const RESOLVED: usize = 3;
-/// Samples from one fit to the next.
-const FIT_EVERY: u32 = 5;
+/// Samples from one fit of a target to the next.
+const FIT_EVERY: usize = 5;
 
-type Features = SVector<f64, FEATURES>;
 type Targets = SVector<f64, TARGETS>;
 /// A forecast that is linear in the features.
 type Linear = SMatrix<f64, TARGETS, FEATURES>;
-type Covariance = SMatrix<f64, FEATURES, FEATURES>;
 
 /// Forgetting time of the forecaster \[s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -101,11 +107,11 @@ pub struct Forecaster {
     /// A ring of [`MEMORY`] samples, the latest at `latest`.
     samples: Vec<StoredSample>,
     latest: u32,
-    /// Sums of x x' and x y' over the past, the prior included.
-    squares: Covariance,
-    products: SMatrix<f64, FEATURES, TARGETS>,
+    /// The fit of each target.
+    fits: [Regression; TARGETS],
     fitted: Linear,
-    until_fit: u32,
+    /// The targets that are fitted at a sample: one of [`FIT_EVERY`] parts of them.
+    turn: usize,
     /// Mean squared error of each expert on each target.
     errors: SMatrix<f64, EXPERTS, TARGETS>,
     /// The forecast without the preview.
@@ -113,6 +119,8 @@ pub struct Forecaster {
     courses: PreviewedCues,
     /// The part of the reference that is the angular channel's \[m/s2\].
     beside: f64,
+    /// Angular velocity that the angular channel cues \[rad/s\].
+    rates: Vector3<f64>,
     /// Mean squared errors of the means forecast without the preview and by it.
     preview_errors: [SVector<f64, BLOCKS>; 2],
 }
@@ -121,6 +129,7 @@ pub struct Forecaster {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct StoredSample {
     value: f64,
+    rates: Vector3<f64>,
     low_passes: SVector<f64, LOW_PASSES>,
     integral: f64,
     /// The fit's forecast.
@@ -131,8 +140,8 @@ struct StoredSample {
 
 impl StoredSample {
     fn features(&self) -> Features {
-        let low = &self.low_passes;
-        Features::new(self.value, low[0], low[1], low[2], low[3], low[4])
+        let (low, rates) = (&self.low_passes, &self.rates);
+        Features::from([self.value, low[0], low[1], low[2], low[3], low[4], rates.x, rates.y, rates.z])
     }
 
     /// Forecasts of the fixed experts at this instant: hold, trend, fade.
@@ -154,22 +163,24 @@ pub struct Tables {
     hold: [Targets; 2],
     fade: [Targets; 2],
     trend: Targets,
-    /// The sums x x' and x y' with which the fit starts, and to which it forgets.
-    prior_squares: Covariance,
-    prior_products: SMatrix<f64, FEATURES, TARGETS>,
+    /// What each target's fit starts with, and forgets to.
+    priors: [Regression; TARGETS],
 }
 
 impl Default for Tables {
     fn default() -> Self {
         let [slow, fast] = FADE_DECAY;
         let fade = [exponential(slow, true), exponential(fast, false)];
-        let prior_squares = (prior_covariance() + RIDGE * Covariance::identity()) * (PRIOR_TIME / SAMPLE);
+        let (covariance, linear) = (prior_covariance() + RIDGE * Covariance::identity(), from_features(&fade));
+        let ends = end_samples();
         Tables {
             hold: [exponential(HOLD_DECAY, true), exponential(HOLD_DECAY, false)],
             fade,
             trend: trend(),
-            prior_squares,
-            prior_products: prior_squares * from_features(&fade).transpose(),
+            priors: std::array::from_fn(|target| {
+                let samples = PRIOR_FRACTION * ends[target.min(BLOCKS - 1)] as f64;
+                Regression::new(samples * covariance, &linear.row(target).transpose())
+            }),
         }
     }
 }
@@ -202,7 +213,7 @@ fn trend() -> Targets {
 fn from_features([slow, fast]: &[Targets; 2]) -> Linear {
     let mut linear = Linear::zeros();
     linear.set_column(0, fast);
-    linear.set_column(1 + SLOW, &(slow - fast));
+    linear.set_column(1 + FIT_SLOW, &(slow - fast));
     linear
 }
 
@@ -211,6 +222,9 @@ fn prior_covariance() -> Covariance {
     // The reference itself is a low-pass without lag.
     let pole = |feature: usize| if feature == 0 { f64::INFINITY } else { 1.0 / TIME_CONSTANTS[feature - 1] };
     Covariance::from_fn(|i, j| {
+        if i.max(j) >= FORCES {
+            return if i == j { RATE_VARIANCE } else { 0.0 };
+        }
         let (a, b) = (pole(i), pole(j));
         PRIOR.iter().fold(0.0, |sum, &(s, variance)| {
             sum + variance
@@ -235,14 +249,14 @@ impl Forecaster {
             decays: SVector::zeros(),
             samples: vec![StoredSample::default(); MEMORY],
             latest: 0,
-            squares: tables.prior_squares,
-            products: tables.prior_products,
+            fits: tables.priors,
             fitted: from_features(&tables.fade),
-            until_fit: 0,
+            turn: 0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
             courses: PreviewedCues::default(),
             beside: 0.0,
+            rates: Vector3::zeros(),
             preview_errors: [LEAST_ERROR, UNPROVED].map(SVector::repeat),
         }
     }
@@ -275,9 +289,11 @@ impl Forecaster {
         self.courses.length()
     }
 
-    /// The part of the reference that is the angular channel's \[m/s2\].
-    pub fn set_beside(&mut self, beside: f64) {
+    /// The part of the reference that is the angular channel's \[m/s2\], and the angular velocity
+    /// that it cues \[rad/s\].
+    pub fn set_angular(&mut self, beside: f64, rates: &Vector3<f64>) {
         self.beside = beside;
+        self.rates = *rates;
     }
 
     /// The forecast over the blocks of a horizon, by the preview where there is one.
@@ -339,6 +355,7 @@ impl Forecaster {
         self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
         let mut now = StoredSample {
             value: self.value,
+            rates: self.rates,
             low_passes: self.low_passes,
             integral: self.integral,
             ..StoredSample::default()
@@ -387,14 +404,9 @@ impl Forecaster {
         let keep = libm::exp(-SAMPLE / memory.selection);
         let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
         let end_samples = end_samples();
-        let now = self.ago(0);
         for target in 0..TARGETS {
             let age = end_samples[target.min(BLOCKS - 1)];
-            let truth = match target {
-                BLOCKS => now.low_passes[SLOW],
-                target if target > BLOCKS => now.value - now.low_passes[SLOW],
-                block => self.mean(block, 0),
-            };
+            let truth = self.truth(target);
             let then = self.ago(age);
             let [hold, trend, fade] = then.fixed_forecasts(tables);
             for (expert, forecast) in [hold, trend, fade, then.fitted].iter().enumerate() {
@@ -412,27 +424,32 @@ impl Forecaster {
         }
     }
 
-    /// Adds the oldest sample, and what followed it, to the fit's sums. Fits
-    /// anew every few samples.
+    /// Adds what has just become known of each target, and the sample that it followed, to the
+    /// fit's sums. Fits a part of the targets anew.
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
-        let x = self.ago(FORECAST_SAMPLES).features();
-        let now = self.ago(0);
-        let end_samples = end_samples();
-        let y = Targets::from_fn(|target, _| match target {
-            BLOCKS => now.low_passes[SLOW],
-            target if target > BLOCKS => now.value - now.low_passes[SLOW],
-            block => self.mean(block, FORECAST_SAMPLES - end_samples[block]),
-        });
         let keep = libm::exp(-SAMPLE / memory.fit);
-        self.squares = keep * self.squares + (1.0 - keep) * tables.prior_squares + x * x.transpose();
-        self.products = keep * self.products + (1.0 - keep) * tables.prior_products + x * y.transpose();
-        if self.until_fit == 0 {
-            self.until_fit = FIT_EVERY;
-            if let Some(factor) = self.squares.cholesky() {
-                self.fitted = factor.solve(&self.products).transpose();
+        let end_samples = end_samples();
+        for target in 0..TARGETS {
+            let x = self.ago(end_samples[target.min(BLOCKS - 1)]).features();
+            let y = self.truth(target);
+            self.fits[target].add(keep, &tables.priors[target], &x, y);
+        }
+        self.turn = (self.turn + 1) % FIT_EVERY;
+        for target in (self.turn..TARGETS).step_by(FIT_EVERY) {
+            if let Some(coefficients) = self.fits[target].coefficients() {
+                self.fitted.set_row(target, &coefficients.transpose());
             }
         }
-        self.until_fit = self.until_fit.saturating_sub(1);
+    }
+
+    /// A target whose time has just ended.
+    fn truth(&self, target: usize) -> f64 {
+        let now = self.ago(0);
+        match target {
+            BLOCKS => now.low_passes[SLOW],
+            target if target > BLOCKS => now.value - now.low_passes[SLOW],
+            block => self.mean(block, 0),
+        }
     }
 
     /// The experts' forecasts, each target weighted by the inverse fourth power of

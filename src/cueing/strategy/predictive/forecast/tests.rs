@@ -94,7 +94,7 @@ fn low_passes_follow_a_step_as_exponentials() {
 fn the_priors_covariance_is_that_of_a_simulated_process() {
     // An Ornstein-Uhlenbeck process of one pole through one low-pass, by its Lyapunov equation.
     let covariance = prior_covariance();
-    for (feature, time) in TIME_CONSTANTS[..FEATURES - 1].iter().enumerate() {
+    for (feature, time) in TIME_CONSTANTS[..FORCES - 1].iter().enumerate() {
         let a = 1.0 / time;
         let (mut variance, mut with_input) = (0.0, 0.0);
         for (s, input_variance) in PRIOR {
@@ -107,13 +107,18 @@ fn the_priors_covariance_is_that_of_a_simulated_process() {
         assert!((covariance[(feature + 1, feature + 1)] - variance).abs() < 1e-12);
     }
     // Two low-passes of one reference: (a + b) E y z = a E u z + b E u y.
-    for (i, a) in TIME_CONSTANTS[..FEATURES - 1].iter().map(|time| 1.0 / time).enumerate() {
-        for (j, b) in TIME_CONSTANTS[..FEATURES - 1].iter().map(|time| 1.0 / time).enumerate() {
+    for (i, a) in TIME_CONSTANTS[..FORCES - 1].iter().map(|time| 1.0 / time).enumerate() {
+        for (j, b) in TIME_CONSTANTS[..FORCES - 1].iter().map(|time| 1.0 / time).enumerate() {
             let expected = (a * covariance[(0, j + 1)] + b * covariance[(0, i + 1)]) / (a + b);
             assert!((covariance[(i + 1, j + 1)] - expected).abs() < 1e-12);
         }
     }
     assert!((covariance[(0, 0)] - 1.0).abs() < 1e-12);
+    // The angular velocities know nothing of the forces, nor of each other.
+    for rate in FORCES..FEATURES {
+        let column = covariance.column(rate);
+        assert_eq!((column[rate], column.amax(), column.sum()), (RATE_VARIANCE, RATE_VARIANCE, RATE_VARIANCE));
+    }
     assert_eq!(covariance, covariance.transpose());
 }
 
@@ -121,6 +126,11 @@ fn the_priors_covariance_is_that_of_a_simulated_process() {
 fn lively(time: f64) -> f64 {
     let pulse = if (time % 7.0) < 1.5 { 1.2 } else { 0.0 };
     1.5 * (0.9 * time).sin() + 0.6 * (3.7 * time).cos() + pulse + 0.1 * time.sqrt()
+}
+
+/// Angular velocities beside it.
+fn lively_rates(time: f64) -> Vector3<f64> {
+    Vector3::new(0.4 * (1.1 * time).sin(), 0.2 * (2.3 * time).cos(), 0.1 * (0.4 * time).sin())
 }
 
 /// All samples of a reference, 1 ms apart, and from them without recursions what a forecaster
@@ -147,6 +157,7 @@ impl Plain {
         for value in &self.values[(n - 1) * PER_SAMPLE..n * PER_SAMPLE] {
             forecaster.advance(*value, 0.001);
         }
+        forecaster.set_angular(0.0, &lively_rates(n as f64 * SAMPLE));
     }
 
     fn value(&self, n: usize) -> f64 {
@@ -162,27 +173,25 @@ impl Plain {
 
     /// The features at a sample.
     fn features(&self, n: isize) -> Features {
-        if n < 0 {
+        if n < 1 {
             return Features::zeros();
         }
         let n = n as usize;
-        Features::from_fn(|k, _| if k == 0 { self.value(n) } else { self.low_passes[n][k - 1] })
+        let rates = lively_rates(n as f64 * SAMPLE);
+        Features::from_fn(|k, _| match k {
+            0 => self.value(n),
+            k if k < FORCES => self.low_passes[n][k - 1],
+            k => rates[k - FORCES],
+        })
     }
 
-    /// Course after a sample, or before it where the horizon is not over: the targets as of
-    /// sample `now`, for forecasts of their own ages.
-    fn truth(&self, start: isize, now: isize) -> Targets {
-        let slow = self.low_passes[now as usize][SLOW];
-        let mut begin = start;
-        Targets::from_fn(|k, _| match k {
-            BLOCKS => slow,
-            k if k > BLOCKS => self.value(now as usize) - slow,
-            block => {
-                let from = begin;
-                begin += SAMPLES[block] as isize;
-                self.mean(from, begin)
-            }
-        })
+    /// A target whose time ends at a sample.
+    fn truth(&self, target: usize, now: usize) -> f64 {
+        match target {
+            BLOCKS => self.low_passes[now][SLOW],
+            target if target > BLOCKS => self.value(now) - self.low_passes[now][SLOW],
+            block => self.mean(now as isize - SAMPLES[block] as isize, now as isize),
+        }
     }
 
     /// The fixed experts at a sample: hold, trend and fade, by integrals of their courses.
@@ -192,7 +201,7 @@ impl Plain {
         }
         let n = n as usize;
         let (slow, fast) = (self.low_passes[n][SLOW], self.value(n) - self.low_passes[n][SLOW]);
-        let slope = (self.low_passes[n][5] - self.low_passes[n][6]) / 0.2;
+        let slope = (self.low_passes[n][TREND[0]] - self.low_passes[n][TREND[1]]) / 0.2;
         let course = |slow_decay: f64, fast_decay: f64| {
             let part = |value: f64, decay: f64, time: f64| value * (-decay * time).exp();
             let means = means(|time| part(slow, slow_decay, time) + part(fast, fast_decay, time), 0.0);
@@ -216,18 +225,22 @@ fn low_pass(values: &[f64], time: f64) -> f64 {
     (first..values.len()).map(|k| values[k] * (decay(values.len() - k - 1) - decay(values.len() - k))).sum()
 }
 
-/// The fit at a sample: least squares over all that has followed, with the weight of its age, and
-/// with the prior.
+/// The fit at a sample: for each target, least squares over all that has followed, with the weight
+/// of its age, and with the prior.
 fn plain_fit(plain: &Plain, tables: &Tables, n: usize) -> Linear {
-    let (mut squares, mut products) = (tables.prior_squares, tables.prior_products);
-    for k in 1..=n as isize {
-        let weight = (-SAMPLE * (n as f64 - k as f64) / MEMORY.fit).exp();
-        let start = k - FORECAST_SAMPLES as isize;
-        let x = plain.features(start);
-        squares += weight * x * x.transpose();
-        products += weight * x * plain.truth(start, k).transpose();
+    let mut fit = Linear::zeros();
+    for (target, prior) in tables.priors.iter().enumerate() {
+        let (mut squares, mut products) = (prior.squares, prior.products);
+        for k in 1..=n as isize {
+            let weight = (-SAMPLE * (n as f64 - k as f64) / MEMORY.fit).exp();
+            let start = k - end_samples()[target.min(BLOCKS - 1)] as isize;
+            let x = plain.features(start);
+            squares += weight * x * x.transpose();
+            products += weight * x * plain.truth(target, k as usize);
+        }
+        fit.set_row(target, &(squares.try_inverse().unwrap() * products).transpose());
     }
-    squares.try_inverse().unwrap().tr_mul(&products).transpose()
+    fit
 }
 
 #[test]
@@ -240,8 +253,12 @@ fn the_learned_forecast_is_that_of_plain_sums() {
     for n in 1..=samples {
         plain.advance(&mut forecaster, n);
         forecaster.sample(&tables, ForecastKind::Learned, &MEMORY);
-        // A fit every five samples.
-        let fit = if n % 5 == 1 { plain_fit(&plain, &tables, n) } else { fits[n - 1] };
+        // Each target is fitted every five samples.
+        let mut fit = fits[n - 1];
+        let newest = plain_fit(&plain, &tables, n);
+        for target in (0..TARGETS).filter(|target| target % 5 == n % 5) {
+            fit.set_row(target, &newest.row(target));
+        }
         assert!((forecaster.fitted - fit).amax() < 1e-6, "sample {n}: {}", (forecaster.fitted - fit).amax());
         fits.push(fit);
     }
@@ -262,11 +279,7 @@ fn the_learned_forecast_is_that_of_plain_sums() {
             let weight =
                 (1.0 - (-SAMPLE / MEMORY.selection).exp()) * (-SAMPLE * (samples - n) as f64 / MEMORY.selection).exp();
             let start = n as isize - age as isize;
-            let truth = match target {
-                BLOCKS => plain.low_passes[n][SLOW],
-                target if target > BLOCKS => plain.value(n) - plain.low_passes[n][SLOW],
-                block => plain.mean(n as isize - SAMPLES[block] as isize, n as isize),
-            };
+            let truth = plain.truth(target, n);
             for expert in 0..EXPERTS {
                 let forecast = if start < 0 { 0.0 } else { all[start as usize][expert][target] };
                 errors[(expert, target)] += weight * (forecast - truth).powi(2);
@@ -298,14 +311,48 @@ fn the_learned_forecast_is_that_of_plain_sums() {
 #[test]
 fn the_fit_begins_as_the_fading_expert_with_the_priors_weight() {
     let tables = Tables::default();
-    // The weight of a second of samples, 20 ms apart.
-    let expected = 50.0 * (prior_covariance() + 3e-3 * Covariance::identity());
-    assert!((tables.prior_squares - expected).amax() < 1e-12);
-    let fading = tables.prior_squares.try_inverse().unwrap() * tables.prior_products;
-    let sample =
-        StoredSample { value: 1.3, low_passes: SVector::from_fn(|k, _| 0.2 * k as f64), ..StoredSample::default() };
+    // A tenth of the samples of a block's time, of 3 s for the last.
+    for (target, samples) in [(0, 0.2), (4, 3.3), (BLOCKS - 1, 15.0), (TARGETS - 1, 15.0)] {
+        let expected = samples * (prior_covariance() + 3e-3 * Covariance::identity());
+        assert!((tables.priors[target].squares - expected).amax() < 1e-12, "target {target}");
+    }
+    // Two low-passes are the slow part: the fit's, and that of the fixed experts.
+    let mut low_passes = SVector::from_fn(|k, _| 0.2 * k as f64);
+    low_passes[SLOW] = low_passes[FIT_SLOW];
+    let sample = StoredSample { value: 1.3, low_passes, rates: Vector3::new(0.3, 0.2, 0.1), ..StoredSample::default() };
     let [.., fade] = sample.fixed_forecasts(&tables);
-    assert!((fading.tr_mul(&sample.features()) - fade).amax() < 1e-9);
+    for (target, prior) in tables.priors.iter().enumerate() {
+        let forecast = prior.coefficients().unwrap().dot(&sample.features());
+        assert!((forecast - fade[target]).abs() < 1e-9, "target {target}");
+    }
+}
+
+#[test]
+fn a_rate_that_leads_the_reference_is_learned() {
+    // The reference follows 0.2 s after the yaw rate, which nothing else foretells.
+    let noise =
+        |time: f64| (7.3 * time + 3.0 * (0.9 * time).sin()).sin() + (5.1 * time + 4.0 * (1.7 * time).cos()).sin();
+    let error = |leads: f64| {
+        let tables = Tables::default();
+        let mut forecaster = Forecaster::new(&tables);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for n in 0..4000 {
+            let time = f64::from(n) * SAMPLE;
+            for _ in 0..20 {
+                forecaster.advance(noise(time), 0.001);
+            }
+            forecaster.set_angular(0.0, &Vector3::new(0.0, 0.0, leads * noise(time + 0.2)));
+            forecaster.sample(&tables, ForecastKind::Learned, &MEMORY);
+            if n > 2000 {
+                // The third block is from 0.1 to 0.2 s.
+                sum += (forecaster.forecast.means[2] - noise(time + 0.15)).powi(2);
+                count += 1.0;
+            }
+        }
+        (sum / count).sqrt()
+    };
+    let (with, without) = (error(1.0), error(0.0));
+    assert!(with < 0.5 * without, "{with} beside {without}");
 }
 
 #[test]
@@ -437,7 +484,7 @@ fn the_angular_channels_part_of_the_reference_fades_over_a_preview() {
     let tables = Tables::default();
     let mut forecaster = followed(|_| 0.0, 1.0, ForecastKind::Hold);
     forecaster.preview(&course(|_| 0.0, 0.0, 8));
-    forecaster.set_beside(0.5);
+    forecaster.set_angular(0.5, &Vector3::zeros());
     let previewed = forecaster.previewed(&tables, ForecastKind::Hold).unwrap();
     assert!((previewed.ahead.last() - 0.5 * (-1.6_f64).exp()).abs() < 1e-12, "{}", previewed.ahead.last());
 }

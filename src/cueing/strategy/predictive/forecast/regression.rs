@@ -1,0 +1,35 @@
+//! The least-squares fit of one target: recursive sums with forgetting, and a prior.
+
+use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
+
+/// Number of features: the reference, its five low-passes of the fit, and the angular velocities.
+pub const FEATURES: usize = 9;
+pub type Features = SVector<f64, FEATURES>;
+pub type Covariance = SMatrix<f64, FEATURES, FEATURES>;
+
+/// Weighted sums of x x' and x y over the past, for features x and a target y.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Regression {
+    pub(super) squares: Covariance,
+    pub(super) products: Features,
+}
+
+impl Regression {
+    /// Sums of features of this covariance that the coefficients fit without an error.
+    pub fn new(covariance: Covariance, coefficients: &Features) -> Self {
+        Regression { squares: covariance, products: covariance * coefficients }
+    }
+
+    /// Forgets a part of the past in favour of the prior, and adds a sample.
+    pub fn add(&mut self, keep: f64, prior: &Regression, x: &Features, y: f64) {
+        self.squares = keep * self.squares + (1.0 - keep) * prior.squares + x * x.transpose();
+        self.products = keep * self.products + (1.0 - keep) * prior.products + x * y;
+    }
+
+    /// The coefficients with the least squared error; none where rounding makes the sums
+    /// indefinite.
+    pub fn coefficients(&self) -> Option<Features> {
+        self.squares.cholesky().map(|factor| factor.solve(&self.products))
+    }
+}
