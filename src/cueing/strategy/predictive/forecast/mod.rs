@@ -3,7 +3,7 @@
 //! Four experts forecast the reference's mean over each block, and its slow and fast part at the
 //! horizon's end. Three are fixed, and linear in the reference and low-passes of it. The fourth is
 //! the least-squares fit to what followed these and the angular velocity in the past. It forgets,
-//! and falls back on a prior (direct multi-step: one [regression] for each target). The forecast
+//! and falls back on a prior (direct multi-step: one regression for each target). The forecast
 //! is a mixture of the four, weighted by their latest errors.
 //!
 //! Only the past enters: a target is used once the time that was forecast is over. So the fits of
