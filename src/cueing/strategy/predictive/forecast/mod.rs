@@ -76,8 +76,8 @@ const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
 /// A preview has the same weight as the forecast without it where its squared errors are smaller by
 /// this factor. [`FORECAST_FLOOR`] is included in the forecast's errors.
 const UNCERTAINTY_FACTOR: f64 = 1.6;
-/// The first block that is as long as the usual time between the elements of a preview.
-const RESOLVED: usize = 3;
+/// The first block that is longer than the usual time between the elements of a preview.
+const RESOLVED: usize = 4;
 /// Samples from one fit of a target to the next.
 const FIT_EVERY: usize = 5;
 
