@@ -432,7 +432,7 @@ fn trust_falls_with_the_fourth_power_of_the_worst_ratio_of_errors() {
         let worst = blocks.iter().map(|&block| ratio(block)).fold(0.0, f64::max);
         1.0 / (1.0 + (1.6 * worst).powi(4))
     };
-    let near: [&[usize]; BLOCKS] = [&[0], &[1], &[2], &[3], &[3, 4], &[3, 4, 5], &[3, 4, 5, 6], &[3, 4, 5, 6, 7]];
+    let near: [&[usize]; BLOCKS] = [&[0], &[1], &[2], &[3], &[4], &[4, 5], &[4, 5, 6], &[4, 5, 6, 7]];
     // The near block that ends with the far one, or after it.
     let far = [near[1], near[3], near[4], near[5], near[6], near[7], near[7], near[7]];
     for (horizon, blocks) in [(Horizon::Near, near), (Horizon::Far, far)] {
