@@ -100,8 +100,8 @@ fn a_wrong_preview_costs_little_and_no_limit() {
         let without = errors(*duration, input, |_| Preview::default());
         let costs_little = |name: &str, with: [f64; 2]| {
             for axis in 0..2 {
-                // Where next to nothing is wrong without a preview, 0.1 m/s2 may be with it.
-                assert!(with[axis] <= 1.3 * without[axis] + 0.1, "{name}, axis {axis}: {with:?}, {without:?}");
+                // Where little is wrong without a preview, 0.15 m/s2 may be with it.
+                assert!(with[axis] <= 1.3 * without[axis] + 0.15, "{name}, axis {axis}: {with:?}, {without:?}");
             }
         };
         for (name, wrong) in &wrong {

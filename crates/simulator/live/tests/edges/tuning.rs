@@ -16,6 +16,13 @@ fn car(t: f64) -> Motion {
     Motion::new(force, Vector3::zeros(), Default::default(), 15.0 + 3.3 * (0.6 * t).sin())
 }
 
+/// The same until 40 s, from where its forces fade over 4 s.
+fn car_that_calms(t: f64) -> Motion {
+    let part = ((44.0 - t) / 4.0).clamp(0.0, 1.0);
+    let force = Vector3::new(2.0 * part * (0.6 * t).cos(), 1.5 * part * (0.7 * t).sin(), 9.80665);
+    Motion::new(force, Vector3::zeros(), Default::default(), 15.0)
+}
+
 /// A ride with a value of a parameter for each time, chosen at 25 Hz.
 fn tuned(parameters: &Parameters, name: &str, value: impl Fn(f64) -> Option<f64>) -> Course {
     let all = packets(40.0, |t| {
@@ -138,8 +145,8 @@ fn coin(mut seed: u64) -> impl FnMut() -> bool {
 
 #[test]
 fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
-    let all = packets(40.0, |t| {
-        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    let all = packets(70.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car_that_calms(t), ..Sample::default() } })
     });
     let limits = [("position", 0.074, 0.74), ("velocity", 0.2, 2.0), ("acceleration", 2.0, 20.0)];
     let limits = limits.map(|(name, low, high)| {
@@ -148,7 +155,7 @@ fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
     });
     let mut coin = coin(1);
     for ride in 0..8 {
-        let (session, course) = course(&Parameters::default(), &Settings::default(), &all, 39.0, |session| {
+        let (session, course) = course(&Parameters::default(), &Settings::default(), &all, 69.0, |session| {
             let step = (session.time() / STEP).round() as u64;
             if session.time() < 18.0 || !step.is_multiple_of(40) {
                 return;
@@ -164,8 +171,9 @@ fn smaller_limits_of_the_safety_units_wait_for_the_platform() {
             }
             session.retune().unwrap();
         });
-        let jolt = course.jolt(17.0, 38.0);
+        let jolt = course.jolt(17.0, 68.0);
         assert!(jolt <= 1.0, "ride {ride}: {jolt:.2} m/s2");
+        // In hard driving the platform may be nowhere where it could keep them.
         let safety = session.washout().parameters().safety;
         let sums = [safety.position_limit, safety.velocity_limit, safety.acceleration_limit].map(|limit| limit.sum());
         assert!(sums.iter().zip(&limits).all(|(sum, (_, low, _))| (sum - 3.0 * low).abs() < 1e-9), "{safety:?}");
