@@ -245,7 +245,7 @@ impl Predictive {
     }
 
     /// Advances by `step` seconds with these references of surge and sway; `beside` is the angular
-    /// channel's part of them.
+    /// channel's part of them, and `rates` the angular velocity that it cues.
     pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], rates: &Vector3<f64>, step: f64) {
         for (forecaster, beside) in self.forecasters.iter_mut().zip(beside) {
             forecaster.set_angular(beside, rates);

@@ -25,10 +25,10 @@ use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLE
 use super::preview::{Ahead, Previewed, PreviewedCue, PreviewedCues};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
-use regression::{Covariance, FEATURES, Features, Regression};
+use regression::{Covariance, FEATURES, FORCES, Features, Regression};
 
-/// Time constants of the reference's low-passes \[s\]: those that the fit uses, and two for a
-/// trend.
+/// Time constants of the reference's low-passes \[s\]: the five that the fit uses, and two for
+/// [`SLOW`] and [`QUICK`].
 const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.03, 0.1, 0.3, 1.0, 3.0, 0.6, 0.06];
 const LOW_PASSES: usize = 7;
 /// The low-pass that stands for the slow part of the reference.
@@ -43,8 +43,6 @@ const TREND: [usize; 2] = [1, 2];
 /// at the horizon's end.
 const TARGETS: usize = BLOCKS + 2;
 const EXPERTS: usize = 4;
-/// Number of features that are forces: the reference and its low-passes of the fit.
-const FORCES: usize = 6;
 /// Variance of each angular velocity in the prior \[(rad/s)^2\].
 const RATE_VARIANCE: f64 = 0.1;
 
@@ -172,17 +170,21 @@ impl Default for Tables {
         let [slow, fast] = FADE_DECAY;
         let fade = [exponential(slow, true), exponential(fast, false)];
         let (covariance, linear) = (prior_covariance() + RIDGE * Covariance::identity(), from_features(&fade));
-        let ends = end_samples();
         Tables {
             hold: [exponential(HOLD_DECAY, true), exponential(HOLD_DECAY, false)],
             fade,
             trend: trend(),
             priors: std::array::from_fn(|target| {
-                let samples = PRIOR_FRACTION * ends[target.min(BLOCKS - 1)] as f64;
+                let samples = PRIOR_FRACTION * samples_to_end(target) as f64;
                 Regression::new(samples * covariance, &linear.row(target).transpose())
             }),
         }
     }
+}
+
+/// Number of samples from now to a target's end.
+fn samples_to_end(target: usize) -> usize {
+    end_samples()[target.min(BLOCKS - 1)]
 }
 
 /// Means over the blocks of a part that decays from 1, and the part at the end: the
@@ -361,7 +363,6 @@ impl Forecaster {
             ..StoredSample::default()
         };
         self.remember(&now);
-        self.compare(tables, memory);
         self.learn(tables, memory);
         now.fitted = self.fitted * now.features();
         self.forecast = self.expected(&now, &now.fitted, tables, kind);
@@ -393,46 +394,24 @@ impl Forecaster {
         self.samples.get(index).copied().unwrap_or_default()
     }
 
-    /// The reference's mean over a block that ended `ended` samples ago.
-    fn mean(&self, block: usize, ended: usize) -> f64 {
-        (self.ago(ended).integral - self.ago(ended + SAMPLES[block]).integral) / Horizon::Near.durations()[block]
-    }
-
-    /// Updates the mean squared errors with those of the forecasts for times that
-    /// have just become known.
-    fn compare(&mut self, tables: &Tables, memory: &Memory) {
-        let keep = libm::exp(-SAMPLE / memory.selection);
-        let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
-        let end_samples = end_samples();
-        for target in 0..TARGETS {
-            let age = end_samples[target.min(BLOCKS - 1)];
-            let truth = self.truth(target);
-            let then = self.ago(age);
-            let [hold, trend, fade] = then.fixed_forecasts(tables);
-            for (expert, forecast) in [hold, trend, fade, then.fitted].iter().enumerate() {
-                let error = forecast[target] - truth;
-                let mean = &mut self.errors[(expert, target)];
-                *mean = keep * *mean + (1.0 - keep) * (LEAST_ERROR + error * error);
-            }
-            if let (Some(expected), block @ 0..BLOCKS) = (then.expected, target) {
-                for (errors, means) in self.preview_errors.iter_mut().zip(expected) {
-                    let squared = LEAST_ERROR + (means[block] - truth).powi(2);
-                    let keep = if squared > errors[block] { keep_rising } else { keep_falling };
-                    errors[block] = keep * errors[block] + (1.0 - keep) * squared;
-                }
-            }
+    /// A target whose time has just ended.
+    fn truth(&self, target: usize) -> f64 {
+        let now = self.ago(0);
+        match target {
+            BLOCKS => now.low_passes[SLOW],
+            target if target > BLOCKS => now.value - now.low_passes[SLOW],
+            block => (now.integral - self.ago(SAMPLES[block]).integral) / Horizon::Near.durations()[block],
         }
     }
 
-    /// Adds what has just become known of each target, and the sample that it followed, to the
-    /// fit's sums. Fits a part of the targets anew.
+    /// Updates the errors and the fits with the targets whose time has just ended. Fits a part of
+    /// the targets anew.
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
-        let keep = libm::exp(-SAMPLE / memory.fit);
-        let end_samples = end_samples();
+        let [keep_fit, keep_errors] = [memory.fit, memory.selection].map(|time| libm::exp(-SAMPLE / time));
         for target in 0..TARGETS {
-            let x = self.ago(end_samples[target.min(BLOCKS - 1)]).features();
-            let y = self.truth(target);
-            self.fits[target].add(keep, &tables.priors[target], &x, y);
+            let (then, truth) = (self.ago(samples_to_end(target)), self.truth(target));
+            self.compare(target, &then, truth, tables, keep_errors);
+            self.fits[target].add(keep_fit, &tables.priors[target], &then.features(), truth);
         }
         self.turn = (self.turn + 1) % FIT_EVERY;
         for target in (self.turn..TARGETS).step_by(FIT_EVERY) {
@@ -442,13 +421,22 @@ impl Forecaster {
         }
     }
 
-    /// A target whose time has just ended.
-    fn truth(&self, target: usize) -> f64 {
-        let now = self.ago(0);
-        match target {
-            BLOCKS => now.low_passes[SLOW],
-            target if target > BLOCKS => now.value - now.low_passes[SLOW],
-            block => self.mean(block, 0),
+    /// Updates the mean squared errors with those of the forecasts of a target, made at `then`. The
+    /// experts' errors keep a part `keep` of what they were.
+    fn compare(&mut self, target: usize, then: &StoredSample, truth: f64, tables: &Tables, keep: f64) {
+        let [hold, trend, fade] = then.fixed_forecasts(tables);
+        for (expert, forecast) in [hold, trend, fade, then.fitted].iter().enumerate() {
+            let error = forecast[target] - truth;
+            let mean = &mut self.errors[(expert, target)];
+            *mean = keep * *mean + (1.0 - keep) * (LEAST_ERROR + error * error);
+        }
+        if let (Some(expected), block @ 0..BLOCKS) = (then.expected, target) {
+            let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
+            for (errors, means) in self.preview_errors.iter_mut().zip(expected) {
+                let squared = LEAST_ERROR + (means[block] - truth).powi(2);
+                let keep = if squared > errors[block] { keep_rising } else { keep_falling };
+                errors[block] = keep * errors[block] + (1.0 - keep) * squared;
+            }
         }
     }
 

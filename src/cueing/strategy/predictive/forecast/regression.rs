@@ -3,8 +3,10 @@
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
-/// Number of features: the reference, its five low-passes of the fit, and the angular velocities.
-pub const FEATURES: usize = 9;
+/// Number of features that are forces: the reference and its five low-passes of the fit.
+pub const FORCES: usize = 6;
+/// Number of features: the forces and three angular velocities.
+pub const FEATURES: usize = FORCES + 3;
 pub type Features = SVector<f64, FEATURES>;
 pub type Covariance = SMatrix<f64, FEATURES, FEATURES>;
 

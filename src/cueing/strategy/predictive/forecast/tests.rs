@@ -233,7 +233,7 @@ fn plain_fit(plain: &Plain, tables: &Tables, n: usize) -> Linear {
         let (mut squares, mut products) = (prior.squares, prior.products);
         for k in 1..=n as isize {
             let weight = (-SAMPLE * (n as f64 - k as f64) / MEMORY.fit).exp();
-            let start = k - end_samples()[target.min(BLOCKS - 1)] as isize;
+            let start = k - samples_to_end(target) as isize;
             let x = plain.features(start);
             squares += weight * x * x.transpose();
             products += weight * x * plain.truth(target, k as usize);
@@ -463,7 +463,7 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
         let mut age = 0;
         for block in 0..BLOCKS {
             age += SAMPLES[block];
-            let truth = plain.mean(n as isize - SAMPLES[block] as isize, n as isize);
+            let truth = plain.truth(block, n);
             let Some(means) = n.checked_sub(age + 1).and_then(|then| made[then]) else { continue };
             for which in 0..2 {
                 let squared = 1e-4 + (means[which][block] - truth).powi(2);
