@@ -57,7 +57,7 @@ const LARGEST: usize = 65_536;
 /// Time after which a quiet socket is left to see whether all has ended.
 pub const PATIENCE: Duration = Duration::from_millis(100);
 
-/// What is known of a source before it runs.
+/// Properties of a source that are known before it runs.
 #[derive(Clone, Debug, Default)]
 pub struct Features {
     /// It runs inside this program: its samples come before their time.
@@ -68,7 +68,7 @@ pub struct Features {
     pub handling: Option<Handling>,
     /// Shape in which the vehicle is drawn; none for one that the parameters name.
     pub shape: Option<Shape>,
-    /// The road on which the vehicle is ridden.
+    /// The road that the vehicle follows.
     pub road: Option<RoadMap>,
 }
 
