@@ -9,7 +9,7 @@
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
-use wide::{f64x2, f64x4};
+use wide::{CmpLt, f64x2, f64x4};
 
 /// The coefficients c1..c4 of D(s); those beyond the order are zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,7 +47,7 @@ type Transition = [f64x4; 6];
 /// By the matrix exponential of the chain with its input and the input's slope as two more states.
 fn transition(denominator: &Denominator, step: f64) -> Transition {
     let mut matrix = SMatrix::<f64, 6, 6>::zeros();
-    for (k, c) in denominator.coefficients.as_array().iter().enumerate() {
+    for (k, c) in denominator.coefficients.as_array_ref().iter().enumerate() {
         matrix[(0, k)] = -c;
     }
     for k in 1..denominator.order {
@@ -101,7 +101,7 @@ impl Chains {
             let [x1, x2, x3, x4] = self.states[k].to_array();
             let [a, b, c, d, u, v] = self.transitions[k];
             let state = (a * x1 + b * x2) + (c * x3 + d * x4) + (u * start[k] + v * end[k]);
-            let at_rest = state.abs().simd_lt(REST);
+            let at_rest = state.abs().cmp_lt(REST);
             self.states[k] = !at_rest & state;
         }
     }
@@ -117,7 +117,7 @@ impl Chains {
             let [x1, x2, ..] = self.states[k].to_array();
             let [a, b, .., u, v] = self.transitions[k].each_ref().map(first_two);
             let state = (a * x1 + b * x2) + (u * start[k] + v * end[k]);
-            let at_rest = state.abs().simd_lt(first_two(&REST));
+            let at_rest = state.abs().cmp_lt(first_two(&REST));
             let [x1, x2] = (!at_rest & state).to_array();
             self.states[k] = f64x4::new([x1, x2, 0.0, 0.0]);
         }
@@ -156,7 +156,7 @@ impl Chains {
     /// Sets the first and the second integral of the high-pass.
     pub fn set_integrals(&mut self, first: &Vector3<f64>, second: &Vector3<f64>) {
         for (k, state) in self.states.iter_mut().enumerate() {
-            let state = state.as_mut_array();
+            let state = state.as_array_mut();
             (state[0], state[1]) = (first[k], second[k]);
         }
     }
@@ -164,7 +164,7 @@ impl Chains {
     /// Sets the first integral of the high-pass.
     pub fn set_first_integral(&mut self, first: &Vector3<f64>) {
         for (k, state) in self.states.iter_mut().enumerate() {
-            state.as_mut_array()[0] = first[k];
+            state.as_array_mut()[0] = first[k];
         }
     }
 
@@ -179,7 +179,7 @@ impl Chains {
 
     /// State i of each axis.
     fn state(&self, i: usize) -> Vector3<f64> {
-        Vector3::from_fn(|k, _| self.states[k].as_array()[i])
+        Vector3::from_fn(|k, _| self.states[k].as_array_ref()[i])
     }
 
     /// Changes the coefficients, keeping the first `kept` states and every later term of the
@@ -190,7 +190,7 @@ impl Chains {
     pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
         for ((old, new), state) in self.denominators.iter().zip(&denominators).zip(&mut self.states) {
             for i in kept..new.order {
-                state.as_mut_array()[i] *= old.coefficients.as_array()[i] / new.coefficients.as_array()[i];
+                state.as_array_mut()[i] *= old.coefficients.as_array_ref()[i] / new.coefficients.as_array_ref()[i];
             }
         }
         if denominators != self.denominators {

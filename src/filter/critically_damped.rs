@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-use wide::f64x4;
+use wide::{CmpLt, f64x4};
 
 use crate::motion::lanes::lanes;
 
@@ -52,7 +52,7 @@ impl CriticallyDamped {
         let error_slope = self.slope - slope;
         let value = end - lag + (error * (1.0 + angle) + error_slope * step) * self.decay;
         let slope = slope + (error_slope * (1.0 - angle) - error * (omega * angle)) * self.decay;
-        self.value = !value.abs().simd_lt(REST) & value;
-        self.slope = !slope.abs().simd_lt(REST) & slope;
+        self.value = !value.abs().cmp_lt(REST) & value;
+        self.slope = !slope.abs().cmp_lt(REST) & slope;
     }
 }

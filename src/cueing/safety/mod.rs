@@ -6,7 +6,7 @@ mod tests;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-use wide::f64x4;
+use wide::{CmpGe, f64x4};
 
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
@@ -131,13 +131,13 @@ impl SafetyUnits {
         let mean = 0.5 * (velocity + velocity_before);
         let change = (velocity - velocity_before).abs();
         let gap = (position - position_before - mean * step).abs();
-        let mut keep = farthest.simd_ge(position.abs());
-        keep &= fastest.simd_ge(speed);
-        keep &= (fastest * step * WITH_ROUNDING + ROUNDING).simd_ge(mean.abs() * step + gap);
-        keep &= most.simd_ge(lanes(&demand.acceleration).abs());
-        keep &= (2.0 * most * ahead).simd_ge(speed * (speed + most * self.longest_step));
-        keep &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).simd_ge(change * step + 2.0 * gap);
-        let keep = keep.to_bitmask();
+        let mut keep = farthest.cmp_ge(position.abs());
+        keep &= fastest.cmp_ge(speed);
+        keep &= (fastest * step * WITH_ROUNDING + ROUNDING).cmp_ge(mean.abs() * step + gap);
+        keep &= most.cmp_ge(lanes(&demand.acceleration).abs());
+        keep &= (2.0 * most * ahead).cmp_ge(speed * (speed + most * self.longest_step));
+        keep &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).cmp_ge(change * step + 2.0 * gap);
+        let keep = keep.move_mask();
         std::array::from_fn(|k| keep & (1 << k) != 0)
     }
 }

@@ -19,7 +19,7 @@ mod tests;
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
-use wide::f64x2;
+use wide::{CmpGe, f64x2};
 
 use self::nearest::{Accelerations, ROWS, RowValues, Rows, Sides, nearest};
 use self::retreat::Retreat;
@@ -112,9 +112,9 @@ impl TwoEnds {
     #[inline(always)]
     fn keep(&self, position: f64x2, velocity: f64x2, acceleration: f64x2, pace: f64) -> f64x2 {
         let drawn = velocity * (2.0 * pace) + (position - self.middle) * (pace * pace);
-        self.by_position.simd_ge((acceleration + drawn).abs())
-            & self.by_velocity.simd_ge((acceleration + velocity * VELOCITY_PACE).abs())
-            & self.acceleration.simd_ge(acceleration.abs())
+        self.by_position.cmp_ge((acceleration + drawn).abs())
+            & self.by_velocity.cmp_ge((acceleration + velocity * VELOCITY_PACE).abs())
+            & self.acceleration.cmp_ge(acceleration.abs())
     }
 }
 
@@ -210,7 +210,7 @@ impl SoftLimits {
             self.legs.keep(two(&state.legs.length, pair), velocity, acceleration, self.pace)
         };
         let keeps = axes(0, [0, 1]) & axes(1, [2, 2]) & of_legs([0, 1]) & of_legs([2, 3]) & of_legs([4, 5]);
-        keeps.to_bitmask() == 0b11
+        keeps.move_mask() == 0b11
     }
 
     #[cold]
