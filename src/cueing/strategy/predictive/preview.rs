@@ -152,8 +152,11 @@ impl Ahead {
     /// Now the reference is on the line from `low`, what it was about `lag` seconds ago without its
     /// vibration, to the course's next value.
     pub fn new(courses: &PreviewedCues, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
+        let mut points = courses.points().peekable();
+        // Most steps have no preview: they need no room for it.
+        points.peek()?;
         let mut ahead = Ahead { times: [0.0; CORNERS], values: [0.0; CORNERS], count: 1 };
-        for (time, value) in courses.points() {
+        for (time, value) in points {
             if time > ahead.times[ahead.count - 1] + INSTANT {
                 ahead.times[ahead.count] = time;
                 ahead.values[ahead.count] = value + beside * libm::exp(-time / BESIDE_TIME);
