@@ -1,4 +1,4 @@
-//! Benchmarks of the kernel without FMI: a step and its parts.
+//! Benchmarks of the kernel without FMI: a step of the classical strategy, and its parts.
 //!
 //! `cargo bench --bench kernel`. Instruction counts, which do not depend on what else the machine
 //! does, come from `examples/steps.rs` under callgrind (see docs/performance.md).
@@ -9,7 +9,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use moris_washout::platform::{
     Geometry, PlatformMotion, Pose, forward_kinematics, inverse_kinematics, leg_lengths, survey,
 };
-use moris_washout::{Input, Output, Parameters, Rig, Washout};
+use moris_washout::{Input, Output, Parameters, Rig, Washout, presets};
 
 #[path = "common/ride.rs"]
 mod ride;
@@ -20,7 +20,8 @@ fn step(c: &mut Criterion) {
     let ride = smooth();
     let rest = [Input::default()];
     let mut bench = |name: &str, inputs: &[Input], warm_up: &[Input]| {
-        let mut washout = Washout::new(&Parameters::default()).expect("the default parameters can be used");
+        let classical = presets::parameters(presets::CLASSICAL);
+        let mut washout = Washout::new(&classical).expect("the set's parameters can be used");
         for input in warm_up {
             washout.step(input, 0.001);
         }

@@ -1,6 +1,7 @@
 """What a step of the kernel is made of: the instructions of `examples/steps.rs`, by kind, as callgrind counts them.
 
-    python3 benches/operations.py
+    python3 benches/operations.py            # the default parameters
+    python3 benches/operations.py classical  # another ride of `examples/steps.rs`
 
 Needs valgrind and objdump, and an x86-64 machine. The figures do not depend on what else the machine does.
 """
@@ -31,11 +32,11 @@ KINDS = [
 ]
 
 
-def executed(program: pathlib.Path, steps: int) -> tuple[collections.Counter, int]:
+def executed(program: pathlib.Path, steps: int, ride: list[str]) -> tuple[collections.Counter, int]:
     """How often each instruction of the program ran, by its address, and how many ran in libraries."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "callgrind.out"
-        command = ["valgrind", "--tool=callgrind", "--dump-instr=yes", f"--callgrind-out-file={out}", program, str(steps)]
+        command = ["valgrind", "--tool=callgrind", "--dump-instr=yes", f"--callgrind-out-file={out}", program, str(steps), *ride]
         subprocess.run(command, check=True, capture_output=True)
         lines = out.read_text().splitlines()
     own, elsewhere = collections.Counter(), 0
@@ -77,10 +78,10 @@ def load_address(addresses: list[int], mnemonics: dict[int, str]) -> int:
     return max(candidates, key=lambda base: sum(address - base in mnemonics for address in addresses))
 
 
-def main() -> None:
+def main(ride: list[str]) -> None:
     subprocess.run(["cargo", "build", "--profile", "fmu-library", "--example", "steps"], cwd=ROOT, check=True)
     program = TARGET / "fmu-library/examples/steps"
-    (short, short_elsewhere), (long, long_elsewhere) = (executed(program, steps) for steps in (SHORT, LONG))
+    (short, short_elsewhere), (long, long_elsewhere) = (executed(program, steps, ride) for steps in (SHORT, LONG))
     mnemonics = disassembled(program)
     base = load_address(list(long), mnemonics)
     counts = collections.Counter()
@@ -96,4 +97,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

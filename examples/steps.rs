@@ -1,8 +1,9 @@
 //! Steps the washout a given number of times, for profilers and instruction counters.
 //!
 //! - Default: a smooth ride on all axes, with the default parameters.
-//! - `jumps`: inputs that jump, on slow actuators, so that the actuator guard limits the motion.
-//! - `paper`: the smooth ride with the paper's parameters.
+//! - `classical`, `paper`: the smooth ride with the parameters of that name.
+//! - `jumps`: inputs that jump, with the classical strategy on slow actuators, so that the actuator
+//!   guard limits the motion.
 //!
 //! The number of steps comes first:
 //!
@@ -26,17 +27,15 @@ use ride::smooth;
 fn main() -> Result<(), ParameterError> {
     let argument = |place: usize| std::env::args_os().nth(place).and_then(|text| text.into_string().ok());
     let count: usize = argument(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
-    let mut parameters = Parameters::default();
-    let ride = match argument(2).as_deref() {
+    let (parameters, ride) = match argument(2).as_deref() {
         Some("jumps") => {
+            let mut parameters = presets::parameters(presets::CLASSICAL);
             (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
-            jumps(count.div_ceil(HELD))
+            (parameters, jumps(count.div_ceil(HELD)))
         }
-        Some("paper") => {
-            parameters = presets::parameters(presets::PAPER);
-            smooth()
-        }
-        _ => smooth(),
+        Some("classical") => (presets::parameters(presets::CLASSICAL), smooth()),
+        Some("paper") => (presets::parameters(presets::PAPER), smooth()),
+        _ => (Parameters::default(), smooth()),
     };
     let mut washout = Washout::new(&parameters)?;
     let mut limited = 0;
