@@ -29,6 +29,8 @@ const GLIDE_PACES: [f64; 2] = [1.0, 4.5];
 const BRAKING: f64 = 1.2;
 /// Part of a glide that is too short to see.
 const NO_PART: f64 = 1e-7;
+/// Distance from a place from which on the actuators are there \[m\].
+const NEAR: f64 = 1e-4;
 /// Longest step of a glide \[s\].
 const STEP: f64 = 1e-3;
 /// Time in which the speed falls to a third where there is no loop any more \[s\], and the part of
@@ -142,6 +144,17 @@ impl Wire {
     /// Time since the last frame, until now.
     pub fn gap(&self, now: Duration) -> Option<Duration> {
         self.last.map(|(at, _)| now.saturating_sub(at))
+    }
+
+    /// Time between frames \[s\].
+    pub fn interval(&self) -> f64 {
+        self.interval
+    }
+
+    /// True if the last frame has the actuators where these values have them.
+    pub fn is_at(&self, values: &Values) -> bool {
+        let is_near = |last: &Values| (0..6).all(|k| (last.length[k] - values.length[k]).abs() < NEAR);
+        self.last.is_none_or(|(_, last)| is_near(&last))
     }
 
     /// The frame that leaves now for these commands.

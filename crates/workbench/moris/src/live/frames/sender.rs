@@ -123,6 +123,9 @@ impl<'a> Sender<'a> {
                     self.sent.skipped += 1;
                     continue;
                 }
+                if message == Message::Park {
+                    self.arrive(&values, &mut packet);
+                }
                 let fault = self.take(message, &values);
                 let now = pace::now();
                 self.sent.late.take(now.saturating_sub(made));
@@ -142,6 +145,23 @@ impl<'a> Sender<'a> {
                 self.ask(&mut packet);
             }
             std::thread::park_timeout(Duration::from_millis(20));
+        }
+    }
+
+    /// Goes on with frames until the actuators are where these values have them. Frames that were
+    /// late are behind the loop, and a controller that parks takes no more of them.
+    fn arrive(&mut self, values: &Values, packet: &mut [u8]) {
+        let mut values = *values;
+        let interval = self.wire.interval();
+        let begin = pace::now();
+        while !self.contact.is_lost() && !self.wire.is_at(&values) {
+            if pace::now().saturating_sub(begin) > LONGEST_ARRIVAL {
+                return self.rest();
+            }
+            std::thread::sleep(Duration::from_secs_f64(interval));
+            values.time += interval;
+            let fault = self.take(Message::Frame, &values);
+            self.listen(fault, packet);
         }
     }
 
@@ -256,18 +276,23 @@ impl<'a> Sender<'a> {
 
     fn end(&mut self) {
         if self.running {
-            let mut last = self.last;
-            for frame in 1..=REST_FRAMES {
-                let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
-                    break;
-                };
-                self.deliver(Message::Frame, &values);
-                self.sent.last = Some(values.length);
-                last = Values { velocity: [0.0; 6], ..values };
-                std::thread::sleep(REST_INTERVAL);
-            }
+            self.rest();
+            let last = Values { velocity: [0.0; 6], ..self.last };
             self.deliver(Message::Stop, &last);
             self.running = false;
+        }
+    }
+
+    /// Sends frames with which the actuators come to rest, without a washout that knows a way.
+    fn rest(&mut self) {
+        for frame in 1..=REST_FRAMES {
+            let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
+                break;
+            };
+            self.deliver(Message::Frame, &values);
+            self.sent.last = Some(values.length);
+            self.last = values;
+            std::thread::sleep(REST_INTERVAL);
         }
     }
 }
@@ -275,6 +300,9 @@ impl<'a> Sender<'a> {
 /// Time between frames of a platform that comes to rest, and their number.
 const REST_INTERVAL: Duration = Duration::from_millis(10);
 const REST_FRAMES: u32 = 100;
+
+/// Longest way of late frames to the lowest pose, before the actuators rest elsewhere.
+const LONGEST_ARRIVAL: Duration = Duration::from_secs(5);
 
 #[cfg(test)]
 mod tests;

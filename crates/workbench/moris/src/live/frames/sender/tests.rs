@@ -51,6 +51,54 @@ fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     assert!(speeds.windows(2).all(|pair| (-1e-3..0.03).contains(&(pair[0] - pair[1]))), "{speeds:?}");
 }
 
+/// The frames that a device receives until the stop string, after these messages at once.
+fn received(messages: &[(Message, Values)], pause: Duration) -> Vec<String> {
+    let device = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
+    let (mut ring, to_send) = RingBuffer::new(8);
+    let (orders, _) = RingBuffer::new(4);
+    let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
+    let sender = std::thread::spawn(move || {
+        Sender::new(to_send, csv(), sink, orders, (0.01, actuators), &Shared::default()).run();
+    });
+    for (message, values) in messages {
+        ring.push(Sending { message: *message, values: *values, arrival: None, made: pace::now() }).unwrap();
+        sender.thread().unpark();
+        std::thread::sleep(pause);
+    }
+    drop(ring);
+    device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    let mut received: Vec<String> = Vec::new();
+    while received.last().is_none_or(|line| line != "stop\n") {
+        let mut packet = [0; 1000];
+        let length = device.recv(&mut packet).unwrap();
+        received.push(String::from_utf8(packet[..length].to_vec()).unwrap());
+    }
+    sender.join().unwrap();
+    received
+}
+
+/// Frames were held up while the loop came down, so that its last one is 20 mm ahead.
+#[test]
+fn late_frames_arrive_before_the_park_string() {
+    let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
+    let down = [
+        (Message::Start, at(0.0, 1.1)),
+        (Message::Frame, at(0.01, 1.1)),
+        (Message::Frame, at(0.02, 1.08)),
+        (Message::Park, at(0.02, 1.08)),
+        (Message::Stop, at(0.03, 1.08)),
+    ];
+    // Longer than actuators are taken to go on without a frame.
+    let received = received(&down, Duration::from_millis(80));
+    assert_eq!(received[received.len() - 2..], ["park\n", "stop\n"]);
+    let length = |line: &String| line.split(',').nth(1).and_then(|length| length.parse::<f64>().ok());
+    let lengths: Vec<f64> = received.iter().filter_map(length).collect();
+    let ways: Vec<f64> = lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    assert!((lengths.last().unwrap() - 1.08).abs() < 1.1e-4, "{lengths:?}");
+    assert!(ways.iter().all(|way| *way < 1.1e-3) && *ways.last().unwrap() < 2e-5, "{ways:?}");
+}
+
 /// The loop is busy, and a report waits for it.
 #[test]
 fn a_loss_that_the_loop_has_no_room_for_is_reported_later() {
