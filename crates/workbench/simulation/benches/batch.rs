@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use moris_simulation::{Manoeuvre, Replay};
-use moris_washout::{Input, Parameters, Washout};
+use moris_washout::{Input, Parameters, Washout, presets};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
@@ -19,7 +19,7 @@ fn manoeuvre(duration: f64) -> Manoeuvre {
 }
 
 fn set(k: u32) -> Parameters {
-    let mut parameters = Parameters::default();
+    let mut parameters = presets::parameters(presets::CLASSICAL);
     parameters.splitter.omega1.x = 1.0 + 1e-5 * f64::from(k);
     parameters
 }

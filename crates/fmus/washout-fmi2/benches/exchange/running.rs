@@ -29,7 +29,7 @@ impl Running {
         Running { instance, api, inputs, outputs, step: 0 }
     }
 
-    /// A washout with these parameters: set are the specific force, the angular velocity and the
+    /// A washout of the classical strategy with these parameters: set are the specific force, the angular velocity and the
     /// orientation, and got the lengths and what the rider feels.
     pub fn washout(fmu: &Fmu, parameters: &[(&str, f64)]) -> Self {
         let reference = |name: String| fmu.variable(&name).expect("a variable of the washout").value_reference;
@@ -42,7 +42,8 @@ impl Running {
         let [ax, ay, az] = axes("rider.specificForce");
         let [rx, ry, rz] = axes("rider.angularVelocity");
         let inputs = [fx, fy, fz, wx, wy, wz, roll, pitch, yaw];
-        Running::new(fmu, parameters, inputs, [l1, l2, l3, l4, l5, l6, ax, ay, az, rx, ry, rz])
+        let parameters = [&[("strategy", 1.0)], parameters].concat();
+        Running::new(fmu, &parameters, inputs, [l1, l2, l3, l4, l5, l6, ax, ay, az, rx, ry, rz])
     }
 
     /// A model that does nothing, with as many variables.
