@@ -29,8 +29,8 @@ impl Running {
         Running { instance, api, inputs, outputs, step: 0 }
     }
 
-    /// A washout of the classical strategy with these parameters: set are the specific force, the angular velocity and the
-    /// orientation, and got the lengths and what the rider feels.
+    /// A washout of the classical strategy with these parameters: set are the specific force, the
+    /// angular velocity and the orientation, and got the lengths and what the rider feels.
     pub fn washout(fmu: &Fmu, parameters: &[(&str, f64)]) -> Self {
         let reference = |name: String| fmu.variable(&name).expect("a variable of the washout").value_reference;
         let axes = |vector: &str| ["x", "y", "z"].map(|axis| reference(format!("{vector}.{axis}")));
