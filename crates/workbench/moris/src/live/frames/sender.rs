@@ -67,6 +67,9 @@ const MOST_ANSWERS: u32 = 64;
 /// Time between questions for the legs' lengths.
 const ASKS: Duration = Duration::from_millis(200);
 
+/// Longest time to the lowest pose: the slowest way over the longest stroke.
+const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
+
 /// Errors of this program after which the sending thread ends.
 const MOST_ERRORS: u32 = 10;
 
@@ -153,11 +156,8 @@ impl<'a> Sender<'a> {
     fn arrive(&mut self, values: &Values, packet: &mut [u8]) {
         let mut values = *values;
         let interval = self.wire.interval();
-        let begin = pace::now();
-        while !self.contact.is_lost() && !self.wire.is_at(&values) {
-            if pace::now().saturating_sub(begin) > LONGEST_ARRIVAL {
-                return self.rest();
-            }
+        let end = pace::now() + LONGEST_ARRIVAL;
+        while !self.wire.is_at(&values) && !self.contact.is_lost() && pace::now() < end {
             std::thread::sleep(Duration::from_secs_f64(interval));
             values.time += interval;
             let fault = self.take(Message::Frame, &values);
@@ -276,23 +276,18 @@ impl<'a> Sender<'a> {
 
     fn end(&mut self) {
         if self.running {
-            self.rest();
-            let last = Values { velocity: [0.0; 6], ..self.last };
+            let mut last = self.last;
+            for frame in 1..=REST_FRAMES {
+                let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
+                    break;
+                };
+                self.deliver(Message::Frame, &values);
+                self.sent.last = Some(values.length);
+                last = Values { velocity: [0.0; 6], ..values };
+                std::thread::sleep(REST_INTERVAL);
+            }
             self.deliver(Message::Stop, &last);
             self.running = false;
-        }
-    }
-
-    /// Sends frames with which the actuators come to rest, without a washout that knows a way.
-    fn rest(&mut self) {
-        for frame in 1..=REST_FRAMES {
-            let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
-                break;
-            };
-            self.deliver(Message::Frame, &values);
-            self.sent.last = Some(values.length);
-            self.last = values;
-            std::thread::sleep(REST_INTERVAL);
         }
     }
 }
@@ -300,9 +295,6 @@ impl<'a> Sender<'a> {
 /// Time between frames of a platform that comes to rest, and their number.
 const REST_INTERVAL: Duration = Duration::from_millis(10);
 const REST_FRAMES: u32 = 100;
-
-/// Longest way of late frames to the lowest pose, before the actuators rest elsewhere.
-const LONGEST_ARRIVAL: Duration = Duration::from_secs(5);
 
 #[cfg(test)]
 mod tests;

@@ -51,7 +51,7 @@ fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     assert!(speeds.windows(2).all(|pair| (-1e-3..0.03).contains(&(pair[0] - pair[1]))), "{speeds:?}");
 }
 
-/// The frames that a device receives until the stop string, after these messages at once.
+/// The frames that a device receives until the stop string, with a pause after each message.
 fn received(messages: &[(Message, Values)], pause: Duration) -> Vec<String> {
     let device = UdpSocket::bind("127.0.0.1:0").unwrap();
     let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
