@@ -7,6 +7,18 @@ use rtrb::RingBuffer;
 
 use super::*;
 
+/// Packets that the device receives, up to the stop string.
+fn until_stop(device: &UdpSocket) -> Vec<String> {
+    device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    let mut received: Vec<String> = Vec::new();
+    while received.last().is_none_or(|line| line != "stop\n") {
+        let mut packet = [0; 1000];
+        let length = device.recv(&mut packet).unwrap();
+        received.push(String::from_utf8(packet[..length].to_vec()).unwrap());
+    }
+    received
+}
+
 #[test]
 fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     let device = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -34,13 +46,7 @@ fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
         panic!("deliberate");
     });
     assert!(panicking.join().is_err());
-    device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
-    let mut received = Vec::new();
-    while received.last().is_none_or(|line| line != "stop\n") {
-        let mut packet = [0; 1000];
-        let length = device.recv(&mut packet).unwrap();
-        received.push(String::from_utf8(packet[..length].to_vec()).unwrap());
-    }
+    let received = until_stop(&device);
     assert_eq!(sender.join().unwrap().sent, received.len() as u64);
     assert_eq!(received[0], "start\n");
     let frames = &received[1..received.len() - 1];
@@ -67,13 +73,7 @@ fn received(messages: &[(Message, Values)], pause: Duration) -> Vec<String> {
         std::thread::sleep(pause);
     }
     drop(ring);
-    device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
-    let mut received: Vec<String> = Vec::new();
-    while received.last().is_none_or(|line| line != "stop\n") {
-        let mut packet = [0; 1000];
-        let length = device.recv(&mut packet).unwrap();
-        received.push(String::from_utf8(packet[..length].to_vec()).unwrap());
-    }
+    let received = until_stop(&device);
     sender.join().unwrap();
     received
 }
