@@ -14,7 +14,7 @@ pub fn smooth_ride(_: &mut Criterion) {
     println!("10 million exchanges, one clock reading each: {}", distribution(nanoseconds));
 }
 
-/// A million steps of random jumps, on actuators so slow that the guard is always active.
+/// A million steps of random jumps, on slow actuators.
 pub fn limited_ride(_: &mut Criterion) {
     const STEPS: usize = 1_000_000;
     let slow = [("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 5.0)];
