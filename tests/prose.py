@@ -19,12 +19,12 @@ each paragraph that is too wide, and changes no word.
 import argparse
 import ast
 import re
-import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from repository import ROOT, source_files
+
 OPENINGS = 0.002
 FRAGMENTS = 0.055
 FRAGMENT = 3  # words
@@ -54,10 +54,10 @@ class Finding:
         return f"{self.file.relative_to(ROOT)}:{self.line}: {self.text}"
 
 
-def tracked(*patterns):
-    """The files under version control that match one of the patterns."""
-    listed = subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, capture_output=True, text=True, check=True)
-    return [ROOT / name for name in listed.stdout.split("\n") if name]
+def chosen_files(within):
+    """The files of the sources that are one of these paths, or below one of them."""
+    wanted = {(ROOT / path).resolve() for path in within}
+    return [file for file in source_files() if wanted & {file, *file.parents}]
 
 
 def doc_comments(file):
@@ -292,7 +292,7 @@ def main():
     parser.add_argument("files", nargs="*", help="files or directories to look at [default: all]")
     arguments = parser.parse_args()
     within = arguments.files or ["."]
-    chosen = tracked(*within)
+    chosen = chosen_files(within)
     sources = [file for file in chosen if file.suffix == ".rs"]
     pages = [file for file in chosen if file.suffix == ".md"]
     scripts = [file for file in chosen if file.suffix in PYTHON]

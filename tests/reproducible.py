@@ -6,7 +6,7 @@
 
 The platforms are those given, else this machine's and, where its tools are installed, Windows.
 The other directory has another length and a blank in its name, and a target directory of its own for the libraries. The exit
-status is 1 if a file differs. Only files that git tracks are built. With --program the other directory compiles all
+status is 1 if a file differs. Files that .gitignore names are not taken. With --program the other directory compiles all
 dependencies again, which takes some six minutes of two cores, so that tests/run.py leaves it out.
 """
 
@@ -19,7 +19,8 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from repository import ROOT, source_files
+
 WINDOWS = "x86_64-pc-windows-gnu"
 
 
@@ -41,12 +42,11 @@ def build(sources, output, model, platforms):
 
 
 def copy_of_sources(directory):
-    """What git tracks, as it is now."""
-    tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    for name in tracked.split("\0"):
-        if name and (ROOT / name).is_file():
-            (directory / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / name, directory / name)
+    """The files of the sources, as they are now."""
+    for file in source_files():
+        copy = directory / file.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(file, copy)
 
 
 def differences(first, second):

@@ -12,6 +12,8 @@ from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
 ROOT = Path(__file__).resolve().parents[2]
+TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
+sys.path.append(str(ROOT / "tests"))
 AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
 only_all_cases = pytest.mark.skipif("MORIS_ALL_CASES" not in os.environ, reason="one of all cases: with --all")
@@ -35,7 +37,7 @@ def stated(variable, attribute):
 
 @pytest.fixture(scope="session")
 def fmu():
-    path = Path(os.environ.get("MORIS_FMU", ROOT / "target" / "fmu" / "MorisWashout.fmu"))
+    path = Path(os.environ.get("MORIS_FMU", TARGET / "fmu" / "MorisWashout.fmu"))
     assert path.exists(), f"{path} is missing: run `cargo build-fmu`"
     return path
 

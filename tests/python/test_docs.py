@@ -28,9 +28,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from conftest import only_all_cases
+from conftest import ROOT, TARGET, only_all_cases
+from repository import source_files
 
-ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "README.md"
 PAGES = [EXAMPLES, ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Its scripts are one script in parts, which tests/python_package/test_docs.py runs.
@@ -46,7 +46,8 @@ DRAWN = {
 }
 SEARCHES = ("docs/response.md", "docs/tuning-by-search.md", "docs/worst-case.md")
 """Pages whose commands simulate hundreds of rides. The tests in Rust run the same commands in a short form."""
-COPIED = ("docs", "examples", "target/fmu")
+FMUS = "target/fmu"
+COPIED = ("docs", "examples", FMUS)
 LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "presets", "src", "tests")
 
 
@@ -76,7 +77,7 @@ def blocks(page):
 
 def page_directory(page):
     """Never within another page's: pages run at the same time."""
-    return ROOT / "target" / "docs" / name(page).removesuffix(".md").replace("/", "-")
+    return TARGET / "docs" / name(page).removesuffix(".md").replace("/", "-")
 
 
 def scratch_directory(page):
@@ -85,7 +86,7 @@ def scratch_directory(page):
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)
     for entry in COPIED:
-        shutil.copytree(ROOT / entry, directory / entry)
+        shutil.copytree(TARGET / "fmu" if entry == FMUS else ROOT / entry, directory / entry)
     for entry in LINKED:
         (directory / entry).symlink_to(ROOT / entry)
     return directory
@@ -129,7 +130,7 @@ def pictures(page):
     if page == EXAMPLES:
         drawn = page_directory(EXAMPLES) / "target" / "examples"
         return [(file, drawn / file.name) for file in sorted(EXAMPLES.parent.glob("*.svg"))]
-    return [(ROOT / "docs" / shown, ROOT / "target" / drawn) for shown, drawn in DRAWN.get(name(page), {}).items()]
+    return [(ROOT / "docs" / shown, TARGET / drawn) for shown, drawn in DRAWN.get(name(page), {}).items()]
 
 
 def assert_same_picture(expected, drawn):
@@ -155,7 +156,8 @@ def case(page):
     return pytest.param(page, id=name(page), marks=[only_all_cases] if name(page) in SEARCHES else [])
 
 
-@pytest.mark.skipif(os.name == "nt", reason="the commands are for bash")
+@pytest.mark.skipif(os.name == "nt", reason="needs bash: run the tests on Linux or macOS")
+@pytest.mark.skipif(ROOT not in TARGET.parents, reason="needs target/ within the sources, where cargo finds them: unset CARGO_TARGET_DIR")
 @pytest.mark.parametrize("page", [case(page) for page in PAGES if with_commands(page)])
 def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
     shown = run_page(page)
@@ -165,6 +167,13 @@ def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
             assert output == plain(block.text), f"{block} is stale: run tests/python/test_docs.py --update"
     for expected, drawn in pictures(page):
         assert_same_picture(expected, drawn)
+
+
+@cache
+def pages_with_doc_tests():
+    """The pages, by their names, that a crate includes."""
+    sources = [file.read_text() for file in source_files() if file.suffix == ".rs"]
+    return {page for text in sources for page in re.findall(r'include_str!\("[./]*([^"]*\.md)"\)', text)}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
@@ -178,8 +187,7 @@ def test_every_block_is_of_a_kind_that_is_checked(page):
             used = any(other.language == "sh" and information in other.text for other in blocks(page))
             assert information and used, f"{block}: no command of the page reads this file"
         elif language == "rust":
-            included = subprocess.run(["git", "grep", "-l", f'include_str!("[./]*{name(page)}")'], cwd=ROOT, capture_output=True)
-            assert included.stdout, f"{block}: no crate includes the page as a doc test"
+            assert name(page) in pages_with_doc_tests(), f"{block}: no crate includes the page as a doc test"
         elif language == "text" and information:
             assert information == "output" and before in ("sh", "python"), f"{block}: of which command?"
         else:
