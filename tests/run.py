@@ -7,21 +7,25 @@ The default is what a change can break, in few cases where a test is a search. -
 pages, all cases, and the optimised Python package that users get.
 
 With --install what other platforms and the pages need is installed first; with --require it is an error where it is missing.
+What a test needs and this machine lacks is listed at the end. The requirements of README are checked before anything is compiled.
 """
 
 import argparse
+import importlib.util
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 import time
 import venv
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
 VENV = TARGET / "venv"
 REQUIREMENTS = ROOT / "tests" / "python" / "requirements.txt"
 PROGRAM = ".exe" if os.name == "nt" else ""
@@ -29,15 +33,62 @@ LONGEST = ("live", "building", "washout")
 """Test programs that wait for clocks and for cargo, or simulate for long."""
 NO_TESTS = 5
 """pytest's exit status if an expression selects none."""
+OLDEST_PYTHON = (3, 10)
+WEBASSEMBLY = "wasm32-unknown-unknown"
+LACKING_LINE = re.compile(r"SKIPPED \[\d+\] (?P<test>\S+?)(:\d+)?: (?P<reason>needs .*)|(?P<part>\S.*?):? +missing \((?P<what>.*)\)")
+"""A line of pytest, or of a script beside this one, that says what this machine lacks."""
+lacking = []
+"""What tests need and this machine lacks, in the order in which it was met."""
 
 
-def run(*command, allowed=(0,), at_once=False, **environment):
-    """Runs a command and ends if it fails. With `at_once` its output comes at its end, for commands beside each other."""
+def refusals():
+    """Yields what README requires and this machine lacks, each in one line with the remedy."""
+    if sys.version_info < OLDEST_PYTHON:
+        oldest, this = (".".join(map(str, version[:2])) for version in (OLDEST_PYTHON, sys.version_info))
+        yield f"Python {oldest} or newer is needed, and this is {this}: run tests/run.py with a newer one"
+    elif not importlib.util.find_spec("ensurepip"):
+        package = "python{}.{}-venv".format(*sys.version_info)
+        yield f"Python's module ensurepip is needed for a virtual environment: on Debian and Ubuntu, apt install {package}"
+    if not shutil.which("cargo") or not shutil.which("rustc"):
+        yield "cargo and rustc are needed: install Rust from https://rustup.rs"
+    else:
+        oldest = re.search(r'^rust-version = "(.+)"', (ROOT / "Cargo.toml").read_text(), re.MULTILINE).group(1)
+        printed = subprocess.run(["rustc", "--version"], cwd=str(ROOT), stdout=subprocess.PIPE).stdout.decode()
+        this = printed.split()[1] if printed else "0.0"
+        if not printed:
+            yield "rustc does not run: rustup default stable chooses a toolchain"
+        elif [int(part) for part in this.split(".")[:2]] < [int(part) for part in oldest.split(".")]:
+            yield f"Rust {oldest} or newer is needed, and this is {this}: run rustup update, or install Rust from https://rustup.rs"
+    has_linker = shutil.which("cc") or any(name.startswith("CARGO_TARGET_") and name.endswith("_LINKER") for name in os.environ)
+    if sys.platform == "linux" and not has_linker:
+        yield "a C compiler is needed, with which Rust links: on Debian and Ubuntu, apt install gcc libc6-dev"
+
+
+def usable_cores():
+    """The cores that this process may use, where the system tells."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+
+
+def run(*command, allowed=(0,), at_once=False, are_tests=False, **environment):
+    """Runs a command and ends if it fails.
+
+    With `at_once` its output comes at its end, for commands beside each other. With `are_tests` the output is searched for what
+    the tests lack.
+    """
     print("$", *command, flush=True)
-    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT} if at_once else {}
-    done = subprocess.run([str(part) for part in command], cwd=ROOT, env=os.environ | environment, **output)
-    print((done.stdout or b"").decode(errors="replace"), end="", flush=True)
-    if done.returncode not in allowed:
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT} if at_once or are_tests else {}
+    process = subprocess.Popen([str(part) for part in command], cwd=ROOT, env=os.environ | environment, **output)
+    lines = []
+    for line in process.stdout or ():
+        lines.append(line.decode(errors="replace"))
+        if not at_once:
+            print(lines[-1], end="", flush=True)
+    status = process.wait()
+    if at_once:
+        print(*lines, sep="", end="", flush=True)
+    found = filter(None, (LACKING_LINE.match(line) for line in lines))
+    lacking.extend(f"{one['test']}: {one['reason']}" if one["test"] else f"{one['part']}: needs {one['what']}" for one in found)
+    if status not in allowed:
         sys.exit(f"failed: {' '.join(map(str, command))}")
 
 
@@ -67,7 +118,7 @@ def pytest(options, processes, *arguments):
     chosen = ["-k", options.k] if options.k else []
     allowed = (0, NO_TESTS) if options.k else (0,)
     processes = processes if options.beside else 2
-    command = [python(), "-m", "pytest", "--quiet", "--numprocesses", str(processes), *chosen, *arguments]
+    command = [python(), "-m", "pytest", "--quiet", "-rs", "--numprocesses", str(processes), *chosen, *arguments]
     # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile. Without a
     # package, cargo takes the features of all, so that each library is compiled once.
     environment = cases(options) | {
@@ -77,7 +128,7 @@ def pytest(options, processes, *arguments):
         "CARGO_ALIAS_MORIS": " ".join(["run", "--bin", "moris", *features(options), "--"]),
         "CARGO_ALIAS_HUNTER": "run --bin hunter --",
     }
-    run(*command, allowed=allowed, at_once=options.beside, **environment)
+    run(*command, allowed=allowed, at_once=options.beside, are_tests=True, **environment)
 
 
 def fmu(options):
@@ -86,7 +137,7 @@ def fmu(options):
     # All libraries are compiled by now.
     packed = [("build-fmu", "--fmi", "3", "--arrays")]
     packed += [("build-ssp", "--system", system, *form) for system in ("MotorcycleSimulator", "MotorcycleLap") for form in ([], ["--flat"])]
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with ThreadPoolExecutor(usable_cores()) as pool:
         for _ in pool.map(lambda command: run("cargo", *command, at_once=True), packed):
             pass
 
@@ -130,13 +181,13 @@ def rust(options):
         washout = next(one for one in programs if named(one[0]) == "moris_washout")
         tests.insert(1, (*washout, *chosen, "--quiet", "--ignored"))
     # Side by side, and one more than cores: the longest waits for sockets and clocks.
-    with ThreadPoolExecutor(os.cpu_count() + 1) as pool:
+    with ThreadPoolExecutor(usable_cores() + 1) as pool:
         failed = [output for output in pool.map(lambda test: failure(*test, **cases(options)), tests) if output]
     if failed:
         sys.exit("\n".join(failed))
 
 
-@cache
+@lru_cache(maxsize=None)
 def examples():
     """Programs that the tests in Python call: the best possible ride, and reports."""
     run("cargo", "build", "--workspace", "--example", "bound", "--example", "pages")
@@ -178,7 +229,7 @@ def passed_on(options, *names):
 
 
 def script(options, file, *names):
-    run(sys.executable, file, *passed_on(options, *names), at_once=options.beside)
+    run(sys.executable, file, *passed_on(options, *names), at_once=options.beside, are_tests=True)
 
 
 def importers(options):
@@ -199,8 +250,6 @@ def sources(options):
 def pages(options):
     """the reports in Chromium and Firefox"""
     examples()
-    if options.install:
-        run("rustup", "target", "add", "wasm32-unknown-unknown")
     program(options)
     script(options, "tests/report/run.py", "install", "require")
 
@@ -247,7 +296,7 @@ def alone(options, names):
 
 
 DEFAULT = {"fmu": fmu, "rust": rust, "python": python_tests, "package": package, "docs": docs}
-PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "sources": sources, "pages": pages, "reproducible": reproducible}
+PARTS = {**DEFAULT, "importers": importers, "platforms": platforms, "sources": sources, "pages": pages, "reproducible": reproducible}
 GROUPS = [
     (["fmu"], alone),
     (["rust"], alone),
@@ -275,8 +324,14 @@ def main():
     parser.add_argument("--require", action="store_true", help="what other platforms and the pages need must be there")
     parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
     options = parser.parse_args()
+    refused = list(refusals())
+    if refused:
+        sys.exit("\n".join(refused))
     chosen = options.only or (PARTS if options.all else DEFAULT)
     took = []
+    if options.install and "pages" in chosen:
+        # Before the command is compiled: it holds the pages' modules.
+        run("rustup", "target", "add", WEBASSEMBLY)
     for together, run_together in GROUPS:
         names = [name for name in together if name in chosen]
         if not names:
@@ -286,7 +341,9 @@ def main():
         run_together(options, names)
         took.append(f"{time.monotonic() - start:8.0f}{processor_time() - used:16.0f}  {', '.join(names)}")
     print(" seconds  processor time  part", *took, sep="\n")
-    print("No test has failed. What is missing above has not been run.")
+    print("No test has failed.")
+    if lacking:
+        print("Not run, because something is missing here:", *dict.fromkeys(lacking), sep="\n  ")
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import re
 import pytest
 from conftest import ROOT
 
-tomllib = pytest.importorskip("tomllib", reason="tomllib is there from Python 3.11 on")
+tomllib = pytest.importorskip("tomllib", reason="needs tomllib: run the tests with Python 3.11 or newer")
 
 # Path of a package -> its ring. Washout and machinery are one ring: they use each other.
 RINGS = (("crates/simulator/", 1), ("crates/workbench/", 2), ("examples/", 2), ("", 0))

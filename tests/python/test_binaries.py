@@ -5,7 +5,7 @@ import sys
 import zipfile
 
 import pytest
-from conftest import ROOT
+from conftest import TARGET
 from elftools.elf.elffile import ELFFile
 
 # The oldest that Rust supports: RHEL 7 and everything since.
@@ -29,7 +29,7 @@ def version(text):
 @pytest.mark.skipif(sys.platform != "linux", reason="the FMUs are those for the machine on which the tests run")
 @pytest.mark.parametrize("name", NAMES)
 def test_a_library_loads_on_every_linux_since_2012(name):
-    path = ROOT / "target" / "fmu" / name
+    path = TARGET / "fmu" / name
     assert path.exists(), f"{path} is missing: run `cargo build-fmu` and `cargo build-fmu --fmi 3`"
     found = libraries(path)
     assert found

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ANGLES, AXES, ROOT
+from conftest import ANGLES, AXES, TARGET
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
@@ -59,7 +59,7 @@ PARAMETERS = {
 
 @pytest.fixture(scope="module")
 def fmu3():
-    path = Path(os.environ.get("MORIS_FMU3_ARRAYS", ROOT / "target" / "fmu" / "MorisWashout.fmi3.arrays.fmu"))
+    path = Path(os.environ.get("MORIS_FMU3_ARRAYS", TARGET / "fmu" / "MorisWashout.fmi3.arrays.fmu"))
     assert path.exists(), f"{path} is missing: run `cargo build-fmu --fmi 3 --arrays`"
     return path
 
@@ -256,7 +256,7 @@ def test_fmpy_simulates_a_recording_to_the_same_numbers(fmu, fmu3):
 
 @pytest.mark.parametrize("model", ["MorisWashout", "Motorcycle", "StewartPlatform"])
 def test_the_reference_ride_is_as_the_reference_says(model, tmp_path):
-    path = ROOT / "target" / "fmu" / f"{model}.fmi3.arrays.fmu"
+    path = TARGET / "fmu" / f"{model}.fmi3.arrays.fmu"
     with zipfile.ZipFile(path) as archive:
         for end in ("in", "ref"):
             name = f"extra/org.fmi-standard.fmi-ls-ref/{model}_{end}.csv"

@@ -5,7 +5,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from conftest import ROOT, stated
+from conftest import TARGET, stated
 from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 
@@ -15,7 +15,7 @@ STEP = 0.01
 
 
 def fmus(model):
-    directory = ROOT / "target" / "fmu"
+    directory = TARGET / "fmu"
     paths = [directory / f"{model}.fmu", directory / f"{model}.fmi3.fmu"]
     for path in paths:
         assert path.exists(), f"{path} is missing: run `cargo build-fmu` and `cargo build-fmu --fmi 3`"

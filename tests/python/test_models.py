@@ -4,7 +4,7 @@ import shutil
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import TARGET
 from conftest import Washout as Instance
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
@@ -13,7 +13,7 @@ MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 
 
 def fmu(name):
-    path = ROOT / "target" / "fmu" / name
+    path = TARGET / "fmu" / name
     assert path.exists(), f"{path} is missing: run `cargo build-fmu`, `cargo build-fmu --fmi 3` and `cargo build-fmu --fmi 3 --arrays`"
     return path
 

@@ -13,6 +13,8 @@ from conftest import ROOT
 MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]
 RUNS = {"", "module", "text/javascript"}
 """Types of scripts that a browser runs."""
+WITHOUT_THE_RIDE = "moris was built without the ride"
+"""What the command says where the target for WebAssembly was missing as it was compiled."""
 
 
 class Page(HTMLParser):
@@ -67,7 +69,7 @@ def check(text, scripts):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """A folder with a report for each of two recordings, the list of them, and the page to ride."""
+    """A folder with a report for each of two recordings, and the list of them."""
     folder = tmp_path_factory.mktemp("pages")
     (folder / "rides").mkdir()
     for name, lateral in (("one", 0.5), ("two", -0.5)):
@@ -75,7 +77,6 @@ def made(tmp_path_factory):
         (folder / "rides" / f"{name}.csv").write_text("\n".join(["time,ax,ay,az,wx,wy,wz", *rows, ""]))
     simulated = subprocess.run([*MORIS, "simulate", folder / "rides", "--no-bound", "--report", folder], cwd=ROOT, capture_output=True, text=True)
     assert simulated.returncode in (0, 3), simulated.stderr
-    subprocess.run([*MORIS, "ride", "--output", folder / "ride.html"], cwd=ROOT, check=True, capture_output=True)
     return folder
 
 
@@ -89,8 +90,13 @@ def test_the_list_of_reports_has_no_script(made):
     assert "script-src" not in check((made / "index.html").read_text(), 0)
 
 
-def test_the_page_to_ride_runs_only_its_own_scripts(made):
-    allowed = check((made / "ride.html").read_text(), 2)
+def test_the_page_to_ride_runs_only_its_own_scripts(tmp_path):
+    page = tmp_path / "ride.html"
+    written = subprocess.run([*MORIS, "ride", "--output", page], cwd=ROOT, capture_output=True, text=True)
+    if WITHOUT_THE_RIDE in written.stderr:
+        pytest.skip("needs Rust's target for WebAssembly: rustup target add wasm32-unknown-unknown")
+    assert written.returncode == 0, written.stderr
+    allowed = check(page.read_text(), 2)
     assert allowed["script-src"][-1] == "'wasm-unsafe-eval'" and "connect-src" not in allowed
 
 

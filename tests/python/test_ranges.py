@@ -5,11 +5,11 @@ import os
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, stated
+from conftest import TARGET, stated
 from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.fmi1 import FMICallException
 
-FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
+FMUS = Path(os.environ.get("MORIS_FMUS", TARGET / "fmu"))
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 DEGREES = {"rad": "deg", "rad/s": "deg/s", "rad/s2": "deg/s2"}
 

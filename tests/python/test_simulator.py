@@ -8,7 +8,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from conftest import ANGLES, AXES, ROOT, example, only_all_cases
+from conftest import ANGLES, AXES, TARGET, example, only_all_cases
 from fmpy import read_model_description
 from lxml import etree
 
@@ -22,7 +22,7 @@ NAMESPACES = {
 
 @pytest.fixture(scope="module")
 def ssp():
-    path = Path(os.environ.get("MORIS_SSP", ROOT / "target" / "fmu" / "MotorcycleSimulator.ssp"))
+    path = Path(os.environ.get("MORIS_SSP", TARGET / "fmu" / "MotorcycleSimulator.ssp"))
     assert path.exists(), f"{path} is missing: run `cargo build-ssp`"
     return path
 

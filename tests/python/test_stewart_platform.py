@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from conftest import ANGLES, AXES, ROOT
+from conftest import ANGLES, AXES, TARGET
 from conftest import Washout as Instance
 from fmpy import extract, read_model_description
 from scipy.spatial.transform import Rotation
@@ -28,7 +28,7 @@ OUTPUTS = (
 
 @pytest.fixture(scope="module")
 def fmu():
-    path = ROOT / "target" / "fmu" / "StewartPlatform.fmu"
+    path = TARGET / "fmu" / "StewartPlatform.fmu"
     path = os.environ.get("MORIS_STEWART_PLATFORM_FMU", path)
     assert os.path.exists(path), f"{path} is missing: run `cargo build-fmu`"
     return path

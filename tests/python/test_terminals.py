@@ -5,7 +5,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
-from conftest import ROOT, stated
+from conftest import TARGET, stated
 from fmpy import read_model_description
 from lxml import etree
 
@@ -23,7 +23,7 @@ PREVIEW = ("Motorcycle", "preview", "MorisWashout", "preview")
 
 
 def fmu(model, kind):
-    path = ROOT / "target" / "fmu" / f"{model}.{kind}"
+    path = TARGET / "fmu" / f"{model}.{kind}"
     assert path.exists(), f"{path} is missing: run `cargo build-fmu`, with --fmi 3 too, and with --fmi 3 --arrays"
     return path
 
@@ -73,7 +73,7 @@ def test_terminals_fit_member_by_member(source, output, target, input, kind):
 
 @pytest.mark.parametrize("system, lines", [("MotorcycleSimulator", LINES), ("MotorcycleLap", [*LINES, PREVIEW])])
 def test_the_lines_are_all_connections_of_a_system(system, lines):
-    with zipfile.ZipFile(ROOT / "target" / "fmu" / f"{system}.ssp") as archive:
+    with zipfile.ZipFile(TARGET / "fmu" / f"{system}.ssp") as archive:
         system = etree.fromstring(archive.read("SystemStructure.ssd"))
     names = {"motorcycle": "Motorcycle", "washout": "MorisWashout", "platform": "StewartPlatform"}
     ssd = {"ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription"}

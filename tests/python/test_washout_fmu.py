@@ -6,9 +6,9 @@ import re
 import subprocess
 from pathlib import Path
 
-from conftest import ROOT
+from conftest import ROOT, TARGET
 
-FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
+FMUS = Path(os.environ.get("MORIS_FMUS", TARGET / "fmu"))
 FMU = FMUS / "MorisWashout.fmu"
 MAP = ROOT / "examples" / "washout-map.toml"
 MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
 STANDARD_GRAVITY = 9.80665
 only_all_cases = pytest.mark.skipif("MORIS_ALL_CASES" not in os.environ, reason="one of all cases: with --all")
 """For what few changes can break, and what takes long: memory, and other people's schedulers."""
@@ -60,7 +61,7 @@ def rides():
 
 @pytest.fixture(scope="session")
 def fmu():
-    path = Path(os.environ.get("MORIS_FMU", ROOT / "target" / "fmu" / "MorisWashout.fmu"))
+    path = Path(os.environ.get("MORIS_FMU", TARGET / "fmu" / "MorisWashout.fmu"))
     assert path.exists(), f"{path} is missing: run `cargo build-fmu`"
     return path
 

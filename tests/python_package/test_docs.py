@@ -83,7 +83,7 @@ exit 0
 
 @only_all_cases
 def test_the_slurm_snippet_runs_on_a_machine_that_takes_its_jobs(tmp_path):
-    pytest.importorskip("dask_jobqueue")
+    pytest.importorskip("dask_jobqueue", reason="needs dask_jobqueue: pip install dask-jobqueue")
     for name, text in (("sbatch", SBATCH), ("scancel", SCANCEL)):
         (tmp_path / name).write_text(text)
         (tmp_path / name).chmod(0o755)

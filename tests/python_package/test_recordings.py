@@ -93,7 +93,7 @@ def test_parquet_excel_matlab_and_mdf_files(ride, frame, expected, tmp_path):
 
 
 def test_an_mdf_file_has_units_and_several_rates(ride, expected, tmp_path):
-    asammdf = pytest.importorskip("asammdf")
+    asammdf = pytest.importorskip("asammdf", reason="needs asammdf: pip install asammdf")
     mdf = asammdf.MDF()
     fast = [asammdf.Signal(ride[name], ride["time"], name=name, unit="m/s2") for name in NAMES[1:4]]
     slow = [asammdf.Signal(np.degrees(ride[name])[::2], ride["time"][::2], name=name, unit="deg/s") for name in NAMES[4:]]

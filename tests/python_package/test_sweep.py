@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from conftest import only_all_cases
 
-pytest.importorskip("distributed")
+pytest.importorskip("distributed", reason="needs distributed: pip install distributed")
 from distributed import Client, LocalCluster  # noqa: E402
 
 

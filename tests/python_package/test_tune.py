@@ -67,7 +67,7 @@ def test_the_command_finds_the_same(tuned, rides, tmp_path):
 
 @only_all_cases
 def test_workers_find_the_same_to_the_bit_though_one_is_killed(tuned, recordings):
-    pytest.importorskip("distributed")
+    pytest.importorskip("distributed", reason="needs distributed: pip install distributed")
     from distributed import Client, LocalCluster
 
     cluster = LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0)

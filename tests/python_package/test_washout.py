@@ -295,7 +295,7 @@ def test_a_rig_comes_from_a_file_or_a_dict():
     try:
         import tomllib
     except ImportError:
-        pytest.skip("tomllib is there from Python 3.11 on")
+        pytest.skip("needs tomllib: run the tests with Python 3.11 or newer")
     assert moris.Washout(rig=rig) == moris.Washout(rig=tomllib.loads(rig.read_text()))
     assert moris.Washout(rig=str(rig)) != moris.Washout()
 

@@ -47,15 +47,16 @@ def test_our_fmu_is_the_simulation_to_the_bit(dyadic, fmu, tmp_path, strategy):
 
 
 def test_the_example_has_the_motion_of_the_script_in_the_page(tmp_path, monkeypatch):
-    subprocess.run(["cargo", "run", "--quiet", "--package", "moris-11_own_washout_as_fmu"], cwd=ROOT, check=True)
+    example = ["cargo", "run", "--quiet", "--manifest-path", ROOT / "Cargo.toml", "--package", "moris-11_own_washout_as_fmu"]
+    subprocess.run(example, cwd=tmp_path, check=True)
     subprocess.run([sys.executable, ROOT / "examples" / "recording.py", tmp_path / "ride.csv"], check=True)
     page = (ROOT / "docs" / "your-washout.md").read_text()
     script = next(text for text in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "poses.append" in text)
     monkeypatch.chdir(tmp_path)
     found = {}
     exec(script, found)  # noqa: S102
-    example = ROOT / "examples" / "11_own_washout_as_fmu" / "map.toml"
-    twin = moris.measure(found["ride"], washout=ROOT / "target" / "fmu" / "ReidNahon.fmu", washout_map=example)
+    washout_map = ROOT / "examples" / "11_own_washout_as_fmu" / "map.toml"
+    twin = moris.measure(found["ride"], washout=tmp_path / "target" / "fmu" / "ReidNahon.fmu", washout_map=washout_map)
     for name in POSE:
         assert np.abs(found["mine"][name] - twin[name]).max() < 1e-9, name
     assert found["mine"]["platform.position"].std() > 1e-3
