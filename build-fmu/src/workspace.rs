@@ -29,12 +29,14 @@ pub fn root() -> &'static Path {
 /// A file that only the sources of this project have, seen from their root.
 const MANIFEST: &str = "build-fmu/Cargo.toml";
 
-/// Directory of FMUs by default: the environment's `MORIS_FMUS`, or `target/fmu`.
+/// Directory of FMUs by default: the environment's `MORIS_FMUS`, or `fmu` in the directory in which
+/// cargo compiles.
 pub fn default_output() -> PathBuf {
-    env::var_os("MORIS_FMUS").map_or_else(|| root().join("target").join("fmu"), PathBuf::from)
+    env::var_os("MORIS_FMUS").map_or_else(|| target_directory().join("fmu"), PathBuf::from)
 }
 
-/// Directory in which cargo compiles.
+/// Directory in which cargo compiles: the environment's `CARGO_TARGET_DIR`, or `target` in the
+/// workspace.
 pub fn target_directory() -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |directory| root().join(directory))
 }

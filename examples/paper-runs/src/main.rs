@@ -47,7 +47,7 @@ fn main() -> Result<()> {
     println!("{}", force_table(&compared));
     println!("{}", platform_table(&compared));
 
-    let output = options.output.unwrap_or_else(|| workspace::root().join("target/paper-runs"));
+    let output = options.output.unwrap_or_else(|| workspace::target_directory().join("paper-runs"));
     fs::create_dir_all(&output).with_context(|| format!("cannot make {}", output.display()))?;
     for path in write_figures(&output, &traces)? {
         println!("{}", path.display());

@@ -19,7 +19,7 @@ fn main() -> Result<()> {
     let ride = [simulate(&built()?, &TOWN, &RIDE, STEP)?];
     println!("{}", force_table(&ride));
     println!("{}", platform_table(&ride));
-    let directory = workspace::root().join("target/first-ride");
+    let directory = workspace::target_directory().join("first-ride");
     fs::create_dir_all(&directory).with_context(|| format!("cannot make {}", directory.display()))?;
     let file = directory.join("ride.svg");
     write_ride(&file, &ride)?;
