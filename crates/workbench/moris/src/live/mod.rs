@@ -7,8 +7,7 @@
 //!   system.
 //! - `commands` reads lines; `parking` says how long it takes.
 //! - `place` has where the legs are at a start.
-//! - `telemetry` receives packets, or plays a recording; `ros2` subscribes to a topic; `vehicle`
-//!   steps an FMU or a motorcycle.
+//! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU or a motorcycle.
 //! - `controls` has what the page holds of a vehicle's controls.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames; `wire` keeps them within the speed of actuators, `contact` sees a
@@ -35,8 +34,6 @@ mod parking;
 mod place;
 mod priority;
 mod recorder;
-#[cfg(feature = "ros2")]
-mod ros2;
 mod sender;
 mod signals;
 mod steps;
@@ -94,10 +91,9 @@ pub struct Options {
     #[command(subcommand)]
     list: Option<tables::List>,
 
-    /// Telemetry: udp:PORT, or a topic of ROS 2 with sensor_msgs/Imu. The FMU of a vehicle or a
-    /// recording runs in real time once the platform engages. ride: a motorcycle that the page's
-    /// controls ride then
-    #[arg(long, value_name = "udp:PORT|ros2:TOPIC|fmu:FILE|ride|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
+    /// Telemetry: udp:PORT. The FMU of a vehicle or a recording runs in real time once the platform
+    /// engages. ride: a motorcycle that the page's controls ride then
+    #[arg(long, value_name = "udp:PORT|fmu:FILE|ride|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
     from: Option<String>,
 
     /// Format of the packets: a name of `moris live formats`, or a TOML file; of a recording: its

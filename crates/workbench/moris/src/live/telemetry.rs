@@ -1,5 +1,4 @@
-//! Telemetry from a socket, from a topic of ROS 2, from a recording in real time, or from a vehicle
-//! that is stepped here.
+//! Telemetry from a socket, from a recording in real time, or from a vehicle that is stepped here.
 
 use std::net::UdpSocket;
 use std::path::Path;
@@ -21,8 +20,6 @@ use rtrb::Producer;
 use super::controls::{Controls, Handling};
 use super::journal::say;
 use super::page::Desk;
-#[cfg(feature = "ros2")]
-use super::ros2::Subscription;
 use super::sender::{Dropped, Followed};
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Options, Shared, pace, tables};
@@ -43,7 +40,7 @@ pub struct Received {
 }
 
 /// The accepted values of `--from`.
-const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, ros2:TOPIC, fmu:FILE, ride, or a recording's file";
+const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, fmu:FILE, ride, or a recording's file";
 
 /// The format of recordings of this name.
 fn logger(name: &str) -> Result<Logger> {
@@ -55,7 +52,7 @@ fn logger(name: &str) -> Result<Logger> {
 /// Largest packet \[bytes\].
 const LARGEST: usize = 65_536;
 /// Time after which a quiet socket is left to see whether all has ended.
-pub const PATIENCE: Duration = Duration::from_millis(100);
+const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Properties of a source that are known before it runs.
 #[derive(Clone, Debug, Default)]
@@ -81,9 +78,6 @@ pub struct Input {
 enum Source {
     /// Packets of a format.
     Udp(UdpSocket, Box<Format>),
-    /// A topic of ROS 2.
-    #[cfg(feature = "ros2")]
-    Ros2(Box<Subscription>),
     /// Playback of a recording.
     Played(Box<Recording>),
     /// A vehicle.
@@ -104,9 +98,6 @@ impl Input {
         if let Some(file) = from.strip_prefix("fmu:") {
             let map = map.context("--map names the file that maps the FMU's variables")?;
             return Ok(Input::driven(Fmu::open(Path::new(file), map)?));
-        }
-        if let Some(topic) = from.strip_prefix("ros2:") {
-            return Input::open_ros2(topic, listen);
         }
         let Some(port) = from.strip_prefix("udp:") else {
             anyhow::ensure!(Path::new(from).exists(), "--from is {from}, but {SOURCES}");
@@ -135,23 +126,10 @@ impl Input {
         Input { features: vehicle.features(), source: Source::Driven(Box::new(vehicle)) }
     }
 
-    #[cfg(feature = "ros2")]
-    fn open_ros2(topic: &str, listen: bool) -> Result<Input> {
-        let source = Source::Ros2(Box::new(Subscription::open(topic, listen)?));
-        Ok(Input { features: Features::default(), source })
-    }
-
-    #[cfg(not(feature = "ros2"))]
-    fn open_ros2(_: &str, _: bool) -> Result<Input> {
-        anyhow::bail!("moris was built without ROS 2; build it with --features ros2")
-    }
-
     /// Passes samples on until all has ended. `controls` are those that its features name.
     pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
         match self.source {
             Source::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
-            #[cfg(feature = "ros2")]
-            Source::Ros2(subscription) => subscription.run(samples, shared),
             Source::Played(recording) => play(&recording, samples, shared),
             Source::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
         }

@@ -149,7 +149,6 @@ fn what_cannot_be_used_is_said() {
             &["--from", "udp:0x", "--format", "csv", "--dry"],
             "--from is udp:0x, but must be udp:PORT with a port from 1 to 65535",
         ),
-        (&["--from", "ros2:imu", "--dry"], if cfg!(feature = "ros2") { "like /imu/data" } else { "--features ros2" }),
         (&["--from", "udp:4444", "--dry"], "--format names the packets' format"),
         (&["--from", "udp:4444", "--format", "own.toml", "--dry"], "own.toml"),
         (&["--from", "udp:4444", "--format", "csv"], "--to"),
