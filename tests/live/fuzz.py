@@ -45,14 +45,12 @@ def packet(t):
 def order():
     """An order that is none, or may be one."""
     number = lambda: random.choice(NUMBERS + [random.uniform(-1.5, 1.5)])  # noqa: E731
-    which = lambda: random.choice(["a", "b", "c", 1, None])  # noqa: E731
     return random.choice(
         [
             {"event": random.choice(["start", "engage", "disengage", "park", "clear", "fault", "arrived", "", 7, None])},
             {"set": {random.choice(PARAMETERS): number() for _ in range(random.randrange(4))}},
             {"drive": {"throttle": number(), "brake": number(), "stick": number(), "is_helped": random.choice([True, False, 1])}},
             {"drive": {"throttle": random.random(), "brake": random.random() / 3, "stick": random.uniform(-1, 1), "is_helped": True}},
-            {random.choice(["keep", "go_to", "vote"]): which()},
             "begin_again",
             random.choice([[], {}, None, 3, "x", {"set": []}, {"file": "/etc/passwd"}]),
         ]

@@ -165,32 +165,6 @@ def a_second_page_looks_only(browser):
 
 
 @check
-def two_sets_are_kept_gone_to_and_voted_on(browser):
-    votes = PAGES / "votes.jsonl"
-    votes.unlink(missing_ok=True)
-    with live("--engage", "--votes", str(votes)) as address, opened(browser, address) as page:
-        click = lambda what, which: page.locator(f"[data-pair={what}][data-set={which}]").click()  # noqa: E731
-        click("keep", "a")
-        field = page.locator("[id='parameter-scale.specificForce.x']")
-        field.fill("0.5")
-        field.press("Enter")
-        scale = value("scale.specificForce.x")
-        wait(page, f"{scale} === 0.5")
-        click("keep", "b")
-        wait(page, "now.state === 'engaged' && !document.querySelector('[data-pair=go_to][data-set=a]').disabled")
-        field.evaluate("one => one.blur()")
-        page.keyboard.press("1")
-        wait(page, f"{scale} > 0.55 && {scale} < 0.95")
-        wait(page, f"{scale} === 1 && now.state === 'engaged'")
-        page.wait_for_timeout(200)
-        page.screenshot(path=PICTURES / "live-pair.png", full_page=True)
-        click("vote", "b")
-        wait(page, "document.getElementById('pair-message').textContent.includes('Noted: B')")
-    automatic = {"scale.automatic": 2.0}  # On in live, counted from 1.
-    assert json.loads(votes.read_text()) == {"better": automatic | {"scale.specificForce.x": 0.5}, "worse": automatic}
-
-
-@check
 def arrow_keys_ride_the_motorcycle(browser):
     with live("--engage", source=["--from", "ride"]) as address, opened(browser, address) as page:
         wait(page, "now.state === 'engaging'")

@@ -19,7 +19,6 @@
 //! | [`legs`] | where the legs are before they follow commands |
 //! | [`travel`] | the way between the settled pose and neutral |
 //! | [`tuning`] | parameters that glide to chosen values |
-//! | [`blend`] | the way from one parameter set to another |
 //! | [`signs`] | test of the telemetry's signs |
 //! | [`format`](mod@format) | packets of telemetry, described by tables |
 //! | [`moog`] | the motion base MOOG 6DOF2000E |
@@ -48,7 +47,6 @@
 #![forbid(unsafe_code)]
 
 pub mod attitude;
-pub mod blend;
 pub mod clock;
 pub mod format;
 pub mod frame;

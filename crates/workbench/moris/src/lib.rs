@@ -39,7 +39,6 @@ pub mod setup_options;
 pub mod simulate;
 mod status;
 pub mod tune;
-pub mod votes;
 pub mod words;
 pub mod worst_case;
 

@@ -4,7 +4,6 @@
 mod cases;
 mod ride;
 mod road;
-mod sets;
 
 use std::sync::Mutex;
 
@@ -378,18 +377,17 @@ fn a_day_needs_no_more_memory_at_its_end() {
         status.lines().find_map(|line| line.strip_prefix("VmRSS:")?.trim().strip_suffix(" kB")?.parse().ok()).unwrap()
     }
     let (mut session, mut ride) = at_neutral(&presets::parameters(presets::CAR));
-    ride.sets = vec![(log::slot_of("scale.specificForce.x").unwrap(), [0.4, 0.6])];
     let person = RideEvent::Person;
     let hour = [
         (1000.0, person(Event::Engage)),
-        (200.0, RideEvent::Set(1)),
+        (200.0, RideEvent::Scale(0.6)),
         (200.0, RideEvent::Pause),
         (200.0, RideEvent::Run),
         (200.0, RideEvent::Teleport),
         (200.0, RideEvent::Silence),
         (200.0, RideEvent::Run),
         (1000.0, person(Event::Engage)),
-        (200.0, RideEvent::Set(0)),
+        (200.0, RideEvent::Scale(0.4)),
         (150.0, person(Event::Park)),
         (50.0, person(Event::Start)),
     ];

@@ -1,7 +1,5 @@
 //! Emulator of a vehicle's telemetry: a smooth ride, and what games do to it.
 
-use moris_interface::slots_of;
-use moris_live::blend;
 use moris_live::log::{Entry, Happening, slot_of};
 use moris_live::{Event, Motion, STEP, Sample, Session};
 use moris_washout::interface::RollPitchYaw;
@@ -14,8 +12,6 @@ pub enum RideEvent {
     Person(Event),
     /// A person chooses the scale of the surge.
     Scale(f64),
-    /// A person goes to one of the ride's two sets.
-    Set(usize),
     /// Samples of the running vehicle.
     Run,
     /// Samples of the paused vehicle: all zero.
@@ -45,10 +41,6 @@ pub struct Ride {
     random: u64,
     /// The clock of the last sample that is not repeated \[s\].
     stopped: f64,
-    /// Slots of parameters, each with its value in both sets.
-    pub sets: Vec<(usize, [f64; 2])>,
-    /// The way to another set: when it began, and its ends.
-    way: Option<(f64, Vec<f64>, Vec<f64>)>,
     /// The recorded session.
     pub log: Option<String>,
 }
@@ -65,8 +57,6 @@ impl Default for Ride {
             has_clock: true,
             random: 1,
             stopped: 0.0,
-            sets: Vec::new(),
-            way: None,
             log: None,
         }
     }
@@ -98,33 +88,11 @@ impl Ride {
             RideEvent::Scale(value) => {
                 self.retune(session, &[(slot_of("scale.specificForce.x").unwrap(), value)]);
             }
-            RideEvent::Set(which) => {
-                let from = slots_of(session.washout().parameters());
-                let mut to = from.clone();
-                self.sets.iter().for_each(|(slot, values)| to[*slot] = values[which]);
-                self.way = Some((session.time(), from, to));
-            }
             RideEvent::Teleport => {
                 self.ahead += 7.3;
                 self.place += 500.0;
             }
             kind => self.kind = kind,
-        }
-    }
-
-    /// Goes on to the other set if the next change is due.
-    fn blend(&mut self, session: &mut Session) {
-        let Some((begin, from, to)) = &self.way else { return };
-        let passed = session.time() - begin;
-        if (passed / blend::INTERVAL).fract() * blend::INTERVAL >= 1.5 * STEP {
-            return;
-        }
-        let values = blend::blended(from, to, passed / blend::TIME);
-        let has_arrived = passed >= blend::TIME;
-        let values: Vec<_> = self.sets.iter().map(|(slot, _)| (*slot, values[*slot])).collect();
-        self.retune(session, &values);
-        if has_arrived {
-            self.way = None;
         }
     }
 
@@ -137,9 +105,8 @@ impl Ride {
         session.retune().unwrap();
     }
 
-    /// Sends a sample, and changes parameters, if their time has come.
+    /// Sends a sample if its time has come.
     pub fn send(&mut self, session: &mut Session) {
-        self.blend(session);
         let now = session.time();
         if now < self.next || self.kind == RideEvent::Silence {
             return;

@@ -188,10 +188,6 @@ pub struct Options {
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "replay")]
     learn: Option<Option<PathBuf>>,
 
-    /// Add the page's votes between two parameter sets to a file, for tune
-    #[arg(long, value_name = "FILE", requires = "page")]
-    votes: Option<PathBuf>,
-
     /// Repeat a recorded session, as fast as possible, and check that each command is the same
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "record"])]
     replay: Option<PathBuf>,
@@ -322,8 +318,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         file.write_all(header.as_bytes()).context("cannot record the session")?;
     }
     let record = record.map(Recorder::new).transpose().context("cannot record the session")?;
-    let votes = options.votes.as_ref().map(|file| File::options().append(true).create(true).open(file));
-    let votes = votes.transpose().context("cannot write votes")?;
     let shared = Arc::new(Shared::default());
     let interrupts = Interrupts::new(Signals::listen()?);
 
@@ -333,7 +327,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (to_loop, asked) = RingBuffer::new(1024);
     let (urgent, asked_at_once) = RingBuffer::new(64);
     let controls = features.handling.map(|handling| Arc::new(Controls::new(handling)));
-    let desk = Arc::new(Desk::new(&setup, votes, [to_loop, urgent], controls.clone(), options.allow_control)?);
+    let desk = Arc::new(Desk::new(&setup, [to_loop, urgent], controls.clone(), options.allow_control)?);
     let page = Start::of(&setup, features, track);
     let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
     let server = options.page.map(open).transpose()?;

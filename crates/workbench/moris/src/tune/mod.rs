@@ -13,15 +13,13 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use moris_setup::{Setup, overlaid};
-use moris_washout::check;
+use moris_setup::Setup;
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 
 use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE;
-use crate::votes;
 use crate::words;
 use cost::Objective;
 use kept::Kept;
@@ -110,7 +108,7 @@ impl Tuning {
         kept: &Kept,
         interrupted: &Arc<AtomicBool>,
     ) -> Result<Tuning> {
-        let before = start(options, strategy)?;
+        let before = options.setup(strategy).load()?;
         let mut all = objectives(options, &options.recordings, &before)?;
         let count = all.len();
         all.extend(objectives(options, &options.hold_out, &before)?);
@@ -169,17 +167,6 @@ fn is_infeasible(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(TuneError::Infeasible(_)))
 }
 
-/// The parameters that the search starts from.
-fn start(options: &Options, strategy: Option<StrategyKind>) -> Result<Setup> {
-    let mut setup = options.setup(strategy).load()?;
-    let Some(file) = &options.votes else { return Ok(setup) };
-    let Some(values) = votes::preferred(&votes::read(file)?) else { return Ok(setup) };
-    setup.parameters = overlaid(&setup.rig_alone, &values);
-    check(&setup.parameters).with_context(|| file.display().to_string())?;
-    setup.parameters_name = format!("preferred in {}", file.display());
-    Ok(setup)
-}
-
 fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let objective = |file: &PathBuf| {
@@ -226,35 +213,4 @@ fn write_reports(
         )?);
     }
     Ok(written)
-}
-
-#[cfg(test)]
-mod tests {
-    use clap::Parser;
-    use moris_setup::all;
-    use moris_washout::Parameters;
-
-    use super::*;
-
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        options: Options,
-    }
-
-    #[test]
-    fn the_search_starts_from_the_set_that_votes_prefer() {
-        let directory = tempfile::tempdir().unwrap();
-        let file = directory.path().join("votes");
-        let start_of = |votes: &str| {
-            fs::write(&file, votes).unwrap();
-            let line = Line::parse_from(["tune", "ride.csv", "--votes", file.to_str().unwrap()]);
-            start(&line.options, None)
-        };
-        let setup = start_of("{\"better\":{\"scale.specificForce.x\":0.6},\"worse\":{}}\n").unwrap();
-        assert!(all(&setup.parameters).contains(&("scale.specificForce.x".to_owned(), 0.6)));
-        assert_eq!(setup.rig_alone, Parameters::default());
-        let wrong = start_of("{\"better\":{\"tilt.angleLimit\":9},\"worse\":{}}\n").unwrap_err();
-        assert!(format!("{wrong:#}").contains("tilt.angleLimit"), "{wrong:#}");
-    }
 }

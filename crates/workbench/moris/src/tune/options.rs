@@ -59,10 +59,6 @@ pub struct Options {
     #[arg(long, value_name = "NUMBER")]
     pub folds: Option<usize>,
 
-    /// Start from the set that these votes prefer; `moris live --votes` writes them
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["parameters", "strategy"])]
-    pub votes: Option<PathBuf>,
-
     /// Parameters to tune, separated by commas
     #[arg(long, value_name = "GROUPS", value_delimiter = ',', value_parser = groups(), default_values = ["splitter", "angular", "scale", "strategy"])]
     pub tune: Vec<TuningGroup>,

@@ -29,7 +29,6 @@ fn commands(file: &str) -> Vec<Vec<&str>> {
         vec!["simulate", "ride.csv", "--rig", file],
         vec!["simulate", "ride.csv", "--parameters", file],
         vec!["simulate", "ride.csv", "--conventions", file],
-        vec!["tune", "ride.csv", "--votes", file],
         vec!["live", "--replay", file],
         vec!["live", "--from", "udp:0", "--dry", "--format", file],
         vec!["live", "--from", "udp:0", "--format", "csv", "--to", "udp:127.0.0.1:9", "--frames", file],
@@ -132,7 +131,6 @@ fn an_argument_that_is_no_text_is_an_error() {
         &["build-fmu", "--base"],
         &["live", "--from"],
         &["live", "--dry", "--from"],
-        &["tune", "--votes"],
         &["completions"],
         &[],
     ] {

@@ -10,7 +10,6 @@ import { Road, SCENE } from "../shared/road.js";
 import { Track } from "../shared/track.js";
 import { ask, listenToCommands, Sliders, token } from "./orders.js";
 import { Driving, DRIVING_KEY } from "./driving.js";
-import { Pair } from "./pair.js";
 
 const RECORDED = ["time", "desired_x", "desired_y", "desired_z", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
 const HEADER = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed";
@@ -44,7 +43,6 @@ async function send(what) {
 }
 
 const driving = new Driving(byId("driving"), page.handling, send);
-const pair = new Pair(document.querySelectorAll("#pair button"), send);
 const sliders = new Sliders(byId("panel"), page, (values) => send({ set: values }));
 
 function record() {
@@ -110,7 +108,7 @@ function showLateness(classes) {
   }));
 }
 
-function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames, road: learned, place }) {
+function take({ rows, state, health, delay, late, lines, changed, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames, road: learned, place }) {
   if (!rows) return;
   for (const row of rows) {
     const view = Object.fromEntries(now.names.map((name, i) => [name, row[i]]));
@@ -133,7 +131,6 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told, ho
   showRole(holder);
   setText("health", `telemetry: ${health}, delay ${fixed(1000 * delay, 0)} ms`);
   sliders.take(changed);
-  pair.take(told, now.controls);
   if (now.messages % 12 === 1) {
     byId("journal").replaceChildren(...lines.map((line) => element("li", {}, [line])));
     showLateness(late);
@@ -170,7 +167,7 @@ byId("scene").hidden = !road;
 letTurn(machine, () => {});
 for (const button of document.querySelectorAll("#place button")) button.addEventListener("click", async () => say(await send({ legs: button.dataset.legs }) || `At the next start: ${button.textContent}.`));
 byId("record").addEventListener("click", record);
-listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record, ...pair.keys, [DRIVING_KEY]: () => driving.beginAgain() });
+listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record, [DRIVING_KEY]: () => driving.beginAgain() });
 connect();
 
 animate((seconds, at) => {

@@ -1,7 +1,6 @@
 //! The desk between the browsers and the loop: who controls, what is asked, and what is shown.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::fs::File;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -10,12 +9,11 @@ use moris_interface::{Group as _, Reader, slots_of};
 use moris_live::session::retune;
 use moris_live::{Event, Legs, State, log};
 use moris_pages::ride::RiderCommand;
-use moris_setup::{Setup, all};
+use moris_setup::Setup;
 use moris_washout::{ParameterError, Parameters, Washout};
 use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
-use super::pair::{Pair, Which};
 use super::refusal::{Refusal, Status};
 use super::shown::{self, NAMES, Shown};
 use crate::live::controls::Controls;
@@ -61,12 +59,6 @@ enum Ask {
     Drive(RiderCommand),
     /// The vehicle begins a new ride.
     BeginAgain,
-    /// The parameters in force become one of the two sets.
-    Keep(Which),
-    /// One of the two sets comes into force.
-    GoTo(Which),
-    /// One of the two sets was better.
-    Vote(Which),
 }
 
 /// A browser's request, with the number that it was given.
@@ -103,8 +95,7 @@ struct Inner {
     browsers: Vec<Browser>,
     /// Browsers that have come.
     count: u64,
-    pair: Pair,
-    /// Members of a JSON object: parameters that differ from their start, and the pair.
+    /// A member of a JSON object: parameters that differ from their start.
     status: String,
     /// The last message and its number.
     message: (u64, String),
@@ -141,7 +132,6 @@ impl Desk {
     /// They cannot be used.
     pub fn new(
         setup: &Setup,
-        votes: Option<File>,
         [orders, urgent]: [Producer<Order>; 2],
         controls: Option<Arc<Controls>>,
         shared_control: bool,
@@ -150,7 +140,6 @@ impl Desk {
         let mut inner = Inner {
             orders,
             start: slots_of(&setup.parameters),
-            pair: Pair::new(all(&setup.rig_alone), votes),
             trial,
             state: State::Off,
             controller: None,
@@ -195,17 +184,12 @@ impl Desk {
             let place = self.controls.as_ref().and_then(|controls| controls.place());
             let place = serde_json::to_string(&place).unwrap_or_default();
             let mut inner = self.lock();
-            inner.advance_transition(pace::now());
             let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
             let status =
                 format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}", inner.status);
             if let Some(text) = shown::message(&taken, &lines, &status) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, |shown| shown.state);
-            }
-            if inner.state == State::Engaged {
-                let slots = slots_of(inner.trial.parameters());
-                inner.pair.mark_felt(&slots);
             }
             inner.ended = ended;
             drop(inner);
@@ -307,17 +291,8 @@ impl Desk {
                 let values: Option<Vec<_>> =
                     values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
                 let values = values.ok_or_else(|| Refusal::unprocessable("there is no such parameter"))?;
-                inner.pair.end_transition();
                 inner.choose(&values)
             }
-            Ask::Keep(which) => {
-                let slots = slots_of(inner.trial.parameters());
-                let kept = inner.pair.keep(which, slots);
-                inner.renew_status();
-                kept.map_err(Refusal::unprocessable)
-            }
-            Ask::GoTo(which) => inner.go_to(which),
-            Ask::Vote(which) => inner.pair.vote(which).map_err(Refusal::unprocessable),
         }
     }
 
@@ -363,37 +338,6 @@ impl Inner {
         format!("Park first: {names} cannot change like this before the platform is settled")
     }
 
-    /// Puts those of these values in force that differ from the present ones.
-    fn change_to(&mut self, slots: &[f64]) -> Result<(), Refusal> {
-        let present = slots_of(self.trial.parameters());
-        let differing = slots.iter().copied().enumerate().filter(|(slot, value)| present[*slot] != *value);
-        let differing: Vec<_> = differing.collect();
-        if differing.is_empty() { Ok(()) } else { self.choose(&differing) }
-    }
-
-    /// Goes to a kept set: at once at the lowest pose, otherwise in small changes.
-    fn go_to(&mut self, which: Which) -> Result<(), Refusal> {
-        let to = self.pair.slots(which).map_err(Refusal::unprocessable)?.clone();
-        if matches!(self.state, State::Off | State::Settled) {
-            self.pair.end_transition();
-            return self.change_to(&to);
-        }
-        let parameters = Parameters::read(&mut Reader::new(&to));
-        retune(&mut self.trial.clone(), &parameters, self.state)
-            .map_err(|error| Refusal::unprocessable(self.reason(&parameters, &error)))?;
-        self.pair.go(slots_of(self.trial.parameters()), to, pace::now());
-        Ok(())
-    }
-
-    /// The next change on the way to a set. One that cannot be used, or has no place, is left out.
-    fn advance_transition(&mut self, now: Duration) {
-        let Some((slots, is_there)) = self.pair.transition_at(now) else { return };
-        let changed = self.change_to(&slots);
-        if is_there && changed.map_or_else(|refusal| refusal.status != Status::Unavailable, |()| true) {
-            self.pair.end_transition();
-        }
-    }
-
     /// Renews the part of each message that changes by orders alone.
     fn renew_status(&mut self) {
         let slots = slots_of(self.trial.parameters());
@@ -402,7 +346,7 @@ impl Inner {
             .map(|slot| (log::name_of(slot), slots[slot]))
             .collect();
         let changed = serde_json::to_string(&changed).unwrap_or_default();
-        self.status = format!("\"changed\":{changed},\"pair\":{}", self.pair.status(&slots));
+        self.status = format!("\"changed\":{changed}");
     }
 }
 
@@ -418,7 +362,7 @@ mod tests {
 
     fn desk(shared_control: bool) -> (Desk, Consumer<Order>) {
         let (orders, asked) = RingBuffer::new(64);
-        (Desk::new(&setup(), None, [orders, RingBuffer::new(8).0], None, shared_control).unwrap(), asked)
+        (Desk::new(&setup(), [orders, RingBuffer::new(8).0], None, shared_control).unwrap(), asked)
     }
 
     fn taken(orders: &mut Consumer<Order>) -> Vec<Order> {
@@ -452,7 +396,7 @@ mod tests {
             let ((orders, asked), (urgent, at_once)) = (RingBuffer::new(1), RingBuffer::new(8));
             ([orders, urgent], [asked, at_once])
         };
-        let desk = Desk::new(&setup(), None, [orders, urgent], None, false).unwrap();
+        let desk = Desk::new(&setup(), [orders, urgent], None, false).unwrap();
         desk.enter("one");
         desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
         assert_eq!(
@@ -531,58 +475,10 @@ mod tests {
     #[test]
     fn orders_that_the_loop_does_not_take_are_refused_as_a_whole() {
         let (orders, mut asked) = RingBuffer::new(4);
-        let desk = Desk::new(&setup(), None, [orders, RingBuffer::new(8).0], None, true).unwrap();
+        let desk = Desk::new(&setup(), [orders, RingBuffer::new(8).0], None, true).unwrap();
         let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
         desk.ask(set).unwrap();
         assert_eq!(desk.ask(set).unwrap_err().status, Status::Unavailable);
         assert_eq!(taken(&mut asked).len(), 3);
-    }
-
-    #[test]
-    fn the_way_to_a_set_is_of_small_changes_and_both_sets_are_felt_before_a_vote() {
-        let directory = tempfile::tempdir().unwrap();
-        let file = directory.path().join("votes");
-        let (orders, mut asked) = RingBuffer::new(64);
-        let desk = Desk::new(&setup(), Some(File::create(&file).unwrap()), [orders, RingBuffer::new(8).0], None, true)
-            .unwrap();
-        let ask = |order: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{order}}}").as_bytes());
-        let status = |order: &str| ask(order).unwrap_err().status;
-        let scale = log::slot_of("scale.specificForce.x").unwrap() as u16;
-        assert_eq!(status("{\"go_to\":\"a\"}"), Status::Unprocessable);
-        assert_eq!(status("{\"keep\":\"c\"}"), Status::BadRequest);
-        assert_eq!(status("{\"vote\":\"../../votes\"}"), Status::BadRequest);
-        ask("{\"keep\":\"a\"}").unwrap();
-        ask("{\"set\":{\"scale.specificForce.x\":0.25}}").unwrap();
-        ask("{\"keep\":\"b\"}").unwrap();
-        let mark_felt = || {
-            let mut inner = desk.lock();
-            let slots = slots_of(inner.trial.parameters());
-            inner.pair.mark_felt(&slots);
-        };
-        mark_felt();
-        assert_eq!(status("{\"vote\":\"a\"}"), Status::Unprocessable);
-        assert_eq!(taken(&mut asked), [Order::Choose(scale, 0.25), Order::Retune]);
-        desk.lock().state = State::Engaged;
-        ask("{\"go_to\":\"a\"}").unwrap();
-        assert_eq!(status("{\"keep\":\"a\"}"), Status::Unprocessable);
-        let begin = pace::now();
-        let mut before = 0.25_f64;
-        // Equal factors, at most 1.5 of the mean at a time.
-        let most = 4.0_f64.powf(1.5 * 0.04 / 2.0 + 1e-3);
-        for change in 1..=51 {
-            desk.lock().advance_transition(begin + change * Duration::from_millis(40));
-            for order in taken(&mut asked) {
-                let Order::Choose(slot, value) = order else { continue };
-                assert!(slot == scale && value > before && value / before < most, "{value} after {before}");
-                before = value;
-            }
-        }
-        assert_eq!(before, 1.0);
-        mark_felt();
-        assert!(desk.lock().status.contains("\"now\":\"A\""));
-        ask("{\"vote\":\"b\"}").unwrap();
-        let votes = crate::votes::read(&file).unwrap();
-        assert_eq!(votes[0].better, [("scale.specificForce.x".to_owned(), 0.25)].into());
-        assert!(votes[0].worse.is_empty() && votes.len() == 1);
     }
 }

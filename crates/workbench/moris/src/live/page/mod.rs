@@ -3,7 +3,6 @@
 //! - `http` reads requests, bounded, and checks where they come from.
 //! - `shown` is what the loop passes on, and the messages made of it.
 //! - `desk` knows who controls, and checks what is asked.
-//! - `pair` has two parameter sets, the way from one to the other, and votes.
 //! - `refusal` is the answer to a request that is refused.
 //! - `track` has the road that is known at first.
 //! - `server` answers requests, each on a thread of its own.
@@ -13,7 +12,6 @@
 
 mod desk;
 mod http;
-mod pair;
 mod refusal;
 mod server;
 mod shown;
