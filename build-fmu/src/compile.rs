@@ -29,24 +29,14 @@ pub enum Linker {
     Zig,
     /// GCC for Windows.
     Mingw,
-    /// The one that comes with Rust, for WebAssembly components.
-    Component,
 }
 
-/// The interface of a component, seen from the workspace's root, where cargo links. By its whole
-/// path the library would depend on the directory.
-const COMPONENT_INTERFACE: &str = "crates/fmi/wit/co-simulation-fmu.wit";
-
-/// Plans for libraries of this version of FMI for these platforms, with all tools found; for this
-/// machine if the list is empty.
+/// Plans for libraries for these platforms, with all tools found; for this machine if the list is
+/// empty.
 ///
 /// # Errors
-/// A platform that the version does not have, or a tool that is missing, before anything is
-/// compiled.
-pub fn plan(fmi: FmiVersion, platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
-    if let Some(&platform) = platforms.iter().find(|platform| !platform.is_of(fmi)) {
-        return Err(Error::NotOfVersion { platform, fmi });
-    }
+/// A tool that is missing, before anything is compiled.
+pub fn plan(platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
     if platforms.is_empty() {
         return Ok(vec![plan_for(Platform::host().ok_or(Error::NoHostPlatform)?)?]);
     }
@@ -65,13 +55,12 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
         Platform::Darwin64 | Platform::Aarch64Darwin if cfg!(target_os = "macos") => Linker::Host,
         // zig links for macOS too, but also exports Rust's internal names.
         Platform::Darwin64 | Platform::Aarch64Darwin => Linker::Lld,
-        Platform::Wasm32Wasip2 => Linker::Component,
     };
     match linker {
         Linker::Zig => tools::zigbuild(platform)?,
         Linker::Mingw => tools::mingw(platform)?,
         Linker::Lld => tools::zig_library(platform).map(drop)?,
-        Linker::Host | Linker::Component => {}
+        Linker::Host => {}
     }
     tools::standard_library(platform)?;
     Ok(Plan { platform, linker })
@@ -79,7 +68,7 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
 
 /// The profile of the workspace's manifest by which the libraries are compiled.
 const PROFILE: &str = "fmu-library";
-/// Profile in which the WebAssembly is compiled.
+/// Profile in which the WebAssembly is compiled that becomes sources in C.
 pub const WEBASSEMBLY_PROFILE: &str = "page-simulation";
 
 /// Compiles the model's library for a version of FMI and returns it.
@@ -89,7 +78,7 @@ pub const WEBASSEMBLY_PROFILE: &str = "page-simulation";
 pub fn compile(model: &FmuModel, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     run_cargo(&[(model, fmi)], plan)?;
     let built = plan.platform.built_library(model.library(fmi));
-    let file = workspace::target_directory().join(plan.platform.target()).join(plan.profile()).join(built);
+    let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);
     fs::read(&file).map_err(|reason| Error::Read { file, reason })
 }
 
@@ -108,7 +97,7 @@ pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> R
 /// Calls cargo for these libraries.
 fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
     let mut command = plan.cargo();
-    command.args(["--profile", plan.profile(), "--target-dir"]).arg(workspace::target_directory());
+    command.args(["--profile", PROFILE, "--target-dir"]).arg(workspace::target_directory());
     for (model, fmi) in libraries {
         command.args(["--package", model.package(*fmi)]);
     }
@@ -146,33 +135,22 @@ impl Plan {
         command
     }
 
-    /// The profile by which it is compiled.
-    fn profile(&self) -> &'static str {
-        if self.linker == Linker::Component { WEBASSEMBLY_PROFILE } else { PROFILE }
-    }
-
     /// The target as cargo and cargo-zigbuild name it.
     fn target(&self) -> String {
         match self.linker {
             Linker::Zig => format!("{}.{OLDEST_GLIBC}", self.platform.target()),
-            Linker::Host | Linker::Lld | Linker::Mingw | Linker::Component => self.platform.target().to_owned(),
+            Linker::Host | Linker::Lld | Linker::Mingw => self.platform.target().to_owned(),
         }
     }
 
     /// True if a library has flags of its own, which `cargo rustc` gives to it alone: what it uses
     /// is compiled once for all libraries.
     fn is_alone(&self) -> bool {
-        self.platform.is_apple() || self.platform.is_component()
+        self.platform.is_apple()
     }
 
     /// Arguments of cargo with the flags of a library of this name.
     fn library_arguments(&self, library: &str) -> Vec<String> {
-        if self.platform.is_component() {
-            let interface = format!("-Clink-arg=--component-type={COMPONENT_INTERFACE}");
-            return ["--features", "component", "--", "-Clinker=wasm-component-ld", &interface]
-                .map(str::to_owned)
-                .into();
-        }
         // A library for macOS carries its own name, by default the path at which it was linked.
         let name = format!("@rpath/{}", self.platform.packed_library(library));
         let through_compiler = if self.linker == Linker::Host { "-Wl," } else { "" };
@@ -185,13 +163,11 @@ impl Plan {
     /// no directory of this machine, no time of day.
     fn rust_flags(&self) -> Result<OsString, Error> {
         let mut flags = path_flags()?;
-        if self.linker != Linker::Component {
-            flags.insert(0, "-Cstrip=symbols".into());
-        }
+        flags.insert(0, "-Cstrip=symbols".into());
         match self.linker {
             Linker::Mingw => flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into()),
             Linker::Lld => flags.extend(["-Clinker=rust-lld".into(), "-Clinker-flavor=ld64.lld".into()]),
-            Linker::Host | Linker::Zig | Linker::Component => {}
+            Linker::Host | Linker::Zig => {}
         }
         Ok(encoded(&flags))
     }
@@ -223,19 +199,7 @@ impl fmt::Display for Plan {
             Linker::Lld => "lld (untested)",
             Linker::Zig => "zig",
             Linker::Mingw => "GCC for Windows",
-            Linker::Component => "wasm-component-ld",
         };
         write!(formatter, "compiling for {}, linked by {linker}", self.target())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn components_are_for_fmi_3() {
-        let error = plan(FmiVersion::Fmi2, &[Platform::Linux64, Platform::Wasm32Wasip2]).unwrap_err();
-        assert!(error.to_string().contains("FMI 2.0 has no platform wasm32-wasip2; choose --fmi 3"), "{error}");
     }
 }

@@ -13,12 +13,6 @@ pub const LICENCES: &str = concat!(
     include_str!("../../LICENSE-APACHE"),
 );
 
-/// The manifest of the layered standard for WebAssembly: its path in the FMU, and the text.
-const COMPONENT_MANIFEST: (&str, &str) =
-    ("extra/org.modelica.fmi-ls-wasm/manifest.xml", include_str!("../reference/fmi-ls-wasm.xml"));
-/// Licence of the interface that is part of a component.
-const COMPONENT_LICENCE: &str = include_str!("../../crates/fmi/wit/license.txt");
-
 /// The files of a model's FMU of a version of FMI with these libraries and sources, which
 /// start with these values.
 pub fn contents(
@@ -51,10 +45,6 @@ pub fn contents(
         contents.insert("documentation/start-values.toml".to_owned(), start.file(model).into_bytes());
     }
     for (platform, bytes) in libraries {
-        if platform.is_component() {
-            contents.insert(COMPONENT_MANIFEST.0.to_owned(), COMPONENT_MANIFEST.1.as_bytes().to_vec());
-            contents.insert("documentation/licenses/fmi-ls-wasm.txt".to_owned(), COMPONENT_LICENCE.as_bytes().to_vec());
-        }
         let path = format!("binaries/{}/{}", platform.directory(fmi), platform.packed_library(model.name));
         contents.insert(path, bytes);
     }

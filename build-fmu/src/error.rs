@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use moris_interface::ParameterError;
 
+use crate::Platform;
 use crate::library::LibraryError;
-use crate::{FmiVersion, Platform};
 
 /// Errors of building an FMU, with the remedy.
 #[derive(Debug, thiserror::Error)]
@@ -26,9 +26,6 @@ pub enum Error {
     /// The compiler failed and printed the reason.
     #[error("the library for {platform} did not compile; the compiler's messages are above")]
     Compile { platform: Platform },
-    /// A platform that this version of FMI does not have.
-    #[error("{fmi} has no platform {platform}; choose --fmi 3")]
-    NotOfVersion { platform: Platform, fmi: FmiVersion },
     /// FMI has no platform name for this machine.
     #[error("FMI has no platform name for this machine; choose a platform with --platform")]
     NoHostPlatform,

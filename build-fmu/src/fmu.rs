@@ -42,10 +42,7 @@ pub fn build(
 /// # Errors
 /// A tool that is missing, or a library that does not compile.
 pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], platforms: &[Platform]) -> Result<(), Error> {
-    let plans = libraries.iter().map(|&(_, fmi)| compile::plan(fmi, platforms)).collect::<Result<Vec<_>, _>>()?;
-    // They differ by what is checked alone.
-    let Some(plans) = plans.first() else { return Ok(()) };
-    plans.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
+    compile::plan(platforms)?.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
 }
 
 /// Builds a model's FMU and returns its bytes; otherwise as [`build`].
@@ -59,18 +56,14 @@ pub fn fmu(
     platforms: &[Platform],
     mut report: impl FnMut(&str),
 ) -> Result<Vec<u8>, Error> {
-    let plans = compile::plan(fmi, platforms)?;
+    let plans = compile::plan(platforms)?;
     let mut libraries = Vec::new();
     for plan in &plans {
         report(&format!("{}: {plan}", plan.platform));
         let bytes = compile::compile(model, fmi, plan)?;
         let paths = workspace::private_paths()?;
-        let examined = if plan.platform.is_component() {
-            library::examine_component(&bytes, &paths)
-        } else {
-            library::examine(&bytes, fmi.functions(), &paths)
-        };
-        let info = examined.map_err(|reason| Error::Library { platform: plan.platform, reason })?;
+        let info = library::examine(&bytes, fmi.functions(), &paths)
+            .map_err(|reason| Error::Library { platform: plan.platform, reason })?;
         report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }

@@ -66,22 +66,6 @@ pub fn examine(
     Ok(info)
 }
 
-/// Examines a WebAssembly component. That it exports what its interface declares is its linker's
-/// work.
-///
-/// # Errors
-/// The first error found.
-pub fn examine_component(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<LibraryInfo, LibraryError> {
-    if !library.starts_with(COMPONENT) {
-        return Err(LibraryError::Unreadable("it is no WebAssembly component".to_owned()));
-    }
-    check_paths(library, private_paths)?;
-    Ok(LibraryInfo { glibc: None, needs: BTreeSet::new(), size: library.len() })
-}
-
-/// The first bytes of a component: WebAssembly, the encoding's version, and that it is no module.
-const COMPONENT: &[u8] = b"\0asm\x0d\0\x01\0";
-
 /// Exactly the functions of FMI, and every one of them.
 fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), LibraryError> {
     // On macOS every name of C has an underscore before it.
@@ -205,8 +189,5 @@ mod tests {
     #[test]
     fn what_is_no_library_is_refused() {
         assert!(matches!(examine(b"#!/bin/sh", &[], &[]), Err(LibraryError::Unreadable(_))));
-        let module = b"\0asm\x01\0\0\0";
-        assert!(matches!(examine_component(module, &[]), Err(LibraryError::Unreadable(_))));
-        assert_eq!(examine_component(COMPONENT, &[]).unwrap().to_string(), "1 kB, uses no library");
     }
 }

@@ -18,20 +18,12 @@ pub enum Platform {
     Aarch64Linux,
     /// macOS on Apple silicon; never run by us
     Aarch64Darwin,
-    /// WebAssembly component, by the working draft fmi-ls-wasm; FMI 3.0 only
-    Wasm32Wasip2,
 }
 
 impl Platform {
     /// Every platform.
-    pub const ALL: &[Self] = &[
-        Platform::Linux64,
-        Platform::Win64,
-        Platform::Darwin64,
-        Platform::Aarch64Linux,
-        Platform::Aarch64Darwin,
-        Platform::Wasm32Wasip2,
-    ];
+    pub const ALL: &[Self] =
+        &[Platform::Linux64, Platform::Win64, Platform::Darwin64, Platform::Aarch64Linux, Platform::Aarch64Darwin];
 
     /// The platform on which this program runs; none where FMI has no name for it.
     pub fn host() -> Option<Self> {
@@ -50,16 +42,6 @@ impl Platform {
         matches!(self, Platform::Darwin64 | Platform::Aarch64Darwin)
     }
 
-    /// True for a WebAssembly component.
-    pub fn is_component(self) -> bool {
-        self == Platform::Wasm32Wasip2
-    }
-
-    /// True if an FMU of this version of FMI can be for it.
-    pub fn is_of(self, fmi: FmiVersion) -> bool {
-        !self.is_component() || fmi.choose(false, true)
-    }
-
     /// Its directory under `binaries/`.
     pub fn directory(self, fmi: FmiVersion) -> &'static str {
         match self {
@@ -68,7 +50,6 @@ impl Platform {
             Platform::Darwin64 => fmi.choose("darwin64", "x86_64-darwin"),
             Platform::Aarch64Linux => "aarch64-linux",
             Platform::Aarch64Darwin => "aarch64-darwin",
-            Platform::Wasm32Wasip2 => "wasm32-wasip2",
         }
     }
 
@@ -80,15 +61,13 @@ impl Platform {
             Platform::Darwin64 => "x86_64-apple-darwin",
             Platform::Aarch64Linux => "aarch64-unknown-linux-gnu",
             Platform::Aarch64Darwin => "aarch64-apple-darwin",
-            // Its standard library calls no system, so that the component needs none.
-            Platform::Wasm32Wasip2 => "wasm32-unknown-unknown",
         }
     }
 
     /// The file that cargo makes of a library of this name.
     pub fn built_library(self, name: &str) -> String {
         match self {
-            Platform::Win64 | Platform::Wasm32Wasip2 => self.packed_library(name),
+            Platform::Win64 => self.packed_library(name),
             _ => format!("lib{}", self.packed_library(name)),
         }
     }
@@ -99,7 +78,6 @@ impl Platform {
             Platform::Linux64 | Platform::Aarch64Linux => format!("{name}.so"),
             Platform::Win64 => format!("{name}.dll"),
             Platform::Darwin64 | Platform::Aarch64Darwin => format!("{name}.dylib"),
-            Platform::Wasm32Wasip2 => format!("{name}.wasm"),
         }
     }
 }

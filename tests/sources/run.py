@@ -1,17 +1,15 @@
 #!/usr/bin/env python3
-"""Compiles the sources in the washout's FMUs with C compilers, and compares them and the WebAssembly component with the libraries.
+"""Compiles the sources in the washout's FMUs with C compilers, and compares them with the libraries.
 
     python3 tests/sources/run.py [--install] [--require]
 
 FMPy compiles the FMUs of FMI 2.0 and 3.0 with CMake. The reference ride with each strategy has to give the numbers of the
 library that was compiled from Rust, to the bit. A program that includes the sources checks states, refusals, traps and that a
-step allocates nothing. Callgrind counts the instructions of a step in both. The component in the FMU of FMI 3.0 makes the
-same rides in wasmtime. What is not installed is reported as missing;
+step allocates nothing. Callgrind counts the instructions of a step in both. What is not installed is reported as missing;
 with --require that is an error. With --install it is installed first (apt and rustup).
 """
 
 import argparse
-import json
 import os
 import re
 import shutil
@@ -33,9 +31,6 @@ APT = ["gcc", "wabt", "valgrind"]
 RUSTUP = ["wasm32-unknown-unknown"]
 # With CMake, which FMPy calls.
 PIP = ["fmpy==0.3.32"]
-# Another environment: it is ready without the first.
-COMPONENT_VENV = WORK / "component-venv"
-COMPONENT_PIP = ["wasmtime==50.0.1"]
 MODEL = "MorisWashout"
 # The FMU's ending, the library's directory, and the option for a shared library.
 VERSIONS = {
@@ -150,24 +145,6 @@ def check_rides():
             assert ratio <= MOST_INSTRUCTIONS, "a step costs too much"
 
 
-def check_component():
-    """The WebAssembly component of FMI 3.0, in wasmtime."""
-    folder = WORK / "component"
-    build = ["cargo", "build-fmu", "--model", MODEL, "--fmi", "3", "--output", folder]
-    run(*build, "--platform", "linux64,wasm32-wasip2", "--parameters", "motorcycle")
-    ending, platform, _ = VERSIONS["3"]
-    fmu = folder / f"{MODEL}{ending}"
-    with zipfile.ZipFile(fmu) as archive:
-        own = archive.extract(f"binaries/{platform}/{MODEL}.so", folder)
-    host, ride, python = compile_host(), Ride(fmu), interpreter(COMPONENT_VENV, COMPONENT_PIP)
-    numbers = lambda text: [[float(number) for number in line.split()] for line in text.splitlines()]
-    for settings in STRATEGIES:
-        done = subprocess.run([python, HERE / "component.py", fmu, json.dumps(settings)], capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
-        assert numbers(done.stdout) == numbers(answers(host, own, "3", ride, settings)), f"component, {settings}: other numbers"
-    print(f"FMI 3: the component in wasmtime, {len(STRATEGIES)} rides equal to the bit", flush=True)
-
-
 def check_included():
     """The same sources within a program, by the C compiler alone; and that it has nothing to warn of."""
     ending, *_ = VERSIONS["2"]
@@ -214,7 +191,6 @@ def main():
         build()
         check_included()
         check_start_values()
-        check_component()
         check_rides()
     except Missing as reason:
         print(f"sources: missing ({reason})")

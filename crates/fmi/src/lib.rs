@@ -6,8 +6,7 @@
 //! - The crate's root holds the parts common to all versions of FMI, without C types: an
 //!   [`Instance`] with its values, modes and state.
 //! - [`abi`] holds the parts of the C interface that all versions share.
-//! - [`fmi2`] and [`fmi3`] hold the C functions of each version; `fmi3::webassembly`, for that
-//!   target, those of a component.
+//! - [`fmi2`] and [`fmi3`] hold the C functions of each version.
 //!
 //! Nothing here writes to standard output or standard error, reads the
 //! environment, or starts a thread.

@@ -17,8 +17,6 @@ mod logger;
 pub mod steps;
 pub mod types;
 pub mod variables;
-#[cfg(target_arch = "wasm32")]
-pub mod webassembly;
 
 pub use logger::Logger;
 pub use moris_interface::{LOG_CATEGORIES_OF_FMI3 as LOG_CATEGORIES, Layout};

@@ -71,22 +71,6 @@ pub unsafe fn get_output_derivatives<M: Model>(
     component.instance.get_output_derivatives(requests, values)
 }
 
-/// Number of values of these variables together, for a host that does not give it. For wrong
-/// references and for no instance it is any number.
-///
-/// # Safety
-/// `instance` is the host's, or null.
-#[cfg(target_arch = "wasm32")]
-pub(crate) unsafe fn value_count<M: Model>(instance: fmi3Instance, references: &[fmi3ValueReference]) -> usize {
-    // SAFETY: guaranteed by the caller.
-    match unsafe { Component::<M>::at(instance) } {
-        Some(component) if component.logger.layout == Layout::Arrays => {
-            total_length::<M>(component.instance.tables().infos, references).unwrap_or(references.len())
-        }
-        _ => references.len(),
-    }
-}
-
 /// Checks that the host has as many values as the variables; with arrays, that the
 /// references are variables', too.
 #[inline]

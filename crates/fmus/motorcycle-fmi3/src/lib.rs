@@ -2,5 +2,3 @@
 #![allow(non_snake_case)] // named as the model
 
 moris_fmi::export_fmi3!(moris_motorcycle::Motorcycle);
-#[cfg(all(feature = "component", target_arch = "wasm32"))]
-moris_fmi::export_fmi3_component!(moris_motorcycle::Motorcycle);
