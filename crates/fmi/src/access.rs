@@ -165,7 +165,8 @@ impl<M: Model> Instance<M> {
         let mode = self.state.mode;
         let is_settable = |(slot, values): (u32, &[S])| {
             self.info::<S>(slot).is_some_and(|info| {
-                info.settable.contains(mode) && values.iter().all(|value| info.accepts(value.to_slot()))
+                (info.settable.contains(mode) || self.repeats(slot, values))
+                    && values.iter().all(|value| info.accepts(value.to_slot()))
             })
         };
         if !variables.with_values(values).all(is_settable) {
@@ -252,20 +253,31 @@ impl<M: Model> Instance<M> {
     #[cold]
     #[inline(never)]
     fn why_not_settable<S: Scalar>(&self, variables: impl Variables, values: &[S]) -> CallError {
-        let about_slots = variables.slots().filter_map(|slot| self.why_slot_not_settable::<S>(slot));
+        let about_slots =
+            variables.with_values(values).filter_map(|(slot, values)| self.why_slot_not_settable(slot, values));
         let about_values =
             one_by_one(variables, values).filter_map(|(slot, value)| self.why_value_rejected(slot, value.to_slot()));
         first(about_slots.chain(about_values))
     }
 
-    fn why_slot_not_settable<S: Scalar>(&self, slot: u32) -> Option<CallError> {
+    /// True if a parameter gets the values that it has while steps are made. Hosts write all their
+    /// parameters again then, fixed ones too.
+    fn repeats<S: Scalar>(&self, slot: u32, values: &[S]) -> bool {
+        let slot = slot as usize;
+        let present = self.state.values[slot..].iter();
+        self.state.mode == Mode::StepComplete
+            && self.tables.infos[slot].role == Role::Parameter
+            && present.zip(values).all(|(present, value)| *present == value.to_slot())
+    }
+
+    fn why_slot_not_settable<S: Scalar>(&self, slot: u32, values: &[S]) -> Option<CallError> {
         let Some(info) = self.tables.infos.get(slot as usize) else {
             return Some(self.no_such_variable(slot));
         };
         if !S::is(info.value_type) {
             return Some(self.wrong_type::<S>(slot));
         }
-        if info.settable.contains(self.state.mode) {
+        if info.settable.contains(self.state.mode) || self.repeats(slot, values) {
             return None;
         }
         let name = self.name(slot);

@@ -146,11 +146,28 @@ fn variables_can_be_set_where_the_standard_says() {
         };
         for (instance, expected) in [(Instance::new(), before), (initializing(), before), (stepping(), stepping_too)] {
             let state = instance.bytes();
-            let status = instance.set(&[reference], &vec![0.5; length]);
+            // None of the fixed parameters has this value.
+            let status = instance.set(&[reference], &vec![0.75; length]);
             assert_eq!(status, if expected { OK } else { ERROR }, "{}", row.name);
             assert!(expected || instance.bytes() == state);
         }
     }
+}
+
+#[test]
+fn a_fixed_parameter_takes_the_values_that_it_has_while_steps_are_made() {
+    let instance = initializing();
+    let mut weights: [f64; 18] = std::array::from_fn(|k| k as f64 * 0.5);
+    instance.set_real("weight", &weights);
+    assert_eq!(instance.exit_initialization_mode(), OK);
+    let (messages, state) = (instance.messages(), instance.bytes());
+    instance.set_real("weight", &weights);
+    assert_eq!(instance.set(&[reference("tau")], &[0.5]), OK);
+    assert_eq!((instance.messages(), instance.bytes()), (messages, state.clone()));
+    weights[17] += 1e-9;
+    let status = instance.set(&[reference("weight")], &weights);
+    instance.assert_call_error(status, ERROR, &["cannot be set in state"]);
+    assert_eq!(instance.bytes(), state);
 }
 
 #[test]

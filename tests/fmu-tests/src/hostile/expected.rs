@@ -52,6 +52,13 @@ impl Expected {
         }
     }
 
+    /// True if the variable can be set to this value now: while steps are made, a fixed parameter
+    /// to the one that it has.
+    pub fn takes(&self, slot: usize, value: f64) -> bool {
+        let repeated = || IDENTITY.row(slot).causality == Causality::Parameter && value == self.values[slot];
+        self.settable(slot) || self.state == 'C' && repeated()
+    }
+
     /// The value of the variable of this name.
     pub fn value(&self, name: &str) -> f64 {
         self.values[slot(name)]
