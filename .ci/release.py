@@ -73,6 +73,7 @@ def fmus(options):
     where = ["--output", options.output, *(["--platform", options.platform] if options.platform else [])]
     run("cargo", "build-fmu", "--fmi", "2,3", *where)
     run("cargo", "build-fmu", "--fmi", "3", "--arrays", *where)
+    run("cargo", "build-fmu", "--reals-only", *where)
     with tempfile.TemporaryDirectory() as folder:
         python = environment(Path(folder) / "venv", FMPY)
         for fmu in sorted(options.output.glob("*.fmu")):

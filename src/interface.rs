@@ -92,9 +92,9 @@ interface_tree! {
 
 interface! {
     /// Commands to the platform and its actuators, and the motion felt by the rider.
-    pub struct Output: Output, Continuous {
+    pub struct Output: Output, Continuous, starts_from(&[]) {
         /// Position of the platform frame's origin in the base frame.
-        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
+        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["rig.neutralHeight"]);
         /// Velocity of the platform frame's origin in the base frame.
         "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Acceleration of the platform frame's origin in the base frame.
@@ -104,11 +104,11 @@ interface! {
         /// Angular velocity of the platform in the base frame.
         "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Commanded length of the actuator, from base joint to platform joint.
-        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6];
+        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], starts_from(&["rig."]);
         /// Commanded rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
         /// Specific force at the washout location on the commanded motion, in head axes.
-        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
+        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["gravity", "rider.lean", "washoutLocation"]);
         /// Angular velocity at the washout location on the commanded motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Part of the platform's roll due to tilt coordination.
@@ -126,7 +126,7 @@ interface! {
         /// True if the actuator guard limited stroke, speed or acceleration of an actuator during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
-        "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
+        "status.strokeMargin" stroke_margin: f64 [M] = 0.0, starts_from(&["actuator.", "rig."]);
         /// True if the predictive strategy's last attempt at a new plan failed and the previous plan continues.
         "status.planKept" plan_kept: bool = false;
         /// Time since the plan of the predictive strategy was begun.
@@ -136,7 +136,7 @@ interface! {
         /// True if the soft limits changed the motion during the last communication step.
         "status.softLimited" soft_limited: bool = false;
         /// Factor by which the automatic scale multiplies surge, sway and rates; 1 while it is off.
-        "automaticScale.factor" scale_factor: f64 = 1.0;
+        "automaticScale.factor" scale_factor: f64 = 1.0, starts_from(&["automaticScale.", "scale.automatic"]);
     }
 }
 

@@ -11,6 +11,19 @@
 //! [`Washout`] is the whole filter. [`interface`] has its inputs, outputs and parameters,
 //! [`presets`] sets of parameters, [`platform`] the kinematics alone.
 //!
+//! ```
+//! use moris_washout::{Group, Input, Parameters, Washout};
+//!
+//! let mut parameters = Parameters::default();
+//! parameters.set("scale.specificForce.x", 0.5)?; // by the FMU's name,
+//! parameters.tilt.rate_limit = 0.04; // or by the field: `tilt.rateLimit`, in rad/s
+//! let mut washout = Washout::new(&parameters)?;
+//! washout.step(&Input::default(), 0.001);
+//! let error = parameters.set("tilt.rateLimit", -1.0).unwrap_err();
+//! assert_eq!(error.to_string(), "tilt.rateLimit: is -1, but must be from 0.000000001 to 10");
+//! # Ok::<(), moris_washout::ParameterError>(())
+//! ```
+//!
 //! The base frame and the platform frame have x forward, y left and z up. Roll, pitch and
 //! yaw are rotations about x, y and z. Positive pitch is therefore nose down. All
 //! quantities are in SI units.
@@ -46,7 +59,7 @@ mod washout;
 pub use nalgebra;
 
 pub use interface::{Input, Output, Parameters, Preview, Rig};
-pub use moris_interface::{MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
+pub use moris_interface::{Group, MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
 pub use validate::{check, check_rig, warnings};
 pub use washout::{InputCourse, Washout};
 

@@ -3,7 +3,7 @@
 use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterError, variables};
 
 use crate::interface::{Inputs, Output, Parameters};
-use crate::validate::warnings;
+use crate::validate::{input_warnings, warnings};
 use crate::washout::Washout;
 
 variables!(Inputs, Output, Parameters);
@@ -30,8 +30,8 @@ impl Model for Washout {
         Washout::retune(self, parameters)
     }
 
-    fn warnings(parameters: &Parameters) -> Vec<String> {
-        warnings(parameters)
+    fn warnings(parameters: &Parameters, inputs: &Inputs) -> Vec<String> {
+        warnings(parameters).into_iter().chain(input_warnings(parameters, &inputs.vehicle)).collect()
     }
 
     fn longest_step(&self) -> f64 {

@@ -2,7 +2,7 @@
 
 use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
-use crate::interface::{Parameters, Rig};
+use crate::interface::{GravityRemoval, Input, Parameters, Rig};
 use crate::platform::reach::{Axis, single_axis_range};
 use crate::platform::{Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
 
@@ -53,6 +53,22 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
         })
     };
     [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate().filter_map(beyond).collect()
+}
+
+/// Doubts about the first input, in sentences: hosts that set every input to zero neither engage
+/// the washout nor give it gravity.
+pub fn input_warnings(parameters: &Parameters, input: &Input) -> Vec<String> {
+    let disengaged = "engaged is false: the platform stays at rest; set it to true to cue the vehicle's motion";
+    let gravity = parameters.structure.gravity;
+    let weightless = || {
+        format!(
+            "vehicle.specificForce.z is 0 m/s2, as in free fall: at rest on level ground it is {gravity}; add gravity, or set \
+             gravityRemoval to none (3) for accelerations without it"
+        )
+    };
+    let falls = input.specific_force.z == 0.0 && parameters.conditioning.gravity_removal != GravityRemoval::None;
+    let disengaged = (!input.engaged).then(|| disengaged.to_owned());
+    disengaged.into_iter().chain(falls.then(weightless)).collect()
 }
 
 /// Checks parameters that are to follow others, of which the tunable ones may change. No

@@ -135,7 +135,8 @@ def fmu(options):
     """builds the FMUs of both versions and the packages of the simulator"""
     run("cargo", "build-fmu", "--fmi", "2,3")
     # All libraries are compiled by now.
-    packed = [("build-fmu", "--fmi", "3", "--arrays")]
+    packed = [("build-fmu", "--fmi", "3", "--arrays"), ("build-fmu", "--reals-only")]
+    packed += [("build-fmu", "--terminals", "--output", "target/fmu/terminals")]
     packed += [("build-ssp", "--system", system, *form) for system in ("MotorcycleSimulator", "MotorcycleLap") for form in ([], ["--flat"])]
     with ThreadPoolExecutor(usable_cores()) as pool:
         for _ in pool.map(lambda command: run("cargo", *command, at_once=True), packed):

@@ -8,18 +8,22 @@ use moris_fmu_host::files::unpack;
 use quick_xml::de::from_str;
 use serde::Deserialize;
 
-use crate::{Error, FmiVersion, FmuModel, MODELS, Platform, Sources, Start, archive, code_signature, contents};
+use crate::contents::Extras;
+use crate::{
+    Error, FmiVersion, FmuModel, FormOptions, MODELS, Platform, Sources, Start, archive, code_signature, contents,
+    terminals,
+};
 
 /// Largest FMU as a base, packed or unpacked \[bytes\].
 const LARGEST: u64 = 256_000_000;
 
-/// A model's libraries, by platform, and its sources, without start values in
+/// A model's libraries, by platform, and the extras, without start values in
 /// place of the model's own.
 pub struct Base {
     pub model: &'static FmuModel,
     pub fmi: FmiVersion,
     libraries: Vec<(Platform, Vec<u8>)>,
-    sources: Option<Sources>,
+    extras: Extras,
 }
 
 /// The attributes of `modelDescription.xml` that tell models and versions apart.
@@ -90,12 +94,24 @@ impl Base {
         if starts.iter().any(|other| other != start) {
             return Err("has libraries with different start values; it is put together from several FMUs".to_owned());
         }
-        Ok(Base { model, fmi, libraries, sources })
+        let extras = Extras { sources, terminals: files.contains_key(terminals::FILE) };
+        Ok(Base { model, fmi, libraries, extras })
+    }
+
+    /// The same in this form, beside its own.
+    ///
+    /// # Errors
+    /// The base is not of FMI 2.0, which alone has reals only.
+    pub fn in_form(mut self, form: FormOptions) -> Result<Self, Error> {
+        self.fmi = form.of(self.fmi)?;
+        self.extras.terminals |= form.terminals;
+        Ok(self)
     }
 
     /// The same with these sources in place of its own.
-    pub fn with_sources(self, sources: Sources) -> Self {
-        Base { sources: Some(sources), ..self }
+    pub fn with_sources(mut self, sources: Sources) -> Self {
+        self.extras.sources = Some(sources);
+        self
     }
 
     /// The platforms that the FMU is for.
@@ -108,11 +124,11 @@ impl Base {
     /// # Errors
     /// The archive would be too large.
     pub fn pack(self, start: &Start) -> Result<Vec<u8>, Error> {
-        pack(self.model, start, self.fmi, self.libraries, self.sources)
+        pack(self.model, start, self.fmi, self.libraries, self.extras)
     }
 }
 
-/// Packs an FMU of these libraries and sources, with start values that replace those in them.
+/// Packs an FMU of these libraries and extras, with start values that replace those in them.
 ///
 /// # Errors
 /// A library or the sources have no place for them, or the archive would be too large.
@@ -121,14 +137,14 @@ pub fn pack(
     start: &Start,
     fmi: FmiVersion,
     mut libraries: Vec<(Platform, Vec<u8>)>,
-    mut sources: Option<Sources>,
+    mut extras: Extras,
 ) -> Result<Vec<u8>, Error> {
     for (platform, library) in &mut libraries {
         start.embed(model, library).map_err(|_| Error::NoPlace { platform: *platform })?;
         code_signature::renew(library);
     }
-    if let Some(sources) = &mut sources {
+    if let Some(sources) = &mut extras.sources {
         sources.embed(model, start).map_err(|_| Error::Sources { reason: "no place for start values".to_owned() })?;
     }
-    archive::pack(&contents::contents(model, start, fmi, libraries, sources.as_ref()))
+    archive::pack(&contents::contents(model, start, fmi, libraries, &extras))
 }

@@ -13,14 +13,24 @@ pub const LICENCES: &str = concat!(
     include_str!("../../LICENSE-APACHE"),
 );
 
-/// The files of a model's FMU of a version of FMI with these libraries and sources, which
+/// Parts that an FMU may have beside its libraries.
+#[derive(Default)]
+pub struct Extras {
+    /// Sources in C.
+    pub sources: Option<Sources>,
+    /// Terminals in an FMU of FMI 2.0. FMI Library 3.0, and so fmuCheck, takes their file's version
+    /// for that of the FMU and reports a fatal error. FMUs of FMI 3.0 always have terminals.
+    pub terminals: bool,
+}
+
+/// The files of a model's FMU of a version of FMI with these libraries and extras, which
 /// start with these values.
 pub fn contents(
     model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,
     libraries: Vec<(Platform, Vec<u8>)>,
-    sources: Option<&Sources>,
+    Extras { sources, terminals }: &Extras,
 ) -> Contents {
     let mut contents = Contents::new();
     contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());
@@ -31,8 +41,10 @@ pub fn contents(
         Some(_) => model.model_description_with_sources(fmi, start),
     };
     contents.insert("modelDescription.xml".to_owned(), description.into_bytes());
-    contents.extend(sources.into_iter().flat_map(|sources| sources.files(model, fmi)));
-    contents.insert(terminals::FILE.to_owned(), terminals::xml(model, fmi).into_bytes());
+    contents.extend(sources.iter().flat_map(|sources| sources.files(model, fmi)));
+    if fmi.choose(*terminals, true) {
+        contents.insert(terminals::FILE.to_owned(), terminals::xml(model, fmi).into_bytes());
+    }
     let input = Stimuli::new(model.reference_input);
     let output = (model.functions.reference_output)(&input, start.slots());
     let of_variables = |table: &str| {

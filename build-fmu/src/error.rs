@@ -55,6 +55,9 @@ pub enum Error {
     /// Array variables need a version of FMI that has them.
     #[error("--arrays needs --fmi 3: FMI 2.0 has no array variables")]
     NoArrays,
+    /// Only one version of FMI is offered with reals alone.
+    #[error("--reals-only needs --fmi 2 and no --arrays: hosts that know only reals read FMI 2.0")]
+    NoReals,
     /// A rig or parameter file cannot be used.
     #[error(transparent)]
     Setup(#[from] moris_setup::Error),

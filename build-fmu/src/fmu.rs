@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::contents::Extras;
 use crate::{Error, FmiVersion, FmuModel, Platform, Start};
 use crate::{base, compile, library, workspace};
 
@@ -67,7 +68,7 @@ pub fn fmu(
         report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }
-    base::pack(model, start, fmi, libraries, None)
+    base::pack(model, start, fmi, libraries, Extras::default())
 }
 
 /// Writes a file that others never see half written.

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use moris_build_fmu::{
-    Base, Error, FmiVersion, FmuModel, MODELS, Platform, Sources, Start, StartOptions, build, compile_together,
-    workspace, write_whole,
+    Base, Error, FmiVersion, FmuModel, FormOptions, MODELS, Platform, Sources, Start, StartOptions, build,
+    compile_together, workspace, write_whole,
 };
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and
@@ -39,6 +39,9 @@ struct Arguments {
     /// Add sources in C, for tools that compile FMUs themselves; needs wasm2c 1.0.32 of WABT
     #[arg(long)]
     sources: bool,
+
+    #[command(flatten)]
+    form: FormOptions,
 
     #[command(flatten)]
     start: StartOptions,
@@ -79,8 +82,12 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
         }
         let report = |line: &str| println!("{line}");
         let mut built = build(model, start, fmi, &arguments.platform, &output, report)?;
-        if arguments.sources {
-            let archive = Base::open(&built.file)?.with_sources(Sources::make(model, fmi)?).pack(start)?;
+        if arguments.sources || arguments.form.terminals {
+            let mut base = Base::open(&built.file)?.in_form(arguments.form)?;
+            if arguments.sources {
+                base = base.with_sources(Sources::make(model, fmi)?);
+            }
+            let archive = base.pack(start)?;
             write_whole(&built.file, &archive)?;
             built.size = archive.len();
         }
@@ -89,10 +96,13 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// The versions of FMI, with or without arrays.
+/// The versions of FMI, with or without arrays, or with reals only.
 fn fmi_versions(arguments: &Arguments) -> Result<Vec<FmiVersion>, Error> {
-    let with_arrays = |fmi: &FmiVersion| fmi.with_arrays().ok_or(Error::NoArrays);
-    if arguments.arrays { arguments.fmi.iter().map(with_arrays).collect() } else { Ok(arguments.fmi.clone()) }
+    let in_form = |&fmi: &FmiVersion| {
+        let fmi = if arguments.arrays { fmi.with_arrays().ok_or(Error::NoArrays)? } else { fmi };
+        arguments.form.of(fmi)
+    };
+    arguments.fmi.iter().map(in_form).collect()
 }
 
 fn model_names() -> PossibleValuesParser {
@@ -104,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn arrays_are_for_fmi_3() {
+    fn arrays_are_for_fmi_3_and_reals_only_for_fmi_2() {
         let files = |arguments: &[&str]| -> Result<Vec<String>, Error> {
             let versions = fmi_versions(&Arguments::parse_from([&["build-fmu"], arguments].concat()))?;
             Ok(versions.iter().map(|fmi| fmi.fmu_file("Model")).collect())
@@ -115,6 +125,10 @@ mod tests {
         assert_eq!(files(&[]).unwrap(), ["Model.fmu"]);
         for wrong in [&["--arrays"][..], &["--fmi", "2,3", "--arrays"]] {
             assert!(files(wrong).unwrap_err().to_string().contains("--fmi 3"));
+        }
+        assert_eq!(files(&["--reals-only"]).unwrap(), ["Model.reals.fmu"]);
+        for wrong in [&["--reals-only", "--fmi", "2,3"][..], &["--reals-only", "--fmi", "3", "--arrays"]] {
+            assert!(files(wrong).unwrap_err().to_string().contains("--fmi 2"));
         }
     }
 }

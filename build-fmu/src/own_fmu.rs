@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{Base, Error, Start, StartOptions, write_whole};
+use crate::{Base, Error, FormOptions, Start, StartOptions, write_whole};
 
 /// A base with start values, ready to be written.
 pub struct OwnFmu {
@@ -12,12 +12,12 @@ pub struct OwnFmu {
 }
 
 impl OwnFmu {
-    /// Opens the base and reads the values.
+    /// Opens the base, for an FMU in this form, and reads the values.
     ///
     /// # Errors
     /// The base or the values cannot be used.
-    pub fn new(base_file: &Path, options: &StartOptions) -> Result<Self, Error> {
-        let base = Base::open(base_file)?;
+    pub fn new(base_file: &Path, options: &StartOptions, form: FormOptions) -> Result<Self, Error> {
+        let base = Base::open(base_file)?.in_form(form)?;
         let start = options.of_models(&[base.model])?.remove(0);
         Ok(OwnFmu { base_file: base_file.to_owned(), base, start })
     }

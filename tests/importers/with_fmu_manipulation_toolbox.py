@@ -85,7 +85,7 @@ def joined(fmus, work):
 
 def main(fmus, work):
     os.chdir(work)
-    joined(fmus[:3], work)
+    # Those of FMI 2.0 have no terminals.
     joined(fmus[3:], work)
     for fmu in fmus:
         ride = Ride(fmu)

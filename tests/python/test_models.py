@@ -14,12 +14,12 @@ MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 
 def fmu(name):
     path = TARGET / "fmu" / name
-    assert path.exists(), f"{path} is missing: run `cargo build-fmu`, `cargo build-fmu --fmi 3` and `cargo build-fmu --fmi 3 --arrays`"
+    assert path.exists(), f"{path} is missing: run `python3 tests/run.py --only fmu`"
     return path
 
 
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("version", ["fmu", "fmi3.fmu", "fmi3.arrays.fmu"])
+@pytest.mark.parametrize("version", ["fmu", "reals.fmu", "fmi3.fmu", "fmi3.arrays.fmu"])
 def test_fmpy_finds_nothing_to_complain_of_and_steps_it(model, version):
     path = fmu(f"{model}.{version}")
     assert validate_fmu(str(path)) == []
@@ -30,8 +30,9 @@ def test_fmpy_finds_nothing_to_complain_of_and_steps_it(model, version):
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_every_start_value_is_what_the_binary_returns(model):
-    path = fmu(f"{model}.fmu")
+@pytest.mark.parametrize("version", ["fmu", "reals.fmu"])
+def test_every_start_value_is_what_the_binary_returns(model, version):
+    path = fmu(f"{model}.{version}")
     description, directory = read_model_description(path), extract(path)
     instance = Instance(description, directory)
     try:
@@ -48,6 +49,34 @@ def test_every_start_value_is_what_the_binary_returns(model):
     finally:
         instance.slave.freeInstance()
         shutil.rmtree(directory, ignore_errors=True)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_host_that_knows_only_reals_writes_all_and_reads_all(model):
+    """It writes inputs and parameters at every step, as GEMSEO does, and has no function for any other type."""
+    runs = {}
+    for version in ("fmu", "reals.fmu"):
+        description, directory = read_model_description(fmu(f"{model}.{version}")), extract(fmu(f"{model}.{version}"))
+        assert version == "fmu" or {variable.type for variable in description.modelVariables} == {"Real"}
+        instance = Instance(description, directory)
+        try:
+            rows = []
+            for step in range(20):
+                for variable in description.modelVariables:
+                    if variable.causality in ("input", "parameter"):
+                        start = {"false": 0.0, "true": 1.0}.get(variable.start) if variable.type == "Boolean" else float(variable.start)
+                        excited = variable.name in ("vehicle.specificForce.x", "command.throttle", "command[1].length")
+                        instance.set({variable.name: start + (0.01 * step if excited else 0.0)})
+                instance.slave.doStep(0.01 * step, 0.01)
+                read = {"Real": instance.slave.getReal, "Boolean": instance.slave.getBoolean}
+                outputs = [variable for variable in description.modelVariables if variable.causality == "output"]
+                rows.append([float(read.get(v.type, instance.slave.getInteger)([v.valueReference])[0]) for v in outputs])
+            runs[version] = np.array(rows)
+        finally:
+            instance.slave.freeInstance()
+            shutil.rmtree(directory, ignore_errors=True)
+    assert np.array_equal(runs["fmu"], runs["reals.fmu"])
+    assert np.ptp(runs["fmu"], axis=0).max() > 0
 
 
 @pytest.mark.parametrize("model", MODELS)

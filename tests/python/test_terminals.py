@@ -23,8 +23,10 @@ PREVIEW = ("Motorcycle", "preview", "MorisWashout", "preview")
 
 
 def fmu(model, kind):
-    path = TARGET / "fmu" / f"{model}.{kind}"
-    assert path.exists(), f"{path} is missing: run `cargo build-fmu`, with --fmi 3 too, and with --fmi 3 --arrays"
+    folder = TARGET / "fmu"
+    # FMUs of FMI 2.0 have them on request.
+    path = (folder / "terminals" if kind == "fmu" else folder) / f"{model}.{kind}"
+    assert path.exists(), f"{path} is missing: run `python3 tests/run.py --only fmu`"
     return path
 
 
@@ -56,6 +58,7 @@ def test_the_file_is_valid_and_names_variables_of_one_causality(model, kind):
     for name, (_, members) in found.items():
         assert len({variable.causality for variable in members.values()}) == 1, name
         assert {variable.causality for variable in members.values()} <= {"input", "output"}, name
+    assert all(terminal.get("terminalKind").startswith("_moris.") for terminal in root(path).iterfind("Terminals/Terminal"))
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -7,6 +7,7 @@ mod washout;
 use std::path::PathBuf;
 
 use moris_interface::{Identity, Model, ParameterError, SlotModel, guid_of, start_values};
+use moris_model_description::fmi2::Types;
 use moris_model_description::{Element, fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
@@ -122,11 +123,11 @@ pub struct ModelFns {
     /// The GUID of the model with these start values.
     pub guid: fn(start: &[f64]) -> String,
     /// The model description of FMI 2.0.
-    pub description: fn(start: &[f64]) -> Element,
+    pub description: fn(start: &[f64], Types) -> Element,
     /// That of FMI 3.0.
     pub fmi3_description: fn(start: &[f64], fmi3::Layout) -> Element,
     /// The documentation's tables of variables for FMI 2.0.
-    pub variables: fn(start: &[f64]) -> String,
+    pub variables: fn(start: &[f64], Types) -> String,
     /// Those for FMI 3.0.
     pub fmi3_variables: fn(start: &[f64], fmi3::Layout) -> String,
     /// The output that belongs to a reference ride's input.
@@ -140,7 +141,7 @@ impl ModelFns {
             identity: M::IDENTITY,
             start: start_values::<M>,
             check: |start| M::from_slots(start).map(drop),
-            warnings: |start| M::warnings(&M::parameters_in(start)),
+            warnings: M::warnings_in,
             guid: guid_of::<M>,
             description: fmi2::describe_with::<M>,
             fmi3_description: fmi3::describe_with::<M>,
@@ -152,11 +153,12 @@ impl ModelFns {
 }
 
 /// Terminals of both ends of a connection: a motorcycle's outputs are a washout's inputs, say.
-const VEHICLE: (&str, &str) = ("moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
-const PREVIEW: (&str, &str) = ("moris.preview", "Specific force to come at the rider's head");
-const RIDER: (&str, &str) = ("moris.rider", "Lean of the rider");
-const ACTUATORS: (&str, &str) = ("moris.actuators", "Lengths and velocities of the six actuators");
-const POSE: (&str, &str) = ("moris.platform", "Position, velocity and acceleration of the platform");
+/// Kinds that are no standard's begin with an underscore.
+const VEHICLE: (&str, &str) = ("_moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
+const PREVIEW: (&str, &str) = ("_moris.preview", "Specific force to come at the rider's head");
+const RIDER: (&str, &str) = ("_moris.rider", "Lean of the rider");
+const ACTUATORS: (&str, &str) = ("_moris.actuators", "Lengths and velocities of the six actuators");
+const POSE: (&str, &str) = ("_moris.platform", "Position, velocity and acceleration of the platform");
 
 /// Members of a terminal of the vehicle.
 const VEHICLE_MEMBERS: &[(&str, &str)] = &[
@@ -209,7 +211,8 @@ impl FmuModel {
     /// The text of `modelDescription.xml`.
     pub fn model_description(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
-            FmiVersion::Fmi2 => to_xml(&(self.functions.description)(start.slots())),
+            FmiVersion::Fmi2 => to_xml(&(self.functions.description)(start.slots(), Types::Own)),
+            FmiVersion::Fmi2Reals => to_xml(&(self.functions.description)(start.slots(), Types::Reals)),
             FmiVersion::Fmi3(layout) => to_xml(&(self.functions.fmi3_description)(start.slots(), layout)),
         }
     }
@@ -217,11 +220,13 @@ impl FmuModel {
     /// The text of `modelDescription.xml` in an FMU with sources. FMI 3.0 lists them
     /// in a file of its own.
     pub fn model_description_with_sources(&self, fmi: FmiVersion, start: &Start) -> String {
+        let with_sources = |types| {
+            let description = (self.functions.description)(start.slots(), types);
+            to_xml(&fmi2::with_source_file(description, &Sources::file(self)))
+        };
         match fmi {
-            FmiVersion::Fmi2 => {
-                let description = (self.functions.description)(start.slots());
-                to_xml(&fmi2::with_source_file(description, &Sources::file(self)))
-            }
+            FmiVersion::Fmi2 => with_sources(Types::Own),
+            FmiVersion::Fmi2Reals => with_sources(Types::Reals),
             FmiVersion::Fmi3(_) => self.model_description(fmi, start),
         }
     }
@@ -231,6 +236,7 @@ impl FmuModel {
         let guid = (self.functions.guid)(start.slots());
         match fmi {
             FmiVersion::Fmi2 => guid,
+            FmiVersion::Fmi2Reals => Types::Reals.token(&guid),
             FmiVersion::Fmi3(layout) => layout.token(&guid),
         }
     }
@@ -244,7 +250,8 @@ impl FmuModel {
     /// The documentation's tables of variables.
     pub fn variables(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
-            FmiVersion::Fmi2 => (self.functions.variables)(start.slots()),
+            FmiVersion::Fmi2 => (self.functions.variables)(start.slots(), Types::Own),
+            FmiVersion::Fmi2Reals => (self.functions.variables)(start.slots(), Types::Reals),
             FmiVersion::Fmi3(layout) => (self.functions.fmi3_variables)(start.slots(), layout),
         }
     }

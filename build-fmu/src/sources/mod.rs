@@ -185,6 +185,7 @@ mod tests {
     use moris_fmi::embed;
 
     use super::*;
+    use crate::contents::Extras;
     use crate::model::WASHOUT;
     use crate::{Base, Platform, archive, base, contents};
 
@@ -230,7 +231,8 @@ mod tests {
         let (own, fmi) = (Start::own(&WASHOUT), FmiVersion::Fmi2);
         let start = Start::with(&WASHOUT, &vec![("gravity".to_owned(), 9.8)]).unwrap();
         let libraries = || vec![(Platform::Linux64, place())];
-        let packed = base::pack(&WASHOUT, &own, fmi, libraries(), Some(sources())).unwrap();
+        let with = |sources| Extras { sources: Some(sources), ..Extras::default() };
+        let packed = base::pack(&WASHOUT, &own, fmi, libraries(), with(sources())).unwrap();
         fs::write(&file, &packed).unwrap();
         // Opening the result shows that library, sources and description agree.
         fs::write(&file, Base::open(&file).unwrap().pack(&start).unwrap()).unwrap();
@@ -238,7 +240,7 @@ mod tests {
 
         let mut others = sources();
         others.embed(&WASHOUT, &start).unwrap();
-        let mixed = contents::contents(&WASHOUT, &own, fmi, libraries(), Some(&others));
+        let mixed = contents::contents(&WASHOUT, &own, fmi, libraries(), &with(others));
         fs::write(&file, archive::pack(&mixed).unwrap()).unwrap();
         let refused = Base::open(&file).err().unwrap().to_string();
         assert!(refused.contains("different start values"), "{refused}");

@@ -3,16 +3,17 @@
 use std::io::{Cursor, Read};
 
 use moris_build_fmu::archive::{Contents, pack};
-use moris_build_fmu::contents::contents;
+use moris_build_fmu::contents::{Extras, contents};
 use moris_build_fmu::model::WASHOUT;
 use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Platform, Start, workspace};
 use moris_model_description::Element;
+use moris_model_description::fmi2::Types;
 use moris_model_description::fmi3::Layout;
 use zip::ZipArchive;
 
 fn with_every_platform(model: &FmuModel, fmi: FmiVersion) -> Contents {
     let library = |&platform: &Platform| (platform, format!("library for {platform}").into_bytes());
-    contents(model, &Start::own(model), fmi, Platform::ALL.iter().map(library).collect(), None)
+    contents(model, &Start::own(model), fmi, Platform::ALL.iter().map(library).collect(), &Extras::default())
 }
 
 #[cfg(feature = "clap")]
@@ -35,7 +36,7 @@ fn documentation(model: &FmuModel, fmi: FmiVersion) -> String {
 fn variable_names(model: &FmuModel, fmi: FmiVersion) -> Vec<String> {
     let identity = model.functions.identity;
     match fmi {
-        FmiVersion::Fmi2 | FmiVersion::Fmi3(Layout::Scalars) => {
+        FmiVersion::Fmi2 | FmiVersion::Fmi2Reals | FmiVersion::Fmi3(Layout::Scalars) => {
             (0..identity.slots.len()).map(|slot| identity.variable_name(slot)).collect()
         }
         FmiVersion::Fmi3(Layout::Arrays) => identity.rows.iter().map(|row| row.array_name()).collect(),
@@ -44,8 +45,8 @@ fn variable_names(model: &FmuModel, fmi: FmiVersion) -> Vec<String> {
 
 #[test]
 fn an_fmu_holds_what_fmi_asks_for() {
-    let contents = washout_with_every_platform();
-    let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
+    let files = washout_with_every_platform();
+    let paths: Vec<&str> = files.keys().map(String::as_str).collect();
     let expected = [
         "binaries/aarch64-darwin/MorisWashout.dylib",
         "binaries/aarch64-linux/MorisWashout.so",
@@ -60,9 +61,14 @@ fn an_fmu_holds_what_fmi_asks_for() {
         "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
         "model.png",
         "modelDescription.xml",
-        "terminalsAndIcons/terminalsAndIcons.xml",
     ];
     assert_eq!(paths, expected);
+    // Terminals on request; otherwise the same.
+    let with_terminals = Extras { terminals: true, ..Extras::default() };
+    let mut more = contents(&WASHOUT, &Start::own(&WASHOUT), FmiVersion::Fmi2, Vec::new(), &with_terminals);
+    let terminals = String::from_utf8(more.remove("terminalsAndIcons/terminalsAndIcons.xml").unwrap()).unwrap();
+    assert!(terminals.contains("terminalKind=\"_moris.vehicle\""), "a kind of nobody's begins with an underscore");
+    assert!(more == contents(&WASHOUT, &Start::own(&WASHOUT), FmiVersion::Fmi2, Vec::new(), &Extras::default()));
 }
 
 #[test]
@@ -120,7 +126,7 @@ fn names_agree() {
 
 /// The model description of FMI 2.0 with the model's own start values.
 fn description(model: &FmuModel) -> Element {
-    (model.functions.description)(Start::own(model).slots())
+    (model.functions.description)(Start::own(model).slots(), Types::Own)
 }
 
 fn part<'a>(element: &'a Element, name: &str) -> &'a Element {

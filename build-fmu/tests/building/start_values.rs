@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use moris_build_fmu::contents::contents;
+use moris_build_fmu::contents::{Extras, contents};
 use moris_build_fmu::model::{STEWART_PLATFORM, WASHOUT};
 use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Start};
 use moris_model_description::fmi3::Layout;
@@ -55,12 +55,12 @@ fn values_are_in_the_descriptions_under_another_guid() {
         };
         assert_eq!(start("rig.neutralHeight"), "1.02");
         match fmi {
-            FmiVersion::Fmi2 | FmiVersion::Fmi3(Layout::Scalars) => {
+            FmiVersion::Fmi2 | FmiVersion::Fmi2Reals | FmiVersion::Fmi3(Layout::Scalars) => {
                 assert_eq!((start("splitter.y.omega1"), start("rig.base[1].x")), ("0.35".into(), "0.95".into()))
             }
             FmiVersion::Fmi3(Layout::Arrays) => assert_eq!(start("splitter.omega1"), "0.35 0.35 0.35"),
         }
-        let files = contents(&WASHOUT, &embedded, fmi, Vec::new(), None);
+        let files = contents(&WASHOUT, &embedded, fmi, Vec::new(), &Extras::default());
         let listed = String::from_utf8(files["documentation/start-values.toml"].clone()).unwrap();
         assert!(
             listed.contains("\"splitter.y.omega1\" = 0.35") && listed.contains("\"rig.neutralHeight\" = 1.02"),
@@ -78,7 +78,8 @@ fn the_model_s_own_values_are_no_others() {
     let defaults = named(&[("splitter.x.omega1", 0.8), ("tilt.angleLimit", 0.257)]);
     assert_eq!(Start::with(&WASHOUT, &defaults).unwrap(), own);
     assert!(
-        !contents(&WASHOUT, &own, FmiVersion::Fmi2, Vec::new(), None).contains_key("documentation/start-values.toml")
+        !contents(&WASHOUT, &own, FmiVersion::Fmi2, Vec::new(), &Extras::default())
+            .contains_key("documentation/start-values.toml")
     );
 }
 

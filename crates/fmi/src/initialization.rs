@@ -64,7 +64,7 @@ impl<M: Model> Instance<M> {
             model.write_outputs(&mut self.state.values);
             self.state.model = Some(model);
         }
-        self.warnings.extend(M::warnings(&M::parameters_in(&self.state.values)));
+        self.warnings.extend(M::warnings_in(&self.state.values));
         self.state.mode = Mode::StepComplete;
         Ok(())
     }

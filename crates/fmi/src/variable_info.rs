@@ -82,6 +82,8 @@ pub struct VariableInfo {
     /// are never between them.
     lower: f64,
     upper: f64,
+    /// True if only whole numbers make sense, whatever the type.
+    whole: bool,
 }
 
 impl VariableInfo {
@@ -95,7 +97,14 @@ impl VariableInfo {
         };
         let (lower, upper) = row.bounds();
         let row_slots = if element == 0 { row.slots() as u32 } else { 0 };
-        VariableInfo { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
+        let whole = !matches!(row.kind, Kind::Real(_));
+        VariableInfo { value_type, role: role(row), row_slots, settable: settable(row), lower, upper, whole }
+    }
+
+    /// The same access through the functions for reals.
+    const fn as_real(mut self) -> Self {
+        self.value_type = ValueType::Real;
+        self
     }
 
     /// Checks that `value` lies within the variable's range.
@@ -104,11 +113,12 @@ impl VariableInfo {
         value >= self.lower && value <= self.upper
     }
 
-    /// Checks that the variable accepts `value`. The model takes a real input beyond its range as
-    /// the range's end: rounding in a host must not end a simulation.
+    /// Checks that the variable accepts `value`. Rounding in a host must not end a simulation, so the
+    /// model takes a real input beyond its range as the range's end. A fraction counts as the nearest
+    /// whole number where only these make sense. A parameter has to be such a number.
     pub fn accepts(&self, value: f64) -> bool {
         let is_real_input = matches!((self.role, self.value_type), (Role::Input { .. }, ValueType::Real));
-        self.contains(value) || is_real_input && value.is_finite()
+        self.contains(value) && (!self.whole || value.fract() == 0.0) || is_real_input && value.is_finite()
     }
 
     /// The end of the range that the model uses in place of `value`; `None` where the difference is
@@ -139,6 +149,16 @@ const fn settable(row: &Row) -> Modes {
         (Causality::Parameter, _) => Modes::of(&[Mode::Instantiated, Mode::Initialization]),
         (Causality::Independent | Causality::Output, _) => Modes::NONE,
     }
+}
+
+/// Access to every slot by the functions for reals.
+pub(crate) const fn as_reals<const N: usize>(mut infos: [VariableInfo; N]) -> [VariableInfo; N] {
+    let mut slot = 0;
+    while slot < N {
+        infos[slot] = infos[slot].as_real();
+        slot += 1;
+    }
+    infos
 }
 
 /// Access to every slot. `N` is the number of slots.

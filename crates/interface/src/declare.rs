@@ -66,7 +66,10 @@ macro_rules! interface {
         #[derive(Clone, Copy, Debug, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
         #[serde(crate = "moris_interface::serde")]
         pub struct $group {
-            $( $(#[doc = $text])+ #[doc = concat!("\n\nFMI: `", $name, "`", $(" \\[", stringify!($unit), "\\]",)? ".")] pub $field: $type, )+
+            $( $(#[doc = $text])+ #[doc = concat!(
+                "\n\nFMI: `", $name, "`", $(" \\[", stringify!($unit), "\\]",)? $(", range `", stringify!($range), "`",)?
+                ", start value `", stringify!($start), "`."
+            )] pub $field: $type, )+
         }
 
         impl Default for $group {

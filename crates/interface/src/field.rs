@@ -52,7 +52,8 @@ impl Field for f64 {
 impl Field for bool {
     const KIND: Kind = Kind::Boolean;
     fn read(slots: &[f64]) -> Self {
-        slots[0] != 0.0
+        // A host that knows only reals may round; 0 and 1 are exact.
+        slots[0] >= 0.5
     }
     fn write(self, slots: &mut [f64]) {
         slots[0] = f64::from(self);
@@ -62,7 +63,7 @@ impl Field for bool {
 impl Field for i32 {
     const KIND: Kind = Kind::Integer;
     fn read(slots: &[f64]) -> Self {
-        slots[0] as i32
+        slots[0].round() as i32
     }
     fn write(self, slots: &mut [f64]) {
         slots[0] = f64::from(self);

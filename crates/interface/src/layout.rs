@@ -1,4 +1,4 @@
-//! Two ways in which a model description of FMI 3.0 presents the interface's rows.
+//! Ways in which a model description presents the interface's rows.
 
 use crate::Identity;
 
@@ -14,6 +14,40 @@ pub enum Layout {
 
 /// End of the instantiation token of a description with arrays.
 const ARRAYS: &str = "-arrays";
+
+/// Types of the variables in a model description of FMI 2.0. One library serves both: the GUID says
+/// which description the host has read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Types {
+    /// Each variable has its own type.
+    Own,
+    /// Every variable is a Real, for hosts that know no other type. Booleans are 0 and 1,
+    /// enumerations and integers whole numbers.
+    Reals,
+}
+
+/// End of the GUID of a description with reals only.
+const REALS: &str = "-reals";
+
+impl Types {
+    /// GUID of a description with these types, given the GUID of the model.
+    pub fn token(self, guid: &str) -> String {
+        match self {
+            Types::Own => guid.to_owned(),
+            Types::Reals => format!("{guid}{REALS}"),
+        }
+    }
+
+    /// Types of the description with this GUID; `None` if the description is not of the model with
+    /// the GUID `guid`.
+    pub fn of_token(token: &[u8], guid: &[u8]) -> Option<Self> {
+        match token.strip_prefix(guid)? {
+            b"" => Some(Types::Own),
+            end if end == REALS.as_bytes() => Some(Types::Reals),
+            _ => None,
+        }
+    }
+}
 
 impl Layout {
     /// Instantiation token of a description in this layout, given the GUID of the model.

@@ -29,7 +29,7 @@ pub use serde;
 
 pub use field::Field;
 pub use guid::{guid, guid_of};
-pub use layout::Layout;
+pub use layout::{Layout, Types};
 pub use log_categories::{LOG_CATEGORIES, LOG_CATEGORIES_OF_FMI3, LogCategory};
 pub use model::{Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, Time, refuse};
 pub use row::{
@@ -37,7 +37,7 @@ pub use row::{
 };
 pub use shown::shown;
 pub use slot_model::SlotModel;
-pub use slots::{Reader, Slot, Writer, slot_count, slot_table, slots_of};
+pub use slots::{Reader, Slot, Writer, slot_count, slot_of, slot_table, slots_of};
 pub use start::start_values;
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
 
@@ -95,6 +95,30 @@ pub trait Group: Default + 'static {
     /// The values forced into their ranges: a number outside counts as the nearest end, and what is
     /// not a number as the start value.
     fn sanitized(&self) -> Self;
+    /// Sets the variable of this name, as the FMU has it: `scale.specificForce.x`, say. Booleans are
+    /// 0 and 1, enumerations and integers whole numbers.
+    ///
+    /// # Errors
+    /// There is no such variable, or it cannot have this value. Then nothing has changed.
+    fn set(&mut self, name: &str, value: f64) -> Result<(), ParameterError> {
+        let Some((slot, row)) = slot_of(Self::ROWS, name) else {
+            return refuse(name, "is no variable; the rows of this struct have the names");
+        };
+        let is_whole = matches!(row.kind, Kind::Real(_)) || value.fract() == 0.0;
+        if !row.accepts(value) || !is_whole {
+            return refuse(name, row.reason(value));
+        }
+        let mut slots = slots_of(self);
+        slots[slot] = value;
+        *self = Self::read(&mut Reader::new(&slots));
+        Ok(())
+    }
+
+    /// The value of the variable of this name, as [`Group::set`] takes it; `None` if there is none.
+    fn get(&self, name: &str) -> Option<f64> {
+        slot_of(Self::ROWS, name).map(|(slot, _)| slots_of(self)[slot])
+    }
+
     /// The values after `time` at these slopes. Booleans and whole numbers keep their values where
     /// their slopes are zero.
     fn extrapolated(&self, slope: &Self, time: f64) -> Self {

@@ -3,7 +3,7 @@
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::units::S;
-use crate::{Causality, Group, Row, Slot, interface};
+use crate::{Causality, Group, Row, Slot, interface, slot_of};
 
 /// Who a model is and what its variables are.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ impl Identity {
 
     /// The slot of the variable of this name.
     pub fn slot(&self, name: &str) -> Option<usize> {
-        (0..self.slots.len()).find(|&slot| self.variable_name(slot) == name)
+        slot_of(self.rows, name).map(|(slot, _)| slot)
     }
 }
 
@@ -175,8 +175,8 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// The first parameter that cannot be used, and why.
     fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), ParameterError>;
 
-    /// Doubts about parameters that can be used, in sentences.
-    fn warnings(_parameters: &Self::Parameters) -> Vec<String> {
+    /// Doubts about parameters and first inputs that can be used, in sentences.
+    fn warnings(_parameters: &Self::Parameters, _input: &Self::Input) -> Vec<String> {
         Vec::new()
     }
 

@@ -109,6 +109,9 @@ pub struct Row {
     /// Place among the parameters that matter most, from 1. Descriptions list them first.
     pub main: Option<u8>,
     conditions: [Option<Condition>; 2],
+    /// Beginnings of the names of inputs and parameters on which an output depends before the first
+    /// step; `None`: on all of them.
+    start_knowns: Option<&'static [&'static str]>,
 }
 
 /// A condition without which a row has no effect: another variable has one of these values.
@@ -140,7 +143,7 @@ impl Row {
             (Kind::Boolean | Kind::Integer | Kind::Enumeration(_), Variability::Continuous) => Variability::Discrete,
             (_, variability) => variability,
         };
-        let (usual, group, heading, main, conditions) = (None, None, None, None, [None; 2]);
+        let (usual, group, heading, main, conditions, start_knowns) = (None, None, None, None, [None; 2], None);
         Row {
             name,
             causality,
@@ -155,6 +158,7 @@ impl Row {
             heading,
             main,
             conditions,
+            start_knowns,
         }
     }
 
@@ -185,6 +189,22 @@ impl Row {
     pub const fn main(mut self, place: u8) -> Self {
         self.main = Some(place);
         self
+    }
+
+    /// The row of an output that depends, before the first step, on inputs and parameters
+    /// alone whose names begin with one of these. What a row itself says counts before
+    /// what its struct says.
+    pub const fn starts_from(mut self, names: &'static [&'static str]) -> Self {
+        if self.start_knowns.is_none() {
+            self.start_knowns = Some(names);
+        }
+        self
+    }
+
+    /// True if this output depends on the other row's input or parameter before the first step.
+    pub fn starts_depending_on(&self, other: &Row) -> bool {
+        matches!(other.causality, Causality::Input | Causality::Parameter)
+            && self.start_knowns.is_none_or(|names| names.iter().any(|name| other.name.starts_with(name)))
     }
 
     /// The row with a condition of its effect: `variable` has one of `values`.
@@ -242,10 +262,15 @@ impl Row {
                 let items: Vec<_> = items.map(|(item, number)| format!("{number} ({})", item.name)).collect();
                 format!("one of {}", items.join(", "))
             }
+            (Kind::Boolean, _) => "0 or 1".to_owned(),
             (_, None) => "a finite number".to_owned(),
-            (_, Some((min, max))) => {
-                let finite = if value.is_finite() { "" } else { "a finite number " };
-                format!("{finite}from {} to {}", shown(min), shown(max))
+            (kind, Some((min, max))) => {
+                let number = match kind {
+                    _ if !value.is_finite() => "a finite number ",
+                    Kind::Integer if value.fract() != 0.0 => "a whole number ",
+                    _ => "",
+                };
+                format!("{number}from {} to {}", shown(min), shown(max))
             }
         };
         format!("is {}, but must be {expected}", shown(value))

@@ -32,6 +32,11 @@ pub trait SlotModel: Model {
         read(slots, parameters::<Self>())
     }
 
+    /// Doubts about the parameters and inputs in `slots`, in sentences.
+    fn warnings_in(slots: &[f64]) -> Vec<String> {
+        Self::warnings(&Self::parameters_in(slots), &read(slots, INPUT))
+    }
+
     /// Changes tunable parameters to those in `slots`. On an error nothing has changed.
     ///
     /// # Errors

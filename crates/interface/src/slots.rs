@@ -39,6 +39,17 @@ pub const fn slot_table<const N: usize>(rows: &[Row]) -> [Slot; N] {
     slots
 }
 
+/// The slot of the variable of this name among the slots of these rows, and its row.
+pub fn slot_of(rows: &'static [Row], name: &str) -> Option<(usize, &'static Row)> {
+    let mut first = 0;
+    rows.iter().find_map(|row| {
+        let begin = first;
+        first += row.slots();
+        let element = (0..row.slots()).find(|&element| row.variable_name(element) == name)?;
+        Some((begin + element, row))
+    })
+}
+
 /// The values of a group's variables, in the order of its rows.
 pub fn slots_of<G: Group>(group: &G) -> Vec<f64> {
     let mut slots = vec![0.0; slot_count(G::ROWS)];

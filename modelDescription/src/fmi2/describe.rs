@@ -1,6 +1,7 @@
 //! From a model's rows to its description.
 
-use moris_interface::{Causality, Identity, Kind, LOG_CATEGORIES, Model, Row, guid_of, start_values};
+use moris_interface::units::ONE;
+use moris_interface::{Causality, Identity, Kind, LOG_CATEGORIES, Model, Row, Types, guid_of, start_values};
 
 use crate::common::enumerations::{enumerations, items};
 use crate::common::xml::Element;
@@ -8,22 +9,23 @@ use crate::common::{parts, units};
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
 pub fn describe<M: Model>() -> Element {
-    describe_with::<M>(&start_values::<M>(&[]))
+    describe_with::<M>(&start_values::<M>(&[]), Types::Own)
 }
 
-/// The model description of a model that is exported for co-simulation with these start values.
-/// `start` has one for each slot.
+/// The model description of a model that is exported for co-simulation with these start values, its
+/// variables of these types. `start` has one for each slot.
 ///
 /// Variables are listed as [`Identity::listed_slots`] orders them, and a value
 /// reference is a slot's number. The parts are in the order that the schema prescribes.
-pub fn describe_with<M: Model>(start: &[f64]) -> Element {
+pub fn describe_with<M: Model>(start: &[f64], types: Types) -> Element {
     let identity = M::IDENTITY;
-    let variables = identity.listed_slots().into_iter().map(|slot| scalar_variable(&identity, slot, start[slot]));
+    let variable = |slot| scalar_variable(&identity, slot, start[slot], types);
+    let variables = identity.listed_slots().into_iter().map(variable);
     // Exactly "2.0", whatever the revision of the standard.
-    parts::root(&identity, "2.0", ("guid", guid_of::<M>(start)))
+    parts::root(&identity, "2.0", ("guid", types.token(&guid_of::<M>(start))))
         .containing([co_simulation(&identity)])
         .containing(parts::unit_definitions(&identity))
-        .containing(type_definitions(&identity))
+        .containing(type_definitions(&identity).filter(|_| types == Types::Own))
         .containing([
             parts::log_categories(LOG_CATEGORIES.iter().copied()),
             parts::default_experiment(&identity),
@@ -70,22 +72,21 @@ fn type_definitions(identity: &Identity) -> Option<Element> {
     Element::list("TypeDefinitions", enumerations(identity).into_iter().map(simple_type).collect())
 }
 
-fn scalar_variable(identity: &Identity, slot: usize, start: f64) -> Element {
+fn scalar_variable(identity: &Identity, slot: usize, start: f64, types: Types) -> Element {
     let row = identity.row(slot);
-    let values = values(row, parts::has_start(row).then_some(start));
-    parts::variable("ScalarVariable", &identity.variable_name(slot), slot, row.text(), row).containing([values])
+    let start = parts::has_start(row).then_some(start);
+    let (text, values) = match types {
+        Types::Own => (row.text().to_owned(), values(row, start)),
+        Types::Reals => (text_with_values(row), number(row, start)),
+    };
+    parts::variable("ScalarVariable", &identity.variable_name(slot), slot, &text, row).containing([values])
 }
 
 /// A variable's type, with what that type's values have.
 fn values(row: &Row, start: Option<f64>) -> Element {
     let (min, max) = row.range.unzip();
     match row.kind {
-        Kind::Real(unit) => {
-            let real = Element::new("Real").with_text("quantity", unit.quantity);
-            // No unit: dimensionless.
-            let real = units::with_display(real.with_text("unit", unit.name), unit);
-            units::with_nominal(real.with_some("min", min).with_some("max", max), unit).with_some("start", start)
-        }
+        Kind::Real(_) => number(row, start),
         Kind::Integer => Element::new("Integer")
             .with_some("min", min.map(|min| min as i32))
             .with_some("max", max.map(|max| max as i32))
@@ -99,23 +100,55 @@ fn values(row: &Row, start: Option<f64>) -> Element {
     }
 }
 
+/// The type Real, of any row.
+fn number(row: &Row, start: Option<f64>) -> Element {
+    let (unit, range) = match row.kind {
+        Kind::Real(unit) => (unit, row.range),
+        Kind::Integer => (&ONE, row.range),
+        Kind::Boolean | Kind::Enumeration(_) => (&ONE, Some(row.bounds())),
+    };
+    let (min, max) = range.unzip();
+    let real = Element::new("Real").with_text("quantity", unit.quantity);
+    // No unit: dimensionless.
+    let real = units::with_display(real.with_text("unit", unit.name), unit);
+    units::with_nominal(real.with_some("min", min).with_some("max", max), unit).with_some("start", start)
+}
+
+/// The row's sentence and what its whole numbers mean, where no type says so.
+fn text_with_values(row: &Row) -> String {
+    let meaning = match row.kind {
+        Kind::Boolean => "0: false, 1: true.".to_owned(),
+        Kind::Enumeration(enumeration) => {
+            let items: Vec<_> =
+                (1..).zip(enumeration.items).map(|(value, item)| format!("{value}: {}", item.name)).collect();
+            format!("{}.", items.join(", "))
+        }
+        Kind::Real(_) | Kind::Integer => return row.text().to_owned(),
+    };
+    format!("{} {meaning}", row.text())
+}
+
 /// At communication points the outputs depend on no input: they change only in a step. A host
 /// therefore knows that there is no algebraic loop.
 ///
-/// During initialisation the outputs are those of the model at rest. The model decides what they
-/// depend on: the washout's felt force follows the rider's lean. No dependencies are given there,
-/// which means on all that is known.
+/// During initialisation the outputs are those of the model at rest, which depend on what the
+/// outputs' rows say.
 fn model_structure(identity: &Identity) -> Element {
     // A variable's index is its place in the list, from 1.
-    let unknowns = |list: &'static str, dependencies: Option<&str>| {
-        let outputs =
-            (1..).zip(identity.listed_slots()).filter(|&(_, slot)| identity.row(slot).causality == Causality::Output);
-        let unknown = |(index, _): (u32, usize)| {
-            Element::new("Unknown").with("index", index).with_some("dependencies", dependencies)
+    let listed: Vec<(usize, &Row)> =
+        (1..).zip(identity.listed_slots().into_iter().map(|slot| identity.row(slot))).collect();
+    let unknowns = |list: &'static str, dependencies: &dyn Fn(&Row) -> String| {
+        let outputs = listed.iter().filter(|(_, row)| row.causality == Causality::Output);
+        let unknown = |(index, row): &(usize, &Row)| {
+            Element::new("Unknown").with("index", index).with("dependencies", dependencies(row))
         };
         Element::list(list, outputs.map(unknown).collect())
     };
+    let at_start = |output: &Row| {
+        let knowns = listed.iter().filter(|(_, row)| output.starts_depending_on(row));
+        knowns.map(|(index, _)| index.to_string()).collect::<Vec<_>>().join(" ")
+    };
     Element::new("ModelStructure")
-        .containing(unknowns("Outputs", Some("")))
-        .containing(unknowns("InitialUnknowns", None))
+        .containing(unknowns("Outputs", &|_| String::new()))
+        .containing(unknowns("InitialUnknowns", &at_start))
 }

@@ -150,15 +150,22 @@ pub(super) fn element_type_name(kind: Kind) -> &'static str {
     }
 }
 
-/// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation
-/// possibly on everything.
+/// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation on
+/// what their rows say.
 fn model_structure(identity: &Identity, layout: Layout) -> Element {
-    let outputs: Vec<Place> =
-        places(identity, layout).into_iter().filter(|place| place.row.causality == Causality::Output).collect();
-    let unknowns = |element: &'static str, dependencies: Option<&'static str>| {
-        outputs.iter().map(move |place| {
-            Element::new(element).with("valueReference", place.first_slot).with_some("dependencies", dependencies)
-        })
+    let places = places(identity, layout);
+    let unknowns = |element: &'static str, dependencies: &dyn Fn(&Row) -> String| -> Vec<Element> {
+        let outputs = places.iter().filter(|place| place.row.causality == Causality::Output);
+        let unknown = |place: &Place| {
+            Element::new(element).with("valueReference", place.first_slot).with("dependencies", dependencies(place.row))
+        };
+        outputs.map(unknown).collect()
     };
-    Element::new("ModelStructure").containing(unknowns("Output", Some(""))).containing(unknowns("InitialUnknown", None))
+    let at_start = |output: &Row| {
+        let knowns = places.iter().filter(|place| output.starts_depending_on(place.row));
+        knowns.map(|place| place.first_slot.to_string()).collect::<Vec<_>>().join(" ")
+    };
+    Element::new("ModelStructure")
+        .containing(unknowns("Output", &|_| String::new()))
+        .containing(unknowns("InitialUnknown", &at_start))
 }

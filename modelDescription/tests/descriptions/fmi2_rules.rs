@@ -290,7 +290,18 @@ fn outputs_are_listed_once_in_order_and_depend_on_nothing<M: Model>() {
 fn initial_unknowns_are_the_calculated_variables_in_order<M: Model>() {
     let xml = to_xml(&describe::<M>());
     let document = Document::parse(&xml).unwrap();
-    assert_eq!(indices(&unknowns(&document, "InitialUnknowns")), indices_of_outputs(&document));
+    let unknowns = unknowns(&document, "InitialUnknowns");
+    assert_eq!(indices(&unknowns), indices_of_outputs(&document));
+    // Each lists what it depends on, in order: hosts iterate over it.
+    let variables = variables(&document);
+    for unknown in unknowns {
+        let dependencies = unknown.attribute("dependencies").expect("an explicit list").split_whitespace();
+        let dependencies: Vec<usize> = dependencies.map(|index| index.parse().unwrap()).collect();
+        assert!(dependencies.is_sorted_by(|one, next| one < next));
+        let is_known =
+            |index: &usize| ["input", "parameter"].contains(&variables[index - 1].attribute("causality").unwrap());
+        assert!(dependencies.iter().all(is_known));
+    }
 }
 
 #[test]

@@ -4,4 +4,5 @@ mod document;
 mod fmi2_rules;
 mod fmi3_rules;
 mod small_model;
+mod start_dependencies;
 mod tables;

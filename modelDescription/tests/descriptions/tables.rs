@@ -2,7 +2,7 @@
 
 use crate::small_model::Small;
 use moris_interface::start_values;
-use moris_model_description::fmi2::variables_html;
+use moris_model_description::fmi2::{Types, variables_html};
 use roxmltree::Document;
 
 /// The texts of a table's cells, row by row, from the tables under the heading with this anchor.
@@ -19,7 +19,8 @@ fn cells(html: &str, anchor: &str) -> Vec<Vec<String>> {
 
 fn small_tables() -> String {
     // As XML wants it: one root, void elements closed.
-    let html = variables_html::<Small>(&start_values::<Small>(&[])).replace("<wbr>", "").replace("<br>", "; ");
+    let html =
+        variables_html::<Small>(&start_values::<Small>(&[]), Types::Own).replace("<wbr>", "").replace("<br>", "; ");
     format!("<html>{html}</html>")
 }
 

@@ -4,7 +4,7 @@
 use std::ffi::{CStr, CString, c_int};
 use std::ptr::null_mut;
 
-use moris_interface::Model;
+use moris_interface::{Model, Types};
 
 use super::types::*;
 use super::{Component, Logger};
@@ -28,8 +28,8 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
     let logger = Logger::new(name.map_or_else(CString::default, CStr::to_owned), callbacks, logging_on.0 != 0);
     let new = || {
         let tables = tables.get::<M>()?;
-        check_request(name, fmu_type, guid, &tables.guid[..])?;
-        Ok(Instance::<M>::new(tables))
+        let types = check_request(name, fmu_type, guid, &tables.guid[..])?;
+        Ok(Instance::<M>::new(tables.of_types(types)))
     };
     match with_default_arithmetic(|| panics::contain(new)).and_then(|instance| instance) {
         Ok(instance) => {
@@ -43,21 +43,26 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
     }
 }
 
-fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expected: &[u8]) -> Result<(), CallError> {
+/// Refuses unsupported options. Returns the types of the host's description.
+fn check_request(
+    name: Option<&CStr>,
+    fmu_type: c_int,
+    guid: Option<&CStr>,
+    expected: &[u8],
+) -> Result<Types, CallError> {
     if name.is_none_or(CStr::is_empty) {
         return Err(CallError::error("instanceName is null or empty; pass a name"));
     }
     if fmu_type != CO_SIMULATION {
         return Err(CallError::error("this FMU has no model exchange; instantiate it with fmi2CoSimulation"));
     }
-    if guid.map(CStr::to_bytes) != Some(expected) {
+    guid.and_then(|guid| Types::of_token(guid.to_bytes(), expected)).ok_or_else(|| {
         let given = guid.map_or("none".into(), CStr::to_string_lossy);
         let expected = String::from_utf8_lossy(expected);
-        return Err(CallError::error(format!(
+        CallError::error(format!(
             "the GUID is {given}, not {expected}: modelDescription.xml and the shared library do not belong together; unpack the FMU again"
-        )));
-    }
-    Ok(())
+        ))
+    })
 }
 
 /// `fmi2SetDebugLogging`: events are logged if it is on for all categories or for theirs.

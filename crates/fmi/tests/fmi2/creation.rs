@@ -85,7 +85,9 @@ fn is_refused_with_a_reason() {
     assert_refused(Request { name: Some(c""), ..Default::default() }, "", "pass a name");
     assert_refused(Request { guid: None, ..Default::default() }, "name", "none");
     assert_refused(Request { guid: Some("{%s%n}".into()), ..Default::default() }, "name", "{%s%n}");
-    assert_refused(Request { guid: Some(guid() + " "), ..Default::default() }, "name", &guid());
+    for more in [" ", "-real", "-realsx", "-arrays"] {
+        assert_refused(Request { guid: Some(guid() + more), ..Default::default() }, "name", &guid());
+    }
     for fmu_type in [0, 2, -1] {
         assert_refused(Request { fmu_type, ..Default::default() }, "name", "fmi2CoSimulation");
     }

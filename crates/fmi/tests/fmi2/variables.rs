@@ -1,7 +1,7 @@
 //! Getting and setting.
 
-use moris_fmu_host::{Instance, Status};
-use moris_interface::{Causality, Kind, SlotModel, Variability};
+use moris_fmu_host::{Fmu, Instance, Status, variables_of};
+use moris_interface::{Causality, Kind, SlotModel, Types, Variability};
 
 use crate::fixture::*;
 use crate::model::FirstOrder;
@@ -45,7 +45,9 @@ fn variables_can_be_set_where_the_standard_says() {
             [(instantiated(), before), (initializing(), before), (stepping(&[]), stepping_too)]
         {
             let state = bytes(&mut instance);
-            assert_eq!(instance.set(&name, 1.0).is_ok(), expected, "{name}");
+            // A fixed parameter takes the value that it has; none has 2.
+            let value = if row.variability == Variability::Fixed { 2.0 } else { 1.0 };
+            assert_eq!(instance.set(&name, value).is_ok(), expected, "{name}");
             if !expected {
                 let message = last_message(&instance);
                 assert!(message.text.contains(&format!("'{name}'")), "{}", message.text);
@@ -53,6 +55,85 @@ fn variables_can_be_set_where_the_standard_says() {
                 assert_eq!(bytes(&mut instance), state);
             }
         }
+    }
+}
+
+/// Hosts write all their parameters again once the simulation runs.
+#[test]
+fn a_fixed_parameter_takes_the_value_that_it_has_while_steps_are_made() {
+    let mut instance = stepping(&[("tau", 0.25), ("substeps", 4.0)]);
+    let [tau, gain] = ["tau", "gain"].map(reference);
+    let (messages, state) = (instance.messages().len(), bytes(&mut instance));
+    assert_eq!(instance.set_real(&[tau, gain], &[0.25, 1.0]), Status::Ok);
+    assert_eq!(instance.set_integer(&[reference("substeps")], &[4]), Status::Ok);
+    assert_eq!((instance.messages().len(), bytes(&mut instance)), (messages, state));
+    assert_eq!(instance.set_real(&[gain, tau], &[2.0, 0.25]), Status::Ok);
+    assert_eq!((instance.get("gain").unwrap(), instance.get("tau").unwrap()), (2.0, 0.25));
+    let before = bytes(&mut instance);
+    let parts = ["'tau' cannot be set in state 'step complete'", "Reset the instance"];
+    for other in [0.250_000_1, f64::NAN] {
+        let status = instance.set_real(&[gain, tau], &[3.0, other]);
+        assert_call_error(&instance, status, Status::Error, &parts);
+        assert_eq!(bytes(&mut instance), before);
+    }
+    let mut over = terminated();
+    assert_eq!(over.set_real(&[tau], &[0.5]), Status::Error);
+    assert_eq!(bytes(&mut over), bytes(&mut terminated()));
+}
+
+/// A host that knows no type but Real, by the GUID of a description that has none other.
+#[test]
+fn with_reals_only_every_variable_goes_by_real() {
+    let token = Types::Reals.token(&guid());
+    let fmu = Fmu::with_variables(&library(), &token, variables_of(&IDENTITY)).unwrap();
+    let (mut reals, mut typed) = (fmu.instantiate("reals").unwrap(), instantiated());
+    let start = [("gain", 3.0), ("method", 2.0), ("substeps", 4.0), ("tau", 0.25)];
+    typed.initialize(&start, None).unwrap();
+    assert_eq!(reals.setup_experiment(0.0, None), Status::Ok);
+    assert_eq!(reals.enter_initialization_mode(), Status::Ok);
+    for (name, value) in start {
+        assert_eq!(reals.set_real(&[reference(name)], &[value]), Status::Ok, "{name}");
+    }
+    assert_eq!(reals.exit_initialization_mode(), Status::Ok);
+    let inputs = [("u", 2.0), ("offset", -3.0), ("frozen", 0.0)];
+    for step in 0..3 {
+        for (name, value) in inputs {
+            typed.set(name, value).unwrap();
+            assert_eq!(reals.set_real(&[reference(name)], &[value]), Status::Ok, "{name}");
+        }
+        for instance in [&mut typed, &mut reals] {
+            assert_eq!(instance.do_step(f64::from(step) * 0.1, 0.1), Status::Ok);
+        }
+    }
+    for slot in 0..IDENTITY.slots.len() {
+        let (name, mut value) = (IDENTITY.variable_name(slot), [f64::NAN]);
+        assert_eq!(reals.get_real(&[slot as u32], &mut value), Status::Ok, "{name}");
+        assert_eq!(value[0], typed.get(&name).unwrap(), "{name}");
+    }
+    let status = reals.set_integer(&[reference("offset")], &[1]);
+    assert_call_error(&reals, status, Status::Error, &["'offset' is of type Real"]);
+    // A parameter has to be a whole number, an input counts as the nearest.
+    for (name, value, expected) in
+        [("method", 1.5, "one of 1 (exact), 2 (euler)"), ("trap", 0.5, "a whole number from 0")]
+    {
+        let parts = [&format!("'{name}' is {value}, but must be {expected}")[..]];
+        let status = reals.set_real(&[reference(name)], &[value]);
+        assert_call_error(&reals, status, Status::Discard, &parts);
+    }
+    let y = |instance: &mut Instance, time: f64| {
+        assert_eq!(instance.do_step(time, 0.1), Status::Ok);
+        let mut value = [f64::NAN];
+        assert_eq!(instance.get_real(&[reference("y")], &mut value), Status::Ok);
+        value[0].to_bits()
+    };
+    assert_eq!(reals.set_real(&[reference("offset")], &[-2.6]), Status::Ok);
+    assert_eq!(y(&mut reals, 0.3), y(&mut typed, 0.3), "-2.6 is -3");
+    let held = y(&mut typed, 0.4);
+    assert_eq!(y(&mut reals, 0.4), held);
+    for (frozen, same) in [(0.6, true), (1.0, true), (7.0, true), (0.4, false)] {
+        assert_eq!(reals.set_real(&[reference("frozen")], &[frozen]), Status::Ok);
+        let time = reals.get("time").unwrap();
+        assert_eq!(y(&mut reals, time) == held, same, "{frozen}");
     }
 }
 

@@ -34,29 +34,52 @@ interface! {
     }
 }
 
+/// Beginnings of the names of what forces depend on before the first step: all
+/// but paths and frames.
+const DYNAMICS: &[&str] = &[
+    "aero.",
+    "brake.",
+    "command.",
+    "drive.",
+    "fork.",
+    "frame.",
+    "frontWheel.",
+    "geometry.",
+    "gravity",
+    "head.",
+    "initial.",
+    "rearWheel.",
+    "rider.",
+    "steer.",
+    "suspension.",
+    "tyre.",
+    "wheelLift.",
+    "wind.",
+];
+
 interface! {
     /// Inputs of the washout, and further quantities of the simulation.
-    pub struct Output: Output, Continuous {
+    pub struct Output: Output, Continuous, starts_from(&[]) {
         /// Specific force at the rider's head in head axes (x forward, y left, z up), as an accelerometer measures it: (0, 0, +g) at rest.
-        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY), starts_from(DYNAMICS);
         /// Angular velocity of the motorcycle, in the axes given by angularVelocityFrame.
         "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Orientation of the motorcycle in the world (roll about x, pitch about y with nose down positive, yaw about z); yaw is the heading and does not wrap.
-        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0);
+        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0), starts_from(&["initial."]);
         /// Forward speed; never negative.
-        "vehicle.speed" speed: f64 [M_PER_S] = 0.0;
+        "vehicle.speed" speed: f64 [M_PER_S] = 0.0, starts_from(&["initial."]);
         /// Lean of the rider's torso relative to the motorcycle, positive to the right.
         "rider.lean" lean: f64 [RAD] = 0.0;
         /// Position in the world of the point where the rear tyre touches the road.
         "vehicle.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
         /// Rate of the forward speed.
-        "vehicle.acceleration" acceleration: f64 [M_PER_S2] = 0.0;
+        "vehicle.acceleration" acceleration: f64 [M_PER_S2] = 0.0, starts_from(DYNAMICS);
         /// Velocity to the left of the point where the rear tyre touches the road.
         "vehicle.lateralVelocity" lateral_velocity: f64 [M_PER_S] = 0.0;
         /// Position in the world of the rider's head.
-        "head.position.@" head_position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
+        "head.position.@" head_position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(DYNAMICS);
         /// Velocity in the world of the rider's head, in the world's axes.
-        "head.velocity.@" head_velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0);
+        "head.velocity.@" head_velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["head.", "initial."]);
         /// Steer angle about the steering axis, which points up; positive to the left.
         "steer.angle" steer_angle: f64 [RAD] = 0.0;
         /// Rate of the steer angle.
@@ -66,19 +89,19 @@ interface! {
         /// Reference roll angle of the rider: command.lean within the rider's limits, low-pass filtered.
         "rider.leanReference" lean_reference: f64 [RAD] = 0.0;
         /// Support by feet on the road and firm hands: 1 at rest, 0 from feet.speed on.
-        "rider.feetDown" feet_down: f64 = 1.0;
+        "rider.feetDown" feet_down: f64 = 1.0, starts_from(&["feet.", "initial."]);
         /// Throttle after the lag of the drive, from 0 to 1.
         "drive.throttle" throttle: f64 = 0.0;
         /// Brake application after the lag of the brakes, from 0 to 1.
         "brake.application" brake: f64 = 0.0;
         /// Load of the front tyre on the road.
-        "tyre.front.load" front_load: f64 [N] = 0.0;
+        "tyre.front.load" front_load: f64 [N] = 0.0, starts_from(DYNAMICS);
         /// Load of the rear tyre on the road.
-        "tyre.rear.load" rear_load: f64 [N] = 0.0;
+        "tyre.rear.load" rear_load: f64 [N] = 0.0, starts_from(DYNAMICS);
         /// Forward force of the road on the front tyre.
-        "tyre.front.longitudinalForce" front_longitudinal: f64 [N] = 0.0;
+        "tyre.front.longitudinalForce" front_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS);
         /// Forward force of the road on the rear tyre.
-        "tyre.rear.longitudinalForce" rear_longitudinal: f64 [N] = 0.0;
+        "tyre.rear.longitudinalForce" rear_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS);
         /// Force of the road on the front tyre to the left.
         "tyre.front.lateralForce" front_lateral: f64 [N] = 0.0;
         /// Force of the road on the rear tyre to the left.
@@ -88,9 +111,9 @@ interface! {
         /// Compression of the rear suspension at the wheel, from its length at rest.
         "suspension.rear.travel" rear_travel: f64 [M] = 0.0;
         /// True if tyre friction limited drive or brakes at the end of the last communication step.
-        "status.frictionLimited" friction_limited: bool = false;
+        "status.frictionLimited" friction_limited: bool = false, starts_from(DYNAMICS);
         /// True if wheel lift limited drive or brakes at the end of the last communication step.
-        "status.wheelLiftLimited" wheel_lift_limited: bool = false;
+        "status.wheelLiftLimited" wheel_lift_limited: bool = false, starts_from(DYNAMICS);
         /// Distance covered along the path, with all rounds.
         "path.distance" path_distance: f64 [M] = 0.0;
         /// Deviation of the rear tyre's contact from the path, positive to the left.
@@ -98,7 +121,7 @@ interface! {
         /// Heading relative to the path's, positive to the left.
         "path.headingDeviation" path_heading: f64 [RAD] = 0.0;
         /// Speed that the rider plans for this place on the path.
-        "path.plannedSpeed" planned_speed: f64 [M_PER_S] = 0.0;
+        "path.plannedSpeed" planned_speed: f64 [M_PER_S] = 0.0, starts_from(&["gravity", "initial.", "path.", "rider.", "tyre."]);
         /// True if friction limited the lateral force of a tyre at the end of the last communication step; only on a path.
         "status.gripLimited" grip_limited: bool = false;
         /// True once the motorcycle has left the path by more than path.halfWidth; the rider then brakes to a stop.

@@ -64,9 +64,9 @@ interface! {
 
 interface! {
     /// Real motion of the platform and its actuators, and the motion felt by the rider.
-    pub struct Output: Output, Continuous {
+    pub struct Output: Output, Continuous, starts_from(&[]) {
         /// Position of the platform frame's origin in the base frame.
-        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
+        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["rig.neutralHeight"]);
         /// Velocity of the platform frame's origin in the base frame.
         "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Acceleration of the platform frame's origin in the base frame.
@@ -78,19 +78,19 @@ interface! {
         /// Angular acceleration of the platform in the base frame.
         "platform.angularAcceleration.@" angular_acceleration: Vector3<f64> [RAD_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
         /// Length of the actuator, from base joint to platform joint.
-        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6];
+        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], starts_from(&["rig."]);
         /// Rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
         /// Acceleration of the actuator's length.
         "actuator[#].acceleration" leg_acceleration: [f64; 6] [M_PER_S2] = [0.0; 6];
         /// Force of the actuator's drive along the actuator, positive where it pushes; within actuator.forceLimit.
-        "actuator[#].force" force: [f64; 6] [N] = [0.0; 6];
+        "actuator[#].force" force: [f64; 6] [N] = [0.0; 6], starts_from(&["gravity", "payload.", "platform.", "rider.", "rig."]);
         /// Force of the stop at an end of the actuator's stroke, positive where it pushes; in an impact its mean over an internal step.
         "actuator[#].stopForce" stop_force: [f64; 6] [N] = [0.0; 6];
         /// Total mechanical power of the actuators.
         "actuator.totalPower" total_power: f64 [W] = 0.0;
         /// Specific force at the rider's head on the real motion, in head axes.
-        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
+        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["gravity", "rider.lean"]);
         /// Angular velocity of the rider's head on the real motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// True if a commanded length was outside the stroke during the last communication step; the previous command is then kept.
@@ -102,7 +102,7 @@ interface! {
         /// True if a stop at an end of the stroke held an actuator during the last communication step.
         "status.atStop" at_stop: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
-        "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
+        "status.strokeMargin" stroke_margin: f64 [M] = 0.0, starts_from(&["actuator.", "rig."]);
     }
 }
 

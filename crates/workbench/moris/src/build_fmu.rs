@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use moris_build_fmu::{OwnFmu, StartOptions};
+use moris_build_fmu::{FormOptions, OwnFmu, StartOptions};
 
 /// Make an FMU that starts with your rig and parameters from an existing one,
 /// for every platform in it
@@ -21,6 +21,9 @@ pub struct Options {
     #[command(flatten)]
     start: StartOptions,
 
+    #[command(flatten)]
+    form: FormOptions,
+
     /// Directory for the FMU, which gets its usual name
     #[arg(long, value_name = "DIRECTORY", default_value = "own-fmu")]
     output: PathBuf,
@@ -31,7 +34,7 @@ pub struct Options {
 /// # Errors
 /// The base or the values cannot be used, or the FMU cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let own = OwnFmu::new(&options.base, &options.start)?;
+    let own = OwnFmu::new(&options.base, &options.start, options.form)?;
     for line in own.notes() {
         writeln!(out, "{line}")?;
     }

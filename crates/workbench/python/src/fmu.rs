@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use moris_build_fmu::{OwnFmu, StartOptions};
+use moris_build_fmu::{FormOptions, OwnFmu, StartOptions};
 use pyo3::prelude::*;
 
 /// Packs the FMU `base` with the parameters of a file as start values into the directory `output`;
@@ -10,6 +10,6 @@ use pyo3::prelude::*;
 #[pyfunction]
 pub fn pack_fmu(py: Python, base: PathBuf, parameters: String, output: PathBuf) -> PyResult<PathBuf> {
     let options = StartOptions { parameters: vec![parameters], ..StartOptions::default() };
-    let packed = py.detach(|| OwnFmu::new(&base, &options)?.write(&output));
+    let packed = py.detach(|| OwnFmu::new(&base, &options, FormOptions::default())?.write(&output));
     packed.map_err(|error| crate::error::plain(py, "BuildError", &error))
 }
