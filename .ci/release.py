@@ -90,20 +90,22 @@ def systems(options):
 
 
 def packed_program(options, target):
-    """The command for this machine, or for a target of Rust, in an archive."""
+    """The commands for this machine, or for a target of Rust, in an archive."""
     targeted = ["--target", target] if target else []
-    run("cargo", "build", "--locked", "--package", "moris", "--profile", options.profile, *targeted, env=without_paths())
+    run("cargo", "build", "--locked", "--package", "moris", "--package", "moris-live-command", "--profile", options.profile, *targeted, env=without_paths())
     directory = ROOT / "target" / (target or "") / ("debug" if options.profile == "dev" else options.profile)
-    built = directory / f"moris{'.exe' if target and 'windows' in target else PROGRAM}"
-    shown = [str(path) for path in private_paths() if str(path).encode() in built.read_bytes()]
-    assert not shown, f"{built} shows the paths {shown}"
+    suffix = ".exe" if target and "windows" in target else PROGRAM
+    built = [directory / f"{name}{suffix}" for name in ("moris", "moris-live")]
+    for program in built:
+        shown = [str(path) for path in private_paths() if str(path).encode() in program.read_bytes()]
+        assert not shown, f"{program} shows the paths {shown}"
     system = {"Darwin": "macos"}.get(platform.system(), platform.system().lower())
     packed = options.output / f"moris-{version()}-{target or f'{system}-{platform.machine().lower()}'}.zip"
     with zipfile.ZipFile(packed, "w") as archive:
-        for file in (built, *(ROOT / name for name in ("LICENSE-MIT", "LICENSE-APACHE", "README.md"))):
+        for file in (*built, *(ROOT / name for name in ("LICENSE-MIT", "LICENSE-APACHE", "README.md"))):
             # Neither the time nor the permissions of this machine.
             entry = zipfile.ZipInfo(file.name)
-            entry.create_system, entry.external_attr = 3, (0o755 if file == built else 0o644) << 16
+            entry.create_system, entry.external_attr = 3, (0o755 if file in built else 0o644) << 16
             archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED)
     return packed
 

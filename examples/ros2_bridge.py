@@ -1,7 +1,7 @@
-"""Passes a topic of ROS 2 with messages sensor_msgs/Imu on to `moris live`, as UDP packets in JSON.
+"""Passes a topic of ROS 2 with messages sensor_msgs/Imu on to `moris-live`, as UDP packets in JSON.
 
     python3 examples/ros2_bridge.py /imu/data
-    cargo moris live --from udp:4444 --format json --dry
+    cargo live --from udp:4444 --format json --dry
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Sends the telemetry of a computed drive by UDP, as a game does: lines of the format csv of `moris live`.
+"""Sends the telemetry of a computed drive by UDP, as a game does: lines of the format csv of `moris-live`.
 
     python3 examples/vehicle.py [SECONDS] [PORT]
 

@@ -105,7 +105,7 @@ def python():
 
 def features(options):
     """Parts of the workbench that are compiled only where they are asked for."""
-    return ["--features", "moris/serial"] if options.all else []
+    return ["--features", "moris-live-command/serial"] if options.all else []
 
 
 def cases(options):
@@ -125,7 +125,8 @@ def pytest(options, processes, *arguments):
         # Threads for matrices of ten rows cost more than they save.
         "OPENBLAS_NUM_THREADS": "1",
         "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
-        "CARGO_ALIAS_MORIS": " ".join(["run", "--bin", "moris", *features(options), "--"]),
+        "CARGO_ALIAS_MORIS": "run --bin moris --",
+        "CARGO_ALIAS_LIVE": " ".join(["run", "--bin", "moris-live", *features(options), "--"]),
         "CARGO_ALIAS_HUNTER": "run --bin hunter --",
     }
     run(*command, allowed=allowed, at_once=options.beside, are_tests=True, **environment)
@@ -197,8 +198,8 @@ def examples():
 
 
 def program(options):
-    """Compiles the command for tests that start it, so that none waits for cargo while others compile."""
-    run("cargo", "build", "--bin", "moris", *features(options))
+    """Compiles the commands for tests that start them, so that none waits for cargo while others compile."""
+    run("cargo", "build", "--bin", "moris", "--bin", "moris-live", *features(options))
     os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
 
 

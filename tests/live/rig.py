@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "examples"))
 from vehicle import line  # noqa: E402
 
-MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]
+LIVE = [os.environ["MORIS"], "live"] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris-live", "--"]
 # The default rig's stroke, and its largest leg speed with the steps between two frames lost [m, m/s].
 STROKE = (1.0, 1.6)
 FASTEST = 1.05
@@ -140,7 +140,7 @@ class Live:
     def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE, settled=True):
         self.port = free_port()
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
-        command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
+        command = [*LIVE, *source, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
         self.process = subprocess.Popen(
             command,
             cwd=ROOT,

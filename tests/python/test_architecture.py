@@ -8,7 +8,7 @@ from conftest import ROOT
 tomllib = pytest.importorskip("tomllib", reason="needs tomllib: run the tests with Python 3.11 or newer")
 
 # Path of a package -> its ring. Washout and machinery are one ring: they use each other.
-RINGS = (("crates/simulator/", 1), ("crates/workbench/", 2), ("examples/", 2), ("", 0))
+RINGS = (("crates/live/command/", 2), ("crates/live/", 1), ("crates/simulator/", 1), ("crates/workbench/", 2), ("examples/", 2), ("", 0))
 # Packages that may use these of a later ring.
 EXCEPTIONS = {
     "fmus": {"motorcycle", "stewart-platform"},

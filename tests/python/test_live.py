@@ -15,13 +15,13 @@ from conftest import ROOT, TARGET
 FMUS = Path(os.environ.get("MORIS_FMUS", TARGET / "fmu"))
 MAP = ROOT / "examples" / "motorcycle-map.toml"
 RIDDEN_MAP = ROOT / "examples" / "ridden-map.toml"
-CARGO = ["cargo", "run", "--quiet", "--bin", "moris", "--"]
+CARGO = ["cargo", "run", "--quiet", "--bin", "moris-live", "--"]
 
 
 def start(version, vehicle_map, *options):
     """The command with the FMU of this version. It ends by itself, so that no test waits for ever."""
-    moris = [os.environ["MORIS"]] if "MORIS" in os.environ else CARGO
-    command = [*moris, "live", "--from", f"fmu:{FMUS / f'Motorcycle.{version}'}", "--map", vehicle_map]
+    live = [os.environ["MORIS"], "live"] if "MORIS" in os.environ else CARGO
+    command = [*live, "--from", f"fmu:{FMUS / f'Motorcycle.{version}'}", "--map", vehicle_map]
     command += ["--frames", "json", "--dry", "--engage", "--for", "60", *options]
     return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
 

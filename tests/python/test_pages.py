@@ -11,6 +11,7 @@ import pytest
 from conftest import ROOT
 
 MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]
+LIVE = [*MORIS, "live"] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris-live", "--"]
 RUNS = {"", "module", "text/javascript"}
 """Types of scripts that a browser runs."""
 WITHOUT_THE_RIDE = "moris was built without the ride"
@@ -101,7 +102,7 @@ def test_the_page_to_ride_runs_only_its_own_scripts(tmp_path):
 
 
 def test_the_page_of_live_runs_only_its_own_scripts():
-    live = [*MORIS, "live", "--from", "ride", "--dry", "--page", "--for", "30"]
+    live = [*LIVE, "--from", "ride", "--dry", "--page", "--for", "30"]
     with subprocess.Popen(live, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         address = next(said.removeprefix("page: ").strip() for said in process.stderr if said.startswith("page: "))
         with urllib.request.urlopen(address) as answer:

@@ -4,7 +4,6 @@
 """
 
 import csv
-import json
 import socket
 import subprocess
 import sys

@@ -22,7 +22,7 @@ const PROFILE: &str = "page-simulation";
 const SOURCES: [&str; 9] = [
     "src",
     "crates/interface",
-    "crates/simulator/laps",
+    "crates/live/laps",
     "crates/simulator/motorcycle",
     "crates/workbench/pages/modules",
     "crates/workbench/pages/src",

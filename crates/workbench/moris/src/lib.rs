@@ -8,7 +8,6 @@
 //! - [`fit`](mod@fit) finds the scale at which the cues have the right sign and proportion.
 //! - [`bench`](mod@bench) compares washouts on fixed drives and rigs.
 //! - [`worst_case`] measures the strategies on platforms that differ from the nominal one.
-//! - [`live`] steps the washout beside a running vehicle.
 //! - [`tune`] searches for better parameters.
 //! - [`ride`] writes a page in which the motorcycle is ridden.
 //! - [`frequency_response`] measures a frequency response.
@@ -16,7 +15,6 @@
 //! - [`parameters`] lists all parameters.
 //! - [`help`] writes shell completions and man pages.
 //! - [`schema`] writes schemas of the files, for editors.
-//! - [`words`] writes remedies as options.
 //!
 //! [`recording`] reads recordings for all commands, and [`washout_fmu`] steps another washout's
 //! FMU. The crate `moris-setup` reads rigs and parameters.
@@ -28,22 +26,21 @@ pub mod build_fmu;
 pub mod fit;
 pub mod frequency_response;
 pub mod help;
-pub mod live;
 pub mod measure;
 pub mod parameters;
 mod progress;
 pub mod ride;
 pub mod rig;
 pub mod schema;
-pub mod setup_options;
+pub mod sibling;
 pub mod simulate;
 mod status;
 pub mod tune;
-pub mod words;
 pub mod worst_case;
 
 use moris_analysis::{learned_road, option_values};
 pub use moris_analysis::{recording, text_table, washout_fmu};
+pub use moris_command_line::{setup_options, words};
 pub use moris_pages::VERSION;
 
 /// Default directory for reports. No directory of the sources has this name.

@@ -1,13 +1,15 @@
 //! `moris`, the command.
 
-use std::io::{ErrorKind, Write, stderr, stdout};
+use std::ffi::OsString;
+use std::io::stdout;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use moris::{
-    bench, build_fmu, fit, frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune,
-    words, worst_case,
+    bench, build_fmu, fit, frequency_response, help, measure, parameters, ride, rig, schema, sibling, simulate, tune,
+    worst_case,
 };
+use moris_command_line::exit_status;
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -27,7 +29,12 @@ enum Command {
     Fit(fit::Options),
     Bench(bench::Options),
     Ride(ride::Options),
-    Live(live::Options),
+    /// Step the washout beside a running vehicle, and command a platform: the program moris-live
+    #[command(disable_help_flag = true)]
+    Live {
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGUMENT")]
+        arguments: Vec<OsString>,
+    },
     WorstCase(worst_case::Options),
     Tune(tune::Options),
     #[command(alias = "respond")]
@@ -48,7 +55,7 @@ fn main() -> ExitCode {
         Command::Fit(options) => fit::main(&options, out),
         Command::Bench(options) => bench::main(&options, out),
         Command::Ride(options) => ride::main(&options, out),
-        Command::Live(options) => live::main(&options, out),
+        Command::Live { arguments } => sibling::run("moris-live", &arguments),
         Command::WorstCase(options) => worst_case::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
         Command::FrequencyResponse(options) => frequency_response::main(&options, out),
@@ -58,40 +65,5 @@ fn main() -> ExitCode {
         Command::Completions(options) => help::completions(&options, Arguments::command(), out),
         Command::Man(options) => help::man_pages(&options, Arguments::command(), out),
     };
-    match result.and_then(|code| Ok(out.flush().map(|()| code)?)) {
-        Ok(code) => code,
-        Err(error) if nobody_reads_on(&error) => ExitCode::SUCCESS,
-        Err(error) => {
-            // The reader may be gone.
-            let _ = writeln!(stderr(), "error: {}", shortened(&with_causes(&error)));
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// The error and its causes; a cause that the text before it has said is left out.
-fn with_causes(error: &anyhow::Error) -> String {
-    let mut text = String::new();
-    for cause in error.chain().map(words::error) {
-        if !text.contains(cause.trim_end()) {
-            text += if text.is_empty() { "" } else { ": " };
-            text += &cause;
-        }
-    }
-    text
-}
-
-/// The text with its lines cut at a length: some errors quote a line of a file.
-fn shortened(text: &str) -> String {
-    const LONGEST: usize = 2000;
-    let cut = |line: &str| match line.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{} ...", &line[..end]),
-        None => line.to_owned(),
-    };
-    text.lines().map(cut).collect::<Vec<_>>().join("\n")
-}
-
-/// True if the reader of the output, such as `head`, has closed it.
-fn nobody_reads_on(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<std::io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
+    exit_status(result, out)
 }

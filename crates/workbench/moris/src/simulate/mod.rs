@@ -39,7 +39,7 @@ pub use moris_analysis::bounds::{self, AxisBound};
 pub use moris_analysis::outcome::Outcome;
 use moris_analysis::outcome::listed;
 pub use moris_analysis::page;
-pub(crate) use moris_analysis::page::{simulator, vehicle};
+pub(crate) use moris_analysis::page::simulator;
 pub use moris_simulation::findings::{fit, fits_the_rig, is_better_than_rest};
 pub use moris_simulation::{Simulation, measures};
 

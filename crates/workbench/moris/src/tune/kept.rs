@@ -15,7 +15,7 @@ use moris_setup::{Setup, differing, parameter_file};
 use moris_washout::Parameters;
 
 use super::tuner::{BestSoFar, SoFar};
-use crate::live::console;
+use moris_command_line::console;
 
 /// Exit status after a second Ctrl-C.
 const INTERRUPTED: i32 = 130;

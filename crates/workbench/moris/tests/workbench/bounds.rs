@@ -29,10 +29,6 @@ fn commands(file: &str) -> Vec<Vec<&str>> {
         vec!["simulate", "ride.csv", "--rig", file],
         vec!["simulate", "ride.csv", "--parameters", file],
         vec!["simulate", "ride.csv", "--conventions", file],
-        vec!["live", "--replay", file],
-        vec!["live", "--from", "udp:0", "--dry", "--format", file],
-        vec!["live", "--from", "udp:0", "--format", "csv", "--to", "udp:127.0.0.1:9", "--frames", file],
-        vec!["live", "--from", "fmu:vehicle.fmu", "--map", file, "--dry"],
         vec!["worst-case", "ride.csv", "--platform", file],
     ]
 }
@@ -53,7 +49,7 @@ fn a_text_that_nobody_writes_is_refused_by_its_size() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("ride.csv"), RIDE).unwrap();
     fs::write(directory.path().join("large.toml"), "# a\n".repeat(4_000_001)).unwrap();
-    for command in commands("large.toml").into_iter().filter(|command| command[1] != "--replay") {
+    for command in commands("large.toml") {
         let error = error(directory.path(), &command);
         assert!(error.contains("it is larger than 16 MB"), "{command:?}: {error}");
     }
@@ -80,17 +76,12 @@ fn bomb() -> Vec<u8> {
 fn an_archive_that_unpacks_to_more_than_its_bound_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("bomb.fmu"), bomb()).unwrap();
-    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../examples/motorcycle-map.toml");
-    for (command, bound) in [
-        (["build-fmu", "--base", "bomb.fmu"].as_slice(), "256 MB"),
-        (&["live", "--from", "fmu:bomb.fmu", "--map", map, "--dry"], "1 GB"),
-    ] {
-        let error = error(directory.path(), command);
-        let expected = format!("unpack to 2 GB or more, but at most {bound} are unpacked");
-        assert!(error.contains("bomb.fmu") && error.contains(&expected), "{command:?}: {error}");
-    }
+    let error_of = |base: &str| error(directory.path(), &["build-fmu", "--base", base]);
+    let error = error_of("bomb.fmu");
+    let expected = "unpack to 2 GB or more, but at most 256 MB are unpacked";
+    assert!(error.contains("bomb.fmu") && error.contains(expected), "{error}");
     File::create(directory.path().join("sparse.fmu")).unwrap().set_len(1 << 40).unwrap();
-    let error = error(directory.path(), &["build-fmu", "--base", "sparse.fmu"]);
+    let error = error_of("sparse.fmu");
     assert!(error.contains("it is larger than 256 MB"), "{error}");
 }
 
@@ -99,14 +90,9 @@ fn an_error_is_said_once() {
     let directory = tempfile::tempdir().unwrap();
     let rig = "name = \"a\"\nneutralHeight = 1\n";
     fs::write(directory.path().join("rig.toml"), rig).unwrap();
-    fs::write(directory.path().join("map.toml"), "a = 1\n").unwrap();
     fs::write(directory.path().join("bomb.fmu"), bomb()).unwrap();
-    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../examples/motorcycle-map.toml");
     for (command, once) in [
         (["rig", "check", "rig.toml"].as_slice(), "TOML parse error"),
-        (&["live", "--from", "fmu:bomb.fmu", "--map", "map.toml", "--dry"], "TOML parse error"),
-        (&["live", "--from", "fmu:bomb.fmu", "--map", map, "--dry"], "which unpack to"),
-        (&["live", "--from", "fmu:none.fmu", "--map", map, "--dry"], "No such file"),
         (&["build-fmu", "--base", "none.fmu"], "No such file"),
         (&["build-fmu", "--base", "bomb.fmu"], "which unpack to"),
     ] {
@@ -129,8 +115,6 @@ fn an_argument_that_is_no_text_is_an_error() {
         &["simulate", "--columns"],
         &["parameters", "--parameters"],
         &["build-fmu", "--base"],
-        &["live", "--from"],
-        &["live", "--dry", "--from"],
         &["completions"],
         &[],
     ] {

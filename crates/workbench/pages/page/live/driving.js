@@ -1,10 +1,10 @@
-// The controls of a vehicle that moris live steps: sent as long as this page holds them.
+// The controls of a vehicle that moris-live steps: sent as long as this page holds them.
 
 import { byId } from "../shared/dom.js";
 import { setText } from "../shared/shown.js";
 import { Controls } from "../shared/controls.js";
 
-/** Time between what is sent [ms]; moris live releases the controls after 500 ms without it. */
+/** Time between what is sent [ms]; moris-live releases the controls after 500 ms without it. */
 const DRIVING_INTERVAL = 40;
 export const DRIVING_KEY = "n";
 

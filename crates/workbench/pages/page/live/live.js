@@ -1,4 +1,4 @@
-// The page: messages of moris live, and pictures of them.
+// The page: messages of moris-live, and pictures of them.
 
 import { page } from "../shared/payload.js";
 import { fixed, significant } from "../shared/format.js";

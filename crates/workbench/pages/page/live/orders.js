@@ -15,7 +15,7 @@ export async function ask(client, what) {
     const answer = await fetch("/ask", { method: "POST", headers: { "X-Token": token }, body: JSON.stringify({ client, ask: what }) });
     return answer.ok ? "" : await answer.text();
   } catch {
-    return "moris live does not answer";
+    return "moris-live does not answer";
   }
 }
 

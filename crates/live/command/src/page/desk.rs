@@ -1,0 +1,484 @@
+//! The desk between the browsers and the loop: who controls, what is asked, and what is shown.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use moris_interface::{Group as _, Reader, slots_of};
+use moris_live::session::retune;
+use moris_live::{Event, Legs, State, log};
+use moris_pages::ride::RiderCommand;
+use moris_setup::Setup;
+use moris_washout::{ParameterError, Parameters, Washout};
+use rtrb::{Consumer, Producer};
+use serde::Deserialize;
+
+use super::refusal::{Refusal, Status};
+use super::shown::{self, NAMES, Shown};
+use crate::controls::Controls;
+use crate::frames::Loss;
+use crate::{Shared, pace};
+
+/// Time between messages.
+const INTERVAL: Duration = Duration::from_millis(40);
+/// Most lines of the journal that are kept.
+const MOST_LINES: usize = 50;
+
+/// An order to the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Order {
+    /// A command of a person.
+    Event(Event),
+    /// A value of a parameter, by its slot.
+    Choose(u16, f64),
+    /// The chosen parameters come into force.
+    Retune,
+    /// The controller does not follow any more.
+    Lost(Loss),
+    /// The controller has reported the legs' lengths \[m\].
+    Report([f64; 6]),
+    /// A person has said where the legs are.
+    Legs(Legs),
+}
+
+/// Most browsers that are known.
+const MOST_BROWSERS: usize = 64;
+
+/// An order of a browser.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+enum Ask {
+    /// A command by its name.
+    Event(String),
+    /// Where the legs are, for the next start: settled or slow.
+    Legs(String),
+    /// Values of parameters by their names.
+    Set(BTreeMap<String, f64>),
+    /// The vehicle's controls as they are held.
+    Drive(RiderCommand),
+    /// The vehicle begins a new ride.
+    BeginAgain,
+}
+
+/// A browser's request, with the number that it was given.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Asked {
+    client: String,
+    ask: Ask,
+}
+
+/// All that the threads of the page share. The loop has no part in it.
+pub struct Desk {
+    inner: Mutex<Inner>,
+    /// Stop and park, which wait for nothing else.
+    urgent: Mutex<Producer<Order>>,
+    /// Lines of the journal.
+    lines: Mutex<VecDeque<String>>,
+    /// A new message, or the end.
+    news: Condvar,
+    controls: Option<Arc<Controls>>,
+    /// All browsers command. The first one alone drives.
+    shared_control: bool,
+}
+
+struct Inner {
+    orders: Producer<Order>,
+    /// The washout with the parameters in force, to try new ones with.
+    trial: Washout,
+    start: Vec<f64>,
+    state: State,
+    /// The browser that controls.
+    controller: Option<Browser>,
+    /// Browsers that are here, the latest last.
+    browsers: Vec<Browser>,
+    /// Browsers that have come.
+    count: u64,
+    /// A member of a JSON object: parameters that differ from their start.
+    status: String,
+    /// The last message and its number.
+    message: (u64, String),
+    ended: bool,
+}
+
+/// A browser: its secret number, and the one that all may know.
+#[derive(Clone, Debug, PartialEq)]
+struct Browser {
+    client: String,
+    number: u64,
+}
+
+/// The first message to a browser.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Welcome {
+    client: String,
+    /// The browser's number among those that have come.
+    number: u64,
+    pub controls: bool,
+    /// All browsers command.
+    shared: bool,
+    /// True if this browser holds the vehicle's controls.
+    pub drives: bool,
+    /// The vehicle has controls.
+    can_drive: bool,
+    names: Vec<&'static str>,
+}
+
+impl Desk {
+    /// A desk for a session that starts with these parameters.
+    ///
+    /// # Errors
+    /// They cannot be used.
+    pub fn new(
+        setup: &Setup,
+        [orders, urgent]: [Producer<Order>; 2],
+        controls: Option<Arc<Controls>>,
+        shared_control: bool,
+    ) -> Result<Self, moris_washout::ParameterError> {
+        let trial = Washout::new(&setup.parameters)?;
+        let mut inner = Inner {
+            orders,
+            start: slots_of(&setup.parameters),
+            trial,
+            state: State::Off,
+            controller: None,
+            browsers: Vec::new(),
+            count: 0,
+            status: String::new(),
+            message: (0, String::new()),
+            ended: false,
+        };
+        inner.renew_status();
+        Ok(Desk {
+            inner: Mutex::new(inner),
+            urgent: Mutex::new(urgent),
+            lines: Mutex::default(),
+            news: Condvar::new(),
+            controls,
+            shared_control,
+        })
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        // A thread that panicked has left nothing half done that matters.
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A line for the page's journal.
+    pub fn log_line(&self, line: &str) {
+        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+        lines.push_back(line.trim().to_owned());
+        if lines.len() > MOST_LINES {
+            lines.pop_front();
+        }
+    }
+
+    /// Makes messages of what the loop shows, until it has ended.
+    pub fn show(&self, mut moments: Consumer<Shown>, shared: &Shared) {
+        loop {
+            let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
+            let taken: Vec<Shown> = std::iter::from_fn(|| moments.pop().ok()).collect();
+            let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
+            let place = self.controls.as_ref().and_then(|controls| controls.place());
+            let place = serde_json::to_string(&place).unwrap_or_default();
+            let mut inner = self.lock();
+            let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
+            let status =
+                format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}", inner.status);
+            if let Some(text) = shown::message(&taken, &lines, &status) {
+                inner.message = (inner.message.0 + 1, text);
+                inner.state = taken.last().map_or(inner.state, |shown| shown.state);
+            }
+            inner.ended = ended;
+            drop(inner);
+            self.news.notify_all();
+            if ended {
+                return;
+            }
+            std::thread::sleep(INTERVAL);
+        }
+    }
+
+    /// The message after this number; none at the end, or an empty one if there is none for long.
+    pub fn message_after(&self, number: u64) -> Option<(u64, String)> {
+        let inner = self.lock();
+        let waits = |inner: &mut Inner| inner.message.0 <= number && !inner.ended;
+        let (inner, waited) =
+            self.news.wait_timeout_while(inner, Duration::from_secs(1), waits).unwrap_or_else(PoisonError::into_inner);
+        match () {
+            () if inner.message.0 > number => Some(inner.message.clone()),
+            () if inner.ended => None,
+            () => Some((number, if waited.timed_out() { "{}".to_owned() } else { String::new() })),
+        }
+    }
+
+    /// A browser with this secret number has come. The first one controls.
+    pub fn enter(&self, client: &str) -> Welcome {
+        let mut inner = self.lock();
+        inner.count += 1;
+        let browser = Browser { client: client.to_owned(), number: inner.count };
+        inner.browsers.push(browser.clone());
+        if inner.browsers.len() > MOST_BROWSERS {
+            inner.browsers.remove(0);
+        }
+        let is_first = *inner.controller.get_or_insert_with(|| browser.clone()) == browser;
+        let can_drive = self.controls.is_some();
+        Welcome {
+            client: browser.client,
+            number: browser.number,
+            controls: self.shared_control || is_first,
+            shared: self.shared_control,
+            drives: is_first && can_drive,
+            can_drive,
+            names: NAMES.split(' ').collect(),
+        }
+    }
+
+    /// A browser has gone. The next that asks controls.
+    pub fn leave(&self, client: &str) {
+        let mut inner = self.lock();
+        inner.browsers.retain(|browser| browser.client != client);
+        if inner.controller.as_ref().is_some_and(|holder| holder.client == client) {
+            inner.controller = None;
+            self.controls.as_ref().inspect(|controls| controls.release());
+        }
+    }
+
+    /// Passes a stop or a park on, from whichever page it comes.
+    fn ask_at_once(&self, event: Event) -> Result<(), Refusal> {
+        let mut urgent = self.urgent.lock().unwrap_or_else(PoisonError::into_inner);
+        let refused = |_| Refusal::new(Status::Unavailable, "the loop has not taken the last orders yet");
+        urgent.push(Order::Event(event)).map_err(refused)
+    }
+
+    /// Passes on what a browser asks for.
+    ///
+    /// # Errors
+    /// The status of the refusal, and its reason.
+    pub fn ask(&self, body: &[u8]) -> Result<(), Refusal> {
+        let asked: Asked =
+            serde_json::from_slice(body).map_err(|error| Refusal::new(Status::BadRequest, error.to_string()))?;
+        if let Ask::Event(name) = &asked.ask
+            && let Some(event @ (Event::Stop | Event::Park)) = Event::of_person(name)
+        {
+            return self.ask_at_once(event);
+        }
+        let mut inner = self.lock();
+        if inner.controller.is_none() {
+            inner.controller = inner.browsers.iter().find(|browser| browser.client == asked.client).cloned();
+        }
+        let drives = matches!(asked.ask, Ask::Drive(_) | Ask::BeginAgain);
+        let holds = inner.controller.as_ref().is_some_and(|holder| holder.client == asked.client);
+        if (drives || !self.shared_control) && !holds {
+            return Err(Refusal::new(Status::Forbidden, "another page controls; Stop and Park work here, too"));
+        }
+        match asked.ask {
+            Ask::Drive(command) => self.drive(|controls| controls.hold(&command, pace::now())),
+            Ask::BeginAgain => self.drive(Controls::begin_again),
+            Ask::Event(name) => {
+                let event = Event::of_person(&name)
+                    .ok_or_else(|| Refusal::unprocessable(format!("there is no command {name}")))?;
+                inner.send(&[Order::Event(event)])
+            }
+            Ask::Legs(name) => {
+                let legs = Legs::of_person(&name)
+                    .ok_or_else(|| Refusal::unprocessable(format!("{name} is no place of the legs")))?;
+                inner.send(&[Order::Legs(legs)])
+            }
+            Ask::Set(values) => {
+                let values: Option<Vec<_>> =
+                    values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
+                let values = values.ok_or_else(|| Refusal::unprocessable("there is no such parameter"))?;
+                inner.choose(&values)
+            }
+        }
+    }
+
+    fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), Refusal> {
+        let controls = self.controls.as_ref().ok_or_else(|| Refusal::unprocessable("this vehicle has no controls"))?;
+        act(controls).map_err(Refusal::unprocessable)
+    }
+}
+
+impl Inner {
+    /// Passes orders on: all or none, because a part of a set may not fit together.
+    fn send(&mut self, orders: &[Order]) -> Result<(), Refusal> {
+        let Ok(place) = self.orders.write_chunk_uninit(orders.len()) else {
+            return Err(Refusal::new(Status::Unavailable, "the loop has not taken the last orders yet"));
+        };
+        place.fill_from_iter(orders.iter().copied());
+        Ok(())
+    }
+
+    /// Puts values of slots in force if they can be used now.
+    fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), Refusal> {
+        let mut slots = slots_of(self.trial.parameters());
+        values.iter().for_each(|(slot, value)| slots[*slot] = *value);
+        let mut tried = self.trial.clone();
+        let parameters = Parameters::read(&mut Reader::new(&slots));
+        retune(&mut tried, &parameters, self.state)
+            .map_err(|error| Refusal::unprocessable(self.reason(&parameters, &error)))?;
+        let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
+        self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
+        self.trial = tried;
+        self.renew_status();
+        Ok(())
+    }
+
+    /// The reason for which parameters are refused, in words of a person at the platform.
+    fn reason(&self, parameters: &Parameters, error: &ParameterError) -> String {
+        if retune(&mut self.trial.clone(), parameters, State::Settled).is_err() {
+            return error.to_string();
+        }
+        let [present, wanted] = [self.trial.parameters(), parameters].map(slots_of);
+        let differing = (0..present.len()).filter(|slot| present[*slot] != wanted[*slot]).map(log::name_of);
+        let names = differing.take(3).collect::<Vec<_>>().join(", ");
+        format!("Park first: {names} cannot change like this before the platform is settled")
+    }
+
+    /// Renews the part of each message that changes by orders alone.
+    fn renew_status(&mut self) {
+        let slots = slots_of(self.trial.parameters());
+        let changed: BTreeMap<String, f64> = (0..slots.len())
+            .filter(|slot| slots[*slot] != self.start[*slot])
+            .map(|slot| (log::name_of(slot), slots[slot]))
+            .collect();
+        let changed = serde_json::to_string(&changed).unwrap_or_default();
+        self.status = format!("\"changed\":{changed}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rtrb::RingBuffer;
+
+    use super::*;
+
+    fn setup() -> Setup {
+        Setup::load(None, &[]).unwrap()
+    }
+
+    fn desk(shared_control: bool) -> (Desk, Consumer<Order>) {
+        let (orders, asked) = RingBuffer::new(64);
+        (Desk::new(&setup(), [orders, RingBuffer::new(8).0], None, shared_control).unwrap(), asked)
+    }
+
+    fn taken(orders: &mut Consumer<Order>) -> Vec<Order> {
+        std::iter::from_fn(|| orders.pop().ok()).collect()
+    }
+
+    #[test]
+    fn control_passes_to_the_next_browser_that_asks() {
+        let (desk, mut orders) = desk(false);
+        let start =
+            |client: &str| desk.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"start\"}}}}").as_bytes());
+        // Somebody who has not come.
+        assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
+        assert!(desk.enter("one").controls && !desk.enter("two").controls && !desk.enter("three").controls);
+        assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
+        start("one").unwrap();
+        desk.leave("three");
+        assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
+        desk.leave("one");
+        assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("three").unwrap_err().status, Status::Forbidden);
+        start("two").unwrap();
+        assert!(!desk.enter("four").controls);
+        assert_eq!(start("four").unwrap_err().status, Status::Forbidden);
+        assert_eq!(taken(&mut orders), [Order::Event(Event::Start); 2]);
+    }
+
+    #[test]
+    fn stop_and_park_work_from_every_page_while_the_desk_is_busy_or_its_orders_are_not_taken() {
+        let ([orders, urgent], [_asked, mut at_once]) = {
+            let ((orders, asked), (urgent, at_once)) = (RingBuffer::new(1), RingBuffer::new(8));
+            ([orders, urgent], [asked, at_once])
+        };
+        let desk = Desk::new(&setup(), [orders, urgent], None, false).unwrap();
+        desk.enter("one");
+        desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
+        assert_eq!(
+            desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().status,
+            Status::Unavailable
+        );
+        let busy = desk.lock();
+        desk.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"stop\"}}").unwrap();
+        desk.ask(b"{\"client\":\"\",\"ask\":{\"event\":\"park\"}}").unwrap();
+        drop(busy);
+        assert_eq!(taken(&mut at_once), [Event::Stop, Event::Park].map(Order::Event));
+    }
+
+    #[test]
+    fn all_browsers_control_if_they_may() {
+        let (desk, mut orders) = desk(true);
+        assert!(desk.enter("one").controls && desk.enter("two").controls);
+        desk.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"engage\"}}").unwrap();
+        assert_eq!(taken(&mut orders), [Order::Event(Event::Engage)]);
+    }
+
+    #[test]
+    fn parameters_are_tried_before_the_loop_gets_them() {
+        let (desk, mut orders) = desk(true);
+        let set = |text: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
+        set("{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}").unwrap();
+        let slot = |name: &str| log::slot_of(name).unwrap() as u16;
+        let expected = [
+            Order::Choose(slot("scale.specificForce.x"), 0.5),
+            Order::Choose(slot("tilt.angleLimit"), 0.25),
+            Order::Retune,
+        ];
+        assert_eq!(taken(&mut orders), expected);
+        let text = desk.lock().status.clone();
+        assert!(text.starts_with("\"changed\":{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
+        for (wrong, status) in [
+            ("{\"tilt.angleLimit\":1e300}", Status::Unprocessable),
+            ("{\"actuator.maxLength\":3}", Status::Unprocessable),
+            ("{\"nothing\":3}", Status::Unprocessable),
+            ("{\"tilt.angleLimit\":NaN}", Status::BadRequest),
+            ("{\"tilt.angleLimit\":\"../../etc/passwd\"}", Status::BadRequest),
+            ("[]", Status::BadRequest),
+        ] {
+            assert_eq!(set(wrong).unwrap_err().status, status, "{wrong}");
+        }
+        for wrong in ["fault", "arrived", "explode", ""] {
+            let text = format!("{{\"client\":\"\",\"ask\":{{\"event\":\"{wrong}\"}}}}");
+            assert_eq!(desk.ask(text.as_bytes()).unwrap_err().status, Status::Unprocessable, "{wrong}");
+        }
+        assert!(taken(&mut orders).is_empty());
+        assert_eq!(desk.lock().status, text);
+    }
+
+    #[test]
+    fn what_needs_a_settled_platform_is_said_as_park_first() {
+        let (desk, mut orders) = desk(true);
+        let set = |text: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
+        for state in [State::Neutral, State::Engaged, State::Fault] {
+            desk.lock().state = state;
+            for (change, name) in
+                [("{\"strategy\":2}", "strategy"), ("{\"scale.specificForce.x\":-1}", "scale.specificForce.x")]
+            {
+                let Refusal { status, reason: why } = set(change).unwrap_err();
+                assert_eq!(status, Status::Unprocessable);
+                assert!(why.starts_with("Park first: ") && why.contains(name), "{why}");
+            }
+            // What never can be used has its own reason.
+            let why = set("{\"tilt.angleLimit\":1e300}").unwrap_err().reason;
+            assert!(why.contains("tilt.angleLimit") && !why.contains("Park first"), "{why}");
+        }
+        assert!(taken(&mut orders).is_empty());
+        desk.lock().state = State::Settled;
+        set("{\"strategy\":2}").unwrap();
+    }
+
+    #[test]
+    fn orders_that_the_loop_does_not_take_are_refused_as_a_whole() {
+        let (orders, mut asked) = RingBuffer::new(4);
+        let desk = Desk::new(&setup(), [orders, RingBuffer::new(8).0], None, true).unwrap();
+        let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
+        desk.ask(set).unwrap();
+        assert_eq!(desk.ask(set).unwrap_err().status, Status::Unavailable);
+        assert_eq!(taken(&mut asked).len(), 3);
+    }
+}

@@ -1,0 +1,232 @@
+//! The server of the page: a thread for each connection, of which there are few.
+
+use std::collections::VecDeque;
+use std::net::{IpAddr, Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use moris_pages::live;
+use moris_pages::report::{Parameter, Rig, Vehicle};
+use moris_pages::ride::RoadMap;
+use moris_setup::Setup;
+use serde::Serialize;
+
+use super::desk::Desk;
+use super::http::{self, Access, Request};
+use super::refusal::{Refusal, Status};
+use super::track::Track;
+use crate::Shared;
+use crate::controls::Handling;
+use crate::telemetry::Features;
+use crate::watch::{Part, watch};
+use moris_analysis::page::simulator::parameters;
+use moris_analysis::page::vehicle::of_parameters;
+
+/// Most connections at once that have not shown the token yet: a new one closes the oldest.
+const MOST_STRANGERS: usize = 16;
+/// Most pages, and most of their other requests at once.
+const MOST_PAGES: usize = 12;
+const MOST_REQUESTS: usize = 24;
+/// Time between looks for a new connection.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Data of the page from its start on.
+#[derive(Clone, Debug, Serialize)]
+pub struct Start {
+    rig: Rig,
+    parameters: Vec<Parameter>,
+    subtitle: String,
+    handling: Option<Handling>,
+    vehicle: Vehicle,
+    road: Option<RoadMap>,
+    track: Option<Track>,
+}
+
+impl Start {
+    /// The page of a session with this rig, these parameters and telemetry, and of a road that is
+    /// learned.
+    pub fn of(setup: &Setup, features: &Features, track: Option<Track>) -> Self {
+        Start {
+            rig: (&setup.parameters).into(),
+            parameters: parameters(&setup.parameters, &setup.rig_alone),
+            subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
+            handling: features.handling,
+            vehicle: features.shape.unwrap_or_else(|| of_parameters(&setup.parameters_name)),
+            road: features.road.clone(),
+            track,
+        }
+    }
+
+    fn html(&self) -> String {
+        live::html(&self.subtitle, self)
+    }
+}
+
+/// The server.
+pub struct Server {
+    listener: TcpListener,
+    site: Arc<Site>,
+}
+
+/// Data of all connections.
+struct Site {
+    page: String,
+    access: Access,
+    desk: Arc<Desk>,
+    strangers: Mutex<Strangers>,
+    pages: AtomicUsize,
+    requests: AtomicUsize,
+    shared: Arc<Shared>,
+}
+
+impl Server {
+    /// A server at this port, 0 for any, of this machine alone or for others too.
+    ///
+    /// # Errors
+    /// The port is taken.
+    pub fn open(port: u16, listen: bool, start: &Start, desk: Arc<Desk>, shared: Arc<Shared>) -> Result<Self> {
+        let address = if listen { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST };
+        let listener = TcpListener::bind(SocketAddr::new(IpAddr::V4(address), port))
+            .with_context(|| format!("cannot serve the page at {address}:{port}"))?;
+        listener.set_nonblocking(true)?;
+        let access = Access { token: secret()?, port: listener.local_addr()?.port() };
+        let [pages, requests] = [0, 0].map(AtomicUsize::new);
+        let strangers = Mutex::default();
+        let site = Site { page: start.html(), access, desk, strangers, pages, requests, shared };
+        Ok(Server { listener, site: Arc::new(site) })
+    }
+
+    /// The address to open.
+    pub fn address(&self) -> String {
+        let Access { token, port } = &self.site.access;
+        format!("http://127.0.0.1:{port}/?token={token}")
+    }
+
+    /// Answers until the loop has ended. Threads of connections may live a little longer.
+    pub fn run(&self, shared: &Shared) {
+        while !shared.done.load(Ordering::Relaxed) {
+            let Ok((stream, _)) = self.listener.accept() else {
+                thread::sleep(LOOK);
+                continue;
+            };
+            let site = Arc::clone(&self.site);
+            let Some(number) = site.strangers().take(&stream) else { continue };
+            // Without a thread the connection is closed.
+            let _ = thread::Builder::new()
+                .name("page".to_owned())
+                .spawn(move || watch(&site.shared.failed, Part::Page, || site.serve(stream, number)));
+        }
+    }
+}
+
+/// Connections that have not shown the token yet, the oldest first.
+#[derive(Debug, Default)]
+struct Strangers {
+    count: u64,
+    streams: VecDeque<(u64, TcpStream)>,
+}
+
+impl Strangers {
+    /// Takes a new connection, and closes the oldest if there are too many.
+    fn take(&mut self, stream: &TcpStream) -> Option<u64> {
+        let copy = stream.try_clone().ok()?;
+        if self.streams.len() >= MOST_STRANGERS
+            && let Some((_, oldest)) = self.streams.pop_front()
+        {
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+        self.count += 1;
+        self.streams.push_back((self.count, copy));
+        Some(self.count)
+    }
+
+    /// A connection is none of them any more.
+    fn forget(&mut self, number: u64) {
+        self.streams.retain(|(of, _)| *of != number);
+    }
+}
+
+/// One of a few connections at a time; dropping it frees the slot.
+struct ConnectionSlot<'a>(&'a AtomicUsize);
+
+impl<'a> ConnectionSlot<'a> {
+    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, Refusal> {
+        let place = ConnectionSlot(places);
+        let taken = places.fetch_add(1, Ordering::Relaxed);
+        if taken < most {
+            Ok(place)
+        } else {
+            Err(Refusal::new(Status::Unavailable, "too many pages or requests at once"))
+        }
+    }
+}
+
+impl Drop for ConnectionSlot<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+impl Site {
+    fn strangers(&self) -> MutexGuard<'_, Strangers> {
+        self.strangers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn serve(&self, mut stream: TcpStream, number: u64) {
+        let is_ready = stream.set_nonblocking(false).is_ok()
+            && stream.set_nodelay(true).is_ok()
+            && stream.set_write_timeout(Some(http::WRITE_TIME)).is_ok();
+        let request = if is_ready { http::read(&mut stream) } else { Err(Refusal::new(Status::Internal, "")) };
+        // From here on the token decides.
+        self.strangers().forget(number);
+        let answered = request.and_then(|request| self.answer(&request, &mut stream));
+        if let Err(refusal) = answered {
+            http::answer(&mut stream, refusal.number(), "text/plain", &refusal.reason);
+        }
+    }
+
+    fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), Refusal> {
+        self.access.check(request)?;
+        let (places, most) =
+            if request.path == "/events" { (&self.pages, MOST_PAGES) } else { (&self.requests, MOST_REQUESTS) };
+        let _place = ConnectionSlot::among(places, most)?;
+        match (request.method.as_str(), request.path.as_str()) {
+            ("GET", "/") => http::answer(stream, 200, "text/html", &self.page),
+            ("GET", "/events") => self.send_events(stream)?,
+            ("POST", "/ask") => {
+                self.desk.ask(&request.body)?;
+                http::answer(stream, 200, "text/plain", "");
+            }
+            _ => return Err(Refusal::new(Status::NotFound, "there is nothing here")),
+        }
+        Ok(())
+    }
+
+    fn send_events(&self, stream: &mut TcpStream) -> Result<(), Refusal> {
+        let client = secret().map_err(|error| Refusal::new(Status::Internal, error.to_string()))?;
+        let welcome = serde_json::to_string(&self.desk.enter(&client)).unwrap_or_default();
+        if http::begin_events(stream) && http::send_event(stream, "welcome", &welcome) {
+            let mut number = 0;
+            // What has come while a slow browser was reading is left out.
+            while let Some((next, text)) = self.desk.message_after(number) {
+                number = next;
+                if !http::send_event(stream, "message", &text) {
+                    break;
+                }
+            }
+            http::send_event(stream, "end", "");
+        }
+        self.desk.leave(&client);
+        Ok(())
+    }
+}
+
+/// 128 random bits in hexadecimal digits.
+fn secret() -> Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(|error| anyhow::anyhow!("no random numbers: {error}"))?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}

@@ -1,0 +1,214 @@
+//! Telemetry from a socket, from a recording in real time, or from a vehicle that is stepped here.
+
+use std::net::UdpSocket;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use moris_live::format::{Format, Vehicle as Kind};
+use moris_live::{Motion, Sample, State};
+use moris_pages::report::Vehicle as Shape;
+use moris_pages::ride::RoadMap;
+use moris_washout::Input as Sampled;
+use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::motion::orientation::Orientation;
+use nalgebra::Vector3;
+use rtrb::Producer;
+
+use super::controls::{Controls, Handling};
+use super::journal::say;
+use super::page::Desk;
+use super::sender::{Dropped, Followed};
+use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
+use super::{Options, Shared, pace, tables};
+use moris_analysis::page::vehicle as drawn;
+use moris_analysis::recording::formats::Format as Logger;
+use moris_analysis::recording::{ConventionOptions, FADE_IN, Recording};
+
+/// Time by which samples of a source inside are there before they are needed.
+pub const BEFORE: Duration = Duration::from_millis(5);
+
+/// A sample, and when it arrived.
+#[derive(Clone, Copy, Debug)]
+pub struct Received {
+    /// Time of [`pace::now`]; of a source inside that for which the sample is.
+    pub arrival: Duration,
+    /// Motion of the vehicle.
+    pub sample: Sample,
+}
+
+/// The accepted values of `--from`.
+const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, fmu:FILE, ride, or a recording's file";
+
+/// The format of recordings of this name.
+fn logger(name: &str) -> Result<Logger> {
+    let known = || Logger::value_variants().iter().map(|format| format.word()).collect::<Vec<_>>().join(", ");
+    Logger::from_str(name, true)
+        .map_err(|_| anyhow::anyhow!("--format is {name}, but a recording's must be one of {}", known()))
+}
+
+/// Largest packet \[bytes\].
+const LARGEST: usize = 65_536;
+/// Time after which a quiet socket is left to see whether all has ended.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Properties of a source that are known before it runs.
+#[derive(Clone, Debug, Default)]
+pub struct Features {
+    /// It runs inside this program: its samples come before their time.
+    pub is_inside: bool,
+    /// It sends the vehicle's position, or may do so.
+    pub has_position: bool,
+    /// Kind of the vehicle's controls; none if it drives by itself.
+    pub handling: Option<Handling>,
+    /// Shape in which the vehicle is drawn; none for one that the parameters name.
+    pub shape: Option<Shape>,
+    /// The road that the vehicle follows.
+    pub road: Option<RoadMap>,
+}
+
+/// A source of telemetry.
+pub struct Input {
+    pub features: Features,
+    source: Source,
+}
+
+enum Source {
+    /// Packets of a format.
+    Udp(UdpSocket, Box<Format>),
+    /// Playback of a recording.
+    Played(Box<Recording>),
+    /// A vehicle.
+    Driven(Box<dyn Vehicle>),
+}
+
+impl Input {
+    /// The source that an option names, of a session with parameters of this name.
+    ///
+    /// # Errors
+    /// The port, the format or the recording cannot be used.
+    pub fn open(from: &str, options: &Options, parameters_name: &str) -> Result<Input> {
+        let Options { format, map, listen, learn, .. } = options;
+        let (format, map, listen) = (format.as_deref(), map.as_deref(), *listen);
+        if from == "ride" {
+            return Ok(Input::driven(Motorcycle::new()?));
+        }
+        if let Some(file) = from.strip_prefix("fmu:") {
+            let map = map.context("--map names the file that maps the FMU's variables")?;
+            return Ok(Input::driven(Fmu::open(Path::new(file), map)?));
+        }
+        let Some(port) = from.strip_prefix("udp:") else {
+            anyhow::ensure!(Path::new(from).exists(), "--from is {from}, but {SOURCES}");
+            let format = format.map(logger).transpose()?;
+            let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
+            let conventions = conventions.with_position(learn.is_some());
+            let recording = Recording::read(Path::new(from), &conventions)?;
+            let features = Features {
+                is_inside: true,
+                has_position: recording.road.is_some(),
+                shape: Some(drawn::vehicle(&recording, parameters_name)),
+                ..Features::default()
+            };
+            return Ok(Input { features, source: Source::Played(Box::new(recording)) });
+        };
+        let port: u16 = port.parse().ok().with_context(|| format!("--from is {from}, but {SOURCES}"))?;
+        let format = tables::format(format.context("--format names the packets' format; see moris-live formats")?)?;
+        let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
+        let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;
+        socket.set_read_timeout(Some(PATIENCE))?;
+        let features = Features { has_position: format.has_position(), shape: shape(&format), ..Features::default() };
+        Ok(Input { features, source: Source::Udp(socket, Box::new(format)) })
+    }
+
+    fn driven(vehicle: impl Vehicle + 'static) -> Input {
+        Input { features: vehicle.features(), source: Source::Driven(Box::new(vehicle)) }
+    }
+
+    /// Passes samples on until all has ended. `controls` are those that its features name.
+    pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
+        match self.source {
+            Source::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
+            Source::Played(recording) => play(&recording, samples, shared),
+            Source::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
+        }
+    }
+}
+
+/// Shape of the vehicle that a format names.
+pub fn shape(format: &Format) -> Option<Shape> {
+    (format.vehicle == Kind::Car).then_some(Shape::Car)
+}
+
+fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
+    let mut packet = vec![0; LARGEST];
+    let mut quiet = 0;
+    let requests = format.subscriptions();
+    let port = socket.local_addr().map_or(0, |address| address.port());
+    let mut followed = Followed::default();
+    let mut dropped = Dropped::default();
+    while !shared.done.load(Ordering::Relaxed) {
+        let Ok((length, from)) = socket.recv_from(&mut packet) else {
+            // At first, and about once a second while nothing comes.
+            if let Some(subscribe) = format.subscribe.as_ref().filter(|_| quiet % 10 == 0) {
+                for request in &requests {
+                    let _ = socket.send_to(request, ("127.0.0.1", subscribe.port));
+                }
+            }
+            quiet += 1;
+            continue;
+        };
+        let arrival = pace::now();
+        quiet = 0;
+        match format.decode(&packet[..length]).map(|sample| (sample, followed.accepts(from, arrival))) {
+            // A loop that is so late that the ring is full has no use for it.
+            Ok((sample, Ok(()))) => drop(samples.push(Received { arrival, sample })),
+            Ok((_, Err(another))) => drop(another.inspect(|line| say(line, page))),
+            Err(_) => {
+                shared.dropped.fetch_add(1, Ordering::Relaxed);
+                if let Some(count) = dropped.take(arrival) {
+                    say(&format!("dropped: {count}; {}", format.explain(&packet[..length], port)), page);
+                }
+            }
+        }
+    }
+}
+
+/// True if the platform engages.
+pub fn engages(shared: &Shared) -> bool {
+    [State::Engaging, State::Engaged].map(|state| state as u8).contains(&shared.state.load(Ordering::Relaxed))
+}
+
+/// Plays a recording once the platform engages; until then it repeats the first sample.
+fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared) {
+    let step = Duration::from_secs_f64(recording.step());
+    let begin = pace::now();
+    let (mut sent, mut played) = (0_u32, 0);
+    while !shared.done.load(Ordering::Relaxed) {
+        let Some(input) = recording.inputs().get(played) else {
+            shared.played.store(true, Ordering::Relaxed);
+            return;
+        };
+        let time = step * sent;
+        pace::wait_until(begin + time);
+        let sample = sample(input, recording, played, time.as_secs_f64());
+        let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
+        sent += 1;
+        played += usize::from(played > 0 || engages(shared));
+    }
+}
+
+fn sample(input: &Sampled, recording: &Recording, number: usize, time: f64) -> Sample {
+    let rates = match recording.angular_velocity_frame {
+        AngularVelocityFrame::Body => input.angular_velocity,
+        AngularVelocityFrame::World => Orientation::new(input.orientation).rotation.tr_mul(&input.angular_velocity),
+    };
+    Sample {
+        time: Some(time),
+        motion: Motion::new(input.specific_force, rates, input.orientation, input.speed),
+        position: recording.road.as_ref().and_then(|road| road.position(number)).map(Vector3::from),
+        has_angles: recording.has_orientation,
+        ..Sample::default()
+    }
+}

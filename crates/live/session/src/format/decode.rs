@@ -1,0 +1,197 @@
+//! A packet's bytes to a sample.
+
+use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
+use moris_washout::motion::orientation::Orientation;
+use nalgebra::Vector3;
+use serde_json::Value;
+
+use super::{
+    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, QUANTITIES, Quantity, SHIPPED, Unit,
+};
+use crate::motion::{Motion, Sample};
+
+/// Reason for which a packet is dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Dropped {
+    /// The packet's length is not one of the format's.
+    #[error("a packet of {0} bytes")]
+    Length(usize),
+    /// The packet's first bytes are not the format's.
+    #[error("a packet with another head")]
+    Head,
+    /// The packet lacks a field, or the field is no number.
+    #[error("a packet without the field {0:?}")]
+    Field(Quantity),
+}
+
+impl Format {
+    /// The sample in a packet. Numbers in it may be infinite or no numbers.
+    ///
+    /// # Errors
+    /// The packet is not of this format.
+    pub fn decode(&self, packet: &[u8]) -> Result<Sample, Dropped> {
+        if !self.lengths.is_empty() && !self.lengths.contains(&packet.len()) {
+            return Err(Dropped::Length(packet.len()));
+        }
+        let body = packet.strip_prefix(self.head.as_bytes()).ok_or(Dropped::Head)?;
+        let mut values = [None; QUANTITIES];
+        let text = || str::from_utf8(packet).ok();
+        let object = match self.layout {
+            Layout::Json => serde_json::from_slice::<Value>(packet).ok(),
+            _ => None,
+        };
+        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&packet.len()));
+        for (quantity, field) in self.fields.iter().chain(further.flat_map(|of| &of.fields)) {
+            let read = match (&field.at, self.layout) {
+                (FieldAddress::Index(at), Layout::Binary) => number(packet, *at, field.kind, self.byte_order),
+                (FieldAddress::Index(at), Layout::Pairs) => paired(body, *at),
+                (FieldAddress::Index(at), Layout::Csv) => column(text(), *at),
+                (FieldAddress::Key(key), _) => object.as_ref().and_then(|object| value(at_path(object, key)?)),
+                _ => None,
+            };
+            // Without these a packet of text says nothing.
+            let is_needed = matches!(quantity, Quantity::Ax | Quantity::Ay);
+            let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed;
+            match read {
+                Some(value) => values[*quantity as usize] = Some(value * factor(field, *quantity)),
+                None if optional => (),
+                None => return Err(Dropped::Field(*quantity)),
+            }
+        }
+        Ok(self.sample(&values))
+    }
+
+    /// Description of a packet of another format: its length, those of this format, and the shipped
+    /// formats that it fits.
+    pub fn explain(&self, packet: &[u8], port: u16) -> String {
+        let lengths: Vec<String> = self.lengths.iter().map(usize::to_string).collect();
+        let expected = match lengths.as_slice() {
+            [] => String::new(),
+            lengths => format!("; {} has {}", self.name, lengths.join(" or ")),
+        };
+        let why = match self.decode(packet) {
+            Err(Dropped::Length(_)) | Ok(_) => String::new(),
+            Err(dropped) => format!(" ({} expects otherwise: {dropped})", self.name),
+        };
+        let fitting: Vec<&str> = SHIPPED
+            .iter()
+            .filter(|(name, text)| *name != self.name && text.parse::<Format>().is_ok_and(|of| of.fits(packet)))
+            .map(|(name, _)| *name)
+            .collect();
+        let advice = match fitting.as_slice() {
+            [] => "no format of moris-live fits; write a table for it".to_owned(),
+            [one] => format!("{one} fits: --format {one}"),
+            some => format!("these fit: {}", some.join(", ")),
+        };
+        format!("{}-byte packets arrive on {port}{expected}{why}: {advice}", packet.len())
+    }
+
+    /// True if a packet has this format's length or head, and plausible numbers.
+    fn fits(&self, packet: &[u8]) -> bool {
+        let is_plain = self.lengths.is_empty() && self.head.is_empty() && self.layout == Layout::Binary;
+        !is_plain && self.decode(packet).is_ok_and(|sample| sample.is_plausible())
+    }
+
+    fn sample(&self, values: &[Option<f64>; QUANTITIES]) -> Sample {
+        use Quantity::*;
+        let of = |quantity: Quantity| values[quantity as usize];
+        let vector = |names: [Quantity; 3]| Vector3::from_fn(|k, _| of(names[k]).unwrap_or(0.0));
+        let all = |names: [Quantity; 3]| names.into_iter().all(|name| of(name).is_some());
+        let angles = RollPitchYaw::from_vector(vector([Roll, Pitch, Yaw]));
+        let rotation = Orientation::new(angles).rotation;
+        let to_body = |vector: Vector3<f64>, axes: Axes| match axes {
+            Axes::Body => vector,
+            Axes::World => rotation.tr_mul(&vector),
+        };
+        let mut force = to_body(vector([Ax, Ay, Az]), self.force_axes);
+        match self.gravity {
+            Gravity::Removed => force += rotation.tr_mul(&(Vector3::z() * STANDARD_GRAVITY)),
+            Gravity::Included if of(Az).is_none() => force.z = STANDARD_GRAVITY,
+            Gravity::Included => (),
+        }
+        let rates = to_body(vector([Wx, Wy, Wz]), self.rate_axes);
+        let speed = of(Speed).unwrap_or_else(|| vector([Vx, Vy, Vz]).norm());
+        Sample {
+            time: of(Time),
+            motion: Motion::new(force, rates, angles, speed),
+            position: (of(X).is_some() && of(Y).is_some()).then(|| vector([X, Y, Z])),
+            paused: of(Paused).is_some_and(|paused| paused != 0.0) || of(Running).is_some_and(|running| running == 0.0),
+            has_angles: all([Roll, Pitch, Yaw]),
+        }
+    }
+}
+
+/// The value of a key, or of keys in keys and numbers in lists with dots between them.
+fn at_path<'a>(object: &'a Value, path: &str) -> Option<&'a Value> {
+    let inner = |object: &'a Value, key: &str| match object {
+        Value::Array(list) => list.get(key.parse::<usize>().ok()?),
+        _ => object.get(key),
+    };
+    object.get(path).or_else(|| path.split('.').try_fold(object, inner))
+}
+
+/// A binary number at an offset.
+fn number(packet: &[u8], at: usize, kind: Number, order: ByteOrder) -> Option<f64> {
+    macro_rules! read {
+        ($type:ty) => {{
+            let bytes = packet.get(at..)?.first_chunk()?;
+            match order {
+                ByteOrder::Little => <$type>::from_le_bytes(*bytes) as f64,
+                ByteOrder::Big => <$type>::from_be_bytes(*bytes) as f64,
+            }
+        }};
+    }
+    Some(match kind {
+        Number::U8 => read!(u8),
+        Number::I8 => read!(i8),
+        Number::U16 => read!(u16),
+        Number::I16 => read!(i16),
+        Number::U32 => read!(u32),
+        Number::I32 => read!(i32),
+        Number::U64 => read!(u64),
+        Number::F32 => read!(f32),
+        Number::F64 => read!(f64),
+    })
+}
+
+/// The float that a list of pairs has for a number.
+fn paired(body: &[u8], index: usize) -> Option<f64> {
+    let (pairs, _) = body.as_chunks::<8>();
+    pairs.iter().find_map(|[a, b, c, d, value @ ..]| {
+        let number = i32::from_le_bytes([*a, *b, *c, *d]);
+        (usize::try_from(number) == Ok(index)).then(|| f64::from(f32::from_le_bytes(*value)))
+    })
+}
+
+fn column(text: Option<&str>, at: usize) -> Option<f64> {
+    let line = text?.lines().next()?;
+    truth(line.split(',').nth(at)?.trim())
+}
+
+fn truth(text: &str) -> Option<f64> {
+    match text {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        _ => text.parse().ok(),
+    }
+}
+
+fn value(value: &Value) -> Option<f64> {
+    value.as_f64().or_else(|| value.as_bool().map(f64::from))
+}
+
+/// The factor from a field's number to the washout's unit.
+fn factor(field: &Field, quantity: Quantity) -> f64 {
+    let unit = match field.unit {
+        Some(Unit::G) => STANDARD_GRAVITY,
+        Some(Unit::DegreePerSecond | Unit::Degree) => std::f64::consts::PI / 180.0,
+        Some(Unit::KilometrePerHour) => 1.0 / 3.6,
+        Some(Unit::MilePerHour) => 0.44704,
+        Some(Unit::Millisecond) => 1e-3,
+        _ => 1.0,
+    };
+    match quantity {
+        Quantity::Paused | Quantity::Running => 1.0,
+        _ => field.scale * unit,
+    }
+}

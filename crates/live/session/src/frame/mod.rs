@@ -1,0 +1,145 @@
+//! Frames to actuators, described by templates in TOML.
+//!
+//! A template is a string of tokens between spaces:
+//!
+//! | token | bytes |
+//! |---|---|
+//! | `FF` | one byte, in hexadecimal digits |
+//! | `'text'` | its characters |
+//! | `leg1:u16` | position of the first actuator, 0 to 1 spread over `range`: u8, u16, u24 or u32, big-endian; `u16le` and so on little-endian |
+//! | `leg1:hi`, `leg1:lo` | the high and the low byte of `leg1:u16` |
+//! | `leg1:dec` | the same in decimal digits |
+//! | `length1:6` | a quantity with so many decimals: see [`QUANTITIES`] |
+//! | `x:f64le*1000` | a quantity times a factor as a number: `f32` or `f64` big-endian, `f32le` or `f64le` little-endian |
+//!
+//! ```
+//! use moris_live::frame::{Encoder, Values};
+//!
+//! let text = r#"
+//!     name = "own"
+//!     about = "two legs in decimal digits"
+//!     note = "an example"
+//!     range = [0, 1000]
+//!     reversed = [2]
+//!     frame = "'A' leg1:dec 'B' leg2:dec 0A"
+//!     stop = "'X' 0A"
+//! "#;
+//! let encoder = Encoder::new(&text.parse()?, [1.0, 1.6])?;
+//! let mut frame = Vec::new();
+//! encoder.frame(&Values { length: [1.15; 6], ..Values::default() }, &mut frame);
+//! assert_eq!(frame, b"A250B750\n");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod encode;
+mod report;
+
+use std::str::FromStr;
+
+use serde::Deserialize;
+
+pub use encode::{Encoder, QUANTITIES, Values};
+pub use report::reported;
+
+/// A template of frames.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Frames {
+    /// Its name.
+    pub name: String,
+    /// The device.
+    pub about: String,
+    /// Sources of the template, and what no device has verified.
+    pub note: String,
+    /// Numbers for the shortest and the longest actuator.
+    #[serde(default = "sixteen_bits")]
+    pub range: [i64; 2],
+    /// Actuators, from 1, whose numbers fall with their length.
+    #[serde(default)]
+    pub reversed: Vec<usize>,
+    /// Time between frames \[s\].
+    #[serde(default = "millisecond")]
+    pub interval: f64,
+    /// Time without frames after which the controller stops by itself \[s\].
+    pub time_out: Option<f64>,
+    /// Speed of a leg with which the controller goes from anywhere to its first length \[m/s\], if
+    /// it limits that by itself.
+    pub slow_start: Option<f64>,
+    /// Sent before a start: asks for the legs' lengths, which [`reported`] reads from the answer.
+    #[serde(default)]
+    pub ask: String,
+    /// Sent when the platform starts.
+    #[serde(default)]
+    pub start: String,
+    /// Sent at each interval.
+    pub frame: String,
+    /// Sent when the platform has come to its lowest pose.
+    #[serde(default)]
+    pub park: String,
+    /// Sent at the end.
+    #[serde(default)]
+    pub stop: String,
+}
+
+fn sixteen_bits() -> [i64; 2] {
+    [0, 65_535]
+}
+
+fn millisecond() -> f64 {
+    1e-3
+}
+
+/// Reason for which a template cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FramesError {
+    /// It is not TOML, or has unknown words.
+    #[error("{0}")]
+    Toml(#[from] toml::de::Error),
+    /// A token is unknown.
+    #[error("the token {0} is none of moris-live's")]
+    Token(String),
+    /// A number is out of its range.
+    #[error("{0}")]
+    Range(&'static str),
+}
+
+impl FromStr for Frames {
+    type Err = FramesError;
+
+    fn from_str(text: &str) -> Result<Self, FramesError> {
+        let frames: Frames = toml::from_str(text)?;
+        if !(1e-3..=1.0).contains(&frames.interval) {
+            return Err(FramesError::Range("interval must be from 0.001 to 1 s"));
+        }
+        if frames.time_out.is_some_and(|time| !(frames.interval..=10.0).contains(&time)) {
+            return Err(FramesError::Range("time-out must be from the interval to 10 s"));
+        }
+        if frames.slow_start.is_some_and(|speed| !(0.001..=1.0).contains(&speed)) {
+            return Err(FramesError::Range("slow-start must be from 0.001 to 1 m/s"));
+        }
+        if frames.reversed.iter().any(|leg| !(1..=6).contains(leg)) {
+            return Err(FramesError::Range("reversed has actuators from 1 to 6"));
+        }
+        if frames.range.iter().any(|end| !(-(1 << 40)..=1 << 40).contains(end)) {
+            return Err(FramesError::Range("range has numbers of at most 40 bits"));
+        }
+        Encoder::new(&frames, [0.0, 1.0])?;
+        Ok(frames)
+    }
+}
+
+/// The shipped templates, each with its name and text.
+pub const SHIPPED: [(&str, &str); 7] = [
+    ("json", include_str!("tables/json.toml")),
+    ("csv", include_str!("tables/csv.toml")),
+    ("amc-aasd15a", include_str!("tables/amc-aasd15a.toml")),
+    ("motion4sim", include_str!("tables/motion4sim.toml")),
+    ("bff", include_str!("tables/bff.toml")),
+    ("simtools", include_str!("tables/simtools.toml")),
+    ("vr-pose", include_str!("tables/vr-pose.toml")),
+];
+
+/// The text of a shipped template.
+pub fn shipped(name: &str) -> Option<&'static str> {
+    SHIPPED.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
+}

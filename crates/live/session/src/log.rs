@@ -1,0 +1,259 @@
+//! Text of a recorded session: its parameters and settings, each event with its step, and a digest
+//! of all commands.
+//!
+//! Numbers are written so that they are read back to the bit. A session is recorded by writing
+//! [`header`] and each [`Entry`] in order, and repeated by [`replay`].
+
+use std::fmt::{self, Display, Formatter, Write};
+
+use moris_interface::{Group, Reader, Slot, slots_of};
+use moris_laps::Laps;
+use moris_washout::Parameters;
+use nalgebra::Vector3;
+
+use crate::legs::Legs;
+use crate::motion::{CHANNELS, Channels, Motion, Sample};
+use crate::session::{Commands, Session, Settings};
+use crate::transitions::Event;
+
+/// First line of a recorded session.
+const FIRST: &str = "moris-live-session,1";
+/// Beginning of a line of the road that is known at first.
+const ROAD: &str = "road,";
+/// Most steps of a session: eleven days.
+const MOST: u64 = 1_000_000_000;
+
+/// Something from outside that a session has received before a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Happening {
+    /// An event of a person or the device.
+    Event(Event),
+    /// A sample that arrived at this time of the session \[s\].
+    Sample(f64, Sample),
+    /// The place of the legs.
+    Legs(Legs),
+    /// The session's clock has slipped by this time \[s\].
+    Slip(f64),
+    /// A value of a parameter has been chosen, by its slot.
+    Choice(u16, f64),
+    /// The chosen parameters come into force.
+    Retune,
+    /// The session's end, with the digest of all commands.
+    End(u64),
+}
+
+/// A line of a recorded session.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// Steps before it.
+    pub step: u64,
+    /// The event, sample or end.
+    pub happening: Happening,
+}
+
+/// Digest of all commands of a session (FNV-1a, 64 bits).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Digest(pub u64);
+
+impl Default for Digest {
+    fn default() -> Self {
+        Digest(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Digest {
+    /// Takes the commands of a step.
+    pub fn take(&mut self, commands: &Commands) {
+        let bits = commands.length.iter().map(|length| length.to_bits());
+        for word in bits.chain([commands.state as u64]) {
+            for byte in word.to_le_bytes() {
+                self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        }
+    }
+}
+
+/// The lines before the events. `laps` are those that a session knows that learns the road.
+pub fn header(parameters: &Parameters, settings: &Settings, laps: Option<&Laps>) -> String {
+    let mut text = format!("{FIRST}\nsettings,{}\n", serde_json::to_string(settings).unwrap_or_default());
+    for (slot, value) in slots_of(parameters).iter().enumerate() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "parameter,{},{value:?}", name_of(slot));
+    }
+    for line in laps.map(Laps::text).unwrap_or_default().lines() {
+        text += &format!("{ROAD}{line}\n");
+    }
+    text
+}
+
+/// The name of a parameter's slot; none beyond the last.
+pub fn name_of(slot: usize) -> String {
+    let name = |slot: &Slot| Parameters::ROWS[usize::from(slot.row)].variable_name(usize::from(slot.element));
+    Parameters::SLOTS.get(slot).map(name).unwrap_or_default()
+}
+
+/// The slot of a parameter.
+pub fn slot_of(name: &str) -> Option<usize> {
+    (0..Parameters::SLOTS.len()).find(|slot| name_of(*slot) == name)
+}
+
+impl Display for Entry {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "{},", self.step)?;
+        match &self.happening {
+            Happening::Event(event) => write!(f, "event,{}", event.name()),
+            Happening::End(digest) => write!(f, "end,{digest:016x}"),
+            Happening::Choice(slot, value) => write!(f, "parameter,{},{value:?}", name_of(usize::from(*slot))),
+            Happening::Legs(Legs::Reported(lengths)) => {
+                write!(f, "legs,reported")?;
+                lengths.iter().try_for_each(|length| write!(f, ",{length:?}"))
+            }
+            Happening::Legs(legs) => write!(f, "legs,{}", legs.name()),
+            Happening::Slip(time) => write!(f, "slip,{time:?}"),
+            Happening::Retune => write!(f, "retune"),
+            Happening::Sample(arrival, sample) => {
+                write!(f, "sample,{arrival:?},")?;
+                if let Some(time) = sample.time {
+                    write!(f, "{time:?}")?;
+                }
+                for k in 0..3 {
+                    write!(f, ",")?;
+                    if let Some(position) = sample.position {
+                        write!(f, "{:?}", position[k])?;
+                    }
+                }
+                write!(f, ",{},{}", u8::from(sample.paused), u8::from(sample.has_angles))?;
+                sample.motion.0.iter().try_for_each(|value| write!(f, ",{value:?}"))
+            }
+        }
+    }
+}
+
+impl Entry {
+    /// The entry of a line; none if it is no entry.
+    pub fn of_line(line: &str) -> Option<Entry> {
+        let mut fields = line.split(',');
+        let step = fields.next()?.parse().ok()?;
+        let kind = fields.next()?;
+        let happening = match kind {
+            "event" => Happening::Event(Event::named(fields.next()?)?),
+            "end" => Happening::End(u64::from_str_radix(fields.next()?, 16).ok()?),
+            "parameter" => Happening::Choice(slot_of(fields.next()?)? as u16, fields.next()?.parse().ok()?),
+            "retune" => Happening::Retune,
+            "slip" => Happening::Slip(fields.next()?.parse().ok()?),
+            "legs" => Happening::Legs(match fields.next()? {
+                "reported" => {
+                    let mut lengths = [0.0; 6];
+                    for length in &mut lengths {
+                        *length = fields.next()?.parse().ok()?;
+                    }
+                    Legs::Reported(lengths)
+                }
+                name => Legs::named(name)?,
+            }),
+            "sample" => {
+                let mut next = || fields.next();
+                let arrival = next()?.parse().ok()?;
+                let time = optional(next()?)?;
+                let position = [optional(next()?)?, optional(next()?)?, optional(next()?)?];
+                let [paused, has_angles] = [next()? == "1", next()? == "1"];
+                let mut motion = Channels::zeros();
+                for k in 0..CHANNELS {
+                    motion[k] = next()?.parse().ok()?;
+                }
+                let position = match position {
+                    [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
+                    _ => None,
+                };
+                Happening::Sample(arrival, Sample { time, motion: Motion(motion), position, paused, has_angles })
+            }
+            _ => return None,
+        };
+        fields.next().is_none().then_some(Entry { step, happening })
+    }
+}
+
+/// A number or nothing.
+fn optional(field: &str) -> Option<Option<f64>> {
+    if field.is_empty() { Some(None) } else { field.parse().ok().map(Some) }
+}
+
+/// Reason for which a recorded session cannot be repeated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReplayError {
+    /// The text is no recorded session.
+    #[error("line {0} is none of a session that this version has recorded by moris-live --record")]
+    Line(usize),
+    /// A parameter cannot be used.
+    #[error(transparent)]
+    Parameter(#[from] moris_interface::ParameterError),
+}
+
+/// Result of a repeated session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Replayed {
+    /// Its steps.
+    pub steps: u64,
+    /// The digest of its commands.
+    pub digest: u64,
+    /// The digest in the recording; none if the recording was cut off.
+    pub recorded: Option<u64>,
+}
+
+/// Repeats a recorded session, up to its last whole line. `observe` receives the commands of each
+/// step.
+///
+/// # Errors
+/// The text is no recorded session.
+pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed, ReplayError> {
+    // A full disk cuts the last line off.
+    let whole = text.rfind('\n').map_or(text, |end| &text[..end]);
+    let mut lines = whole.lines().enumerate().map(|(place, line)| (place + 1, line)).peekable();
+    let first = lines.next().filter(|(_, line)| *line == FIRST).ok_or(ReplayError::Line(1))?;
+    let settings = lines.next().and_then(|(_, line)| line.strip_prefix("settings,"));
+    let settings: Settings =
+        settings.and_then(|text| serde_json::from_str(text).ok()).ok_or(ReplayError::Line(first.0 + 1))?;
+    let mut slots = slots_of(&Parameters::default());
+    while let Some((place, line)) = lines.next_if(|(_, line)| line.starts_with("parameter,")) {
+        let mut fields = line.split(',').skip(1);
+        let [Some(name), Some(value), None] = [fields.next(), fields.next(), fields.next()] else {
+            return Err(ReplayError::Line(place));
+        };
+        match (slot_of(name), value.parse()) {
+            (Some(slot), Ok(value)) => slots[slot] = value,
+            _ => return Err(ReplayError::Line(place)),
+        }
+    }
+    let mut session = Session::new(&Parameters::read(&mut Reader::new(&slots)), &settings)?;
+    let (mut road, mut begin) = (String::new(), 0);
+    while let Some((place, line)) = lines.next_if(|(_, line)| line.starts_with(ROAD)) {
+        begin = if road.is_empty() { place } else { begin };
+        road.extend([&line[ROAD.len()..], "\n"]);
+    }
+    if !road.is_empty() {
+        session.learn(Laps::of_text(&road).map_err(|none| ReplayError::Line(begin + none.line - 1))?);
+    }
+    let mut digest = Digest::default();
+    let mut steps = 0;
+    for (place, line) in lines {
+        let entry = Entry::of_line(line)
+            .filter(|entry| (steps..=MOST).contains(&entry.step))
+            .ok_or(ReplayError::Line(place))?;
+        while steps < entry.step {
+            digest.take(session.step());
+            observe(&session);
+            steps += 1;
+        }
+        match entry.happening {
+            // What was refused then is refused now.
+            Happening::Event(event) => drop(session.handle(event)),
+            Happening::Sample(arrival, sample) => session.receive(arrival, &sample),
+            Happening::Legs(legs) => drop(session.locate(legs)),
+            Happening::Slip(time) => session.slip(time),
+            Happening::Choice(slot, value) => session.choose(usize::from(slot), value),
+            Happening::Retune => drop(session.retune()),
+            Happening::End(recorded) => return Ok(Replayed { steps, digest: digest.0, recorded: Some(recorded) }),
+        }
+    }
+    Ok(Replayed { steps, digest: digest.0, recorded: None })
+}

@@ -1,0 +1,277 @@
+//! Packets written out by hand from each layout, and any bytes at all.
+
+use moris_live::format::{Format, SHIPPED, shipped};
+use moris_live::{Motion, Sample};
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+const G: f64 = 9.80665;
+
+/// The bytes of hexadecimal digits; what follows # on a line is a comment.
+fn hex(text: &str) -> Vec<u8> {
+    let code = text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    let digits: String = code.flat_map(str::chars).filter(char::is_ascii_hexdigit).collect();
+    (0..digits.len()).step_by(2).map(|k| u8::from_str_radix(&digits[k..k + 2], 16).unwrap()).collect()
+}
+
+fn format(name: &str) -> Format {
+    shipped(name).unwrap().parse().unwrap()
+}
+
+fn decoded(name: &str, packet: &[u8]) -> Sample {
+    format(name).decode(packet).unwrap()
+}
+
+fn assert_motion(motion: &Motion, force: [f64; 3], rates: [f64; 3], angles: [f64; 3], speed: f64) {
+    let near = |found: Vector3<f64>, expected: [f64; 3], what: &str| {
+        assert!((found - Vector3::from(expected)).amax() < 1e-6, "{what}: {found:?}, not {expected:?}");
+    };
+    near(motion.force(), force, "force");
+    near(motion.rates(), rates, "rates");
+    near(motion.angles().to_vector(), angles, "angles");
+    assert!((motion.speed() - speed).abs() < 1e-6, "speed {}", motion.speed());
+}
+
+#[test]
+fn ours() {
+    let sample =
+        decoded("json", br#"{"time":1.5,"ax":-2,"ay":0.5,"az":9.7,"wz":0.1,"speed":12,"paused":true,"gear":3}"#);
+    assert_eq!((sample.time, sample.paused, sample.has_angles), (Some(1.5), true, false));
+    assert_motion(&sample.motion, [-2.0, 0.5, 9.7], [0.0, 0.0, 0.1], [0.0; 3], 12.0);
+
+    let sample = decoded("csv", b"1.5,-2,0.5,9.7,0.01,0.02,0.1,0.3,0.2,0.1,12,0\n");
+    assert_eq!((sample.time, sample.paused, sample.has_angles), (Some(1.5), false, true));
+    assert_motion(&sample.motion, [-2.0, 0.5, 9.7], [0.01, 0.02, 0.1], [0.3, 0.2, 0.1], 12.0);
+    assert_motion(&decoded("csv", b"0,1,2").motion, [1.0, 2.0, G], [0.0; 3], [0.0; 3], 0.0);
+    let placed = decoded("csv", b"1.5,-2,0.5,9.7,,,,,,,12,0,30,-40\n");
+    assert_eq!((sample.position, placed.position), (None, Some(Vector3::new(30.0, -40.0, 0.0))));
+    let placed = decoded("json", br#"{"ax":-2,"ay":0.5,"x":30,"y":-40,"z":5}"#);
+    assert_eq!(placed.position, Some(Vector3::new(30.0, -40.0, 5.0)));
+
+    let packet = hex("
+        00 00 00 00 00 00 F8 3F  # time 1.5
+        00 00 00 00 00 00 00 C0  # ax -2
+        00 00 00 00 00 00 E0 3F  # ay 0.5
+        00 00 00 00 00 00 24 40  # az 10
+        00 00 00 00 00 00 D0 3F  # wx 0.25
+        00 00 00 00 00 00 E0 BF  # wy -0.5
+        00 00 00 00 00 00 F0 3F  # wz 1
+        00 00 00 00 00 00 C0 3F  # roll 0.125
+        00 00 00 00 00 00 D0 BF  # pitch -0.25
+        00 00 00 00 00 00 08 40  # yaw 3
+        00 00 00 00 00 00 28 40  # speed 12
+        00 00 00 00 00 00 F0 3F  # paused 1");
+    let sample = decoded("packed", &packet);
+    assert_eq!((sample.time, sample.paused), (Some(1.5), true));
+    assert_motion(&sample.motion, [-2.0, 0.5, 10.0], [0.25, -0.5, 1.0], [0.125, -0.25, 3.0], 12.0);
+    let place = [30.0_f64, -40.0, 5.0];
+    let placed = decoded("packed", &[&packet[..], &place.map(f64::to_le_bytes).concat()].concat());
+    assert_eq!((sample.position, placed.position), (None, Some(Vector3::from(place))));
+}
+
+#[test]
+fn outsim() {
+    // Heading north (+Y), level; 8 m/s forward, braking with 4 m/s2, turning left with 0.5 rad/s.
+    let packet = hex("
+        E8 03 00 00              # 1000 ms
+        00 00 00 00  00 00 00 00  00 00 00 3F  # angular velocity X, Y, Z 0.5
+        00 00 00 00  00 00 00 00  00 00 00 00  # heading, pitch, roll
+        00 00 80 C0  00 00 80 C0  00 00 00 00  # acceleration X -4 (left), Y -4, Z
+        00 00 00 00  00 00 00 41  00 00 00 00  # velocity X, Y 8, Z
+        00 00 01 00  00 00 02 00  00 00 FF FF  # position X 1 m, Y 2 m, Z -1 m");
+    let sample = decoded("outsim", &packet);
+    assert_eq!((sample.time, sample.position), (Some(1.0), Some(Vector3::new(2.0, -1.0, -1.0))));
+    assert_motion(&sample.motion, [-4.0, 4.0, G], [0.0, 0.0, 0.5], [0.0; 3], 8.0);
+
+    // Heading west, a quarter turn to the left: forward is -X of the world. Pitched nose up by 0.25.
+    let mut turned = packet.clone();
+    turned[16..20].copy_from_slice(&hex("DB 0F C9 3F")); // pi/2
+    turned[20..24].copy_from_slice(&hex("00 00 80 3E"));
+    turned[28..32].copy_from_slice(&hex("00 00 80 C0")); // X -4: forward
+    turned[32..36].copy_from_slice(&hex("00 00 00 00"));
+    let sample = decoded("outsim", &turned);
+    let (sin, cos) = 0.25_f64.sin_cos();
+    // Gravity's reaction has a part forward when the nose is up.
+    let force = [4.0 * cos + G * sin, 0.0, -4.0 * sin + G * cos];
+    assert_motion(
+        &sample.motion,
+        force,
+        [0.5 * sin, 0.0, 0.5 * cos],
+        [0.0, -0.25, std::f32::consts::FRAC_PI_2.into()],
+        8.0,
+    );
+    // With the identifier.
+    let mut longer = packet;
+    longer.extend([1, 0, 0, 0]);
+    assert!(format("outsim").decode(&longer).is_ok());
+    assert!(format("outsim").decode(&longer[..66]).is_err());
+}
+
+#[test]
+fn motionsim() {
+    let packet = hex("
+        42 4E 47 31                            # BNG1
+        00 00 80 3F  00 00 00 40  00 00 40 40  # position 1, 2, 3
+        00 00 40 40  00 00 80 C0  00 00 00 00  # velocity 3, -4, 0
+        00 00 80 3F  00 00 80 40  00 00 00 3F  # acceleration: left 1, backward 4, up 0.5
+        00 00 00 00  00 00 00 00  00 00 80 3F  # up vector
+        00 00 00 00  00 00 00 00  00 00 40 40  # roll, pitch, yaw 3
+        00 00 80 3E  00 00 00 3F  00 00 80 BF  # rates 0.25, 0.5, -1
+        00 00 00 00  00 00 00 00  00 00 00 00  # their accelerations");
+    let sample = decoded("motionsim", &packet);
+    assert_eq!((sample.time, sample.position), (None, Some(Vector3::new(1.0, 2.0, 3.0))));
+    assert_motion(&sample.motion, [-4.0, 1.0, G + 0.5], [0.25, 0.5, -1.0], [0.0, 0.0, 3.0], 5.0);
+    let mut other = packet.clone();
+    other[3] = b'2';
+    assert!(format("motionsim").decode(&other).is_err());
+}
+
+#[test]
+fn forza() {
+    let mut packet = hex("
+        01 00 00 00  D0 07 00 00               # running, 2000 ms
+        00 00 00 00  00 00 00 00  00 00 00 00  # engine
+        00 00 00 C0  00 00 00 3F  00 00 80 C0  # acceleration: right -2, up 0.5, forward -4
+        00 00 00 00  00 00 00 00  00 00 20 41  # velocity: forward 10
+        00 00 80 3E  00 00 00 3F  00 00 80 BF  # rates: pitch 0.25, yaw 0.5, roll -1
+        00 00 00 00  00 00 00 00  00 00 00 00  # yaw, pitch, roll");
+    packet.resize(311, 0);
+    let sample = decoded("forza", &packet);
+    assert_eq!((sample.time, sample.paused), (Some(2.0), false));
+    assert_motion(&sample.motion, [-4.0, 2.0, G + 0.5], [1.0, 0.25, -0.5], [0.0; 3], 10.0);
+    packet[0] = 0;
+    assert!(decoded("forza", &packet).paused);
+    // Position: right 1, up 2, forward 3; 12 bytes later in Horizon.
+    for (length, at) in [(232, None), (311, Some(232)), (331, Some(232)), (324, Some(244))] {
+        let mut packet = packet.clone();
+        packet.resize(length, 0);
+        if let Some(at) = at {
+            packet[at..at + 12].copy_from_slice(&hex("00 00 80 3F  00 00 00 40  00 00 40 40"));
+        }
+        assert_eq!(decoded("forza", &packet).position, at.map(|_| Vector3::new(1.0, 3.0, 2.0)), "{length}");
+    }
+}
+
+#[test]
+fn codemasters() {
+    let mut packet = vec![0; 264];
+    packet[0..4].copy_from_slice(&hex("00 00 20 41")); // 10 s
+    packet[16..28].copy_from_slice(&hex("00 00 80 3F  00 00 00 40  00 00 40 40")); // 1, 2 above, 3
+    packet[28..32].copy_from_slice(&hex("00 00 00 41")); // 8 m/s
+    packet[136..140].copy_from_slice(&hex("00 00 80 3E")); // lateral 0.25 g
+    packet[140..144].copy_from_slice(&hex("00 00 00 BF")); // longitudinal -0.5 g
+    let sample = decoded("codemasters", &packet);
+    assert_eq!((sample.time, sample.position), (Some(10.0), Some(Vector3::new(1.0, 3.0, 2.0))));
+    assert_motion(&sample.motion, [-0.5 * G, -0.25 * G, G], [0.0; 3], [0.0; 3], 8.0);
+}
+
+#[test]
+fn x_plane() {
+    let requests = format("x-plane").subscriptions();
+    assert_eq!(requests.len(), 12);
+    let mut expected = b"RREF\0\x64\0\0\0\x02\0\0\0sim/flightmodel/forces/g_axil".to_vec();
+    expected.resize(413, 0);
+    assert!(requests.contains(&expected));
+    let mut packet = b"RREF,".to_vec();
+    // Number and value, in any order: g_nrml 1, g_axil 0.5, Q 1, paused 0, and the rest.
+    packet.extend(hex(
+        "04 00 00 00 00 00 80 3F  02 00 00 00 00 00 00 3F  06 00 00 00 00 00 80 3F  0C 00 00 00 00 00 00 00",
+    ));
+    assert!(format("x-plane").decode(&packet).is_err(), "fields are missing");
+    packet.extend(hex(
+        "01 00 00 00 00 00 20 41  03 00 00 00 00 00 00 00  05 00 00 00 00 00 00 00  07 00 00 00 00 00 00 00",
+    ));
+    packet.extend(hex(
+        "08 00 00 00 00 00 00 00  09 00 00 00 00 00 00 00  0A 00 00 00 00 00 00 00  0B 00 00 00 00 00 00 41",
+    ));
+    let sample = decoded("x-plane", &packet);
+    assert_eq!((sample.time, sample.paused), (Some(10.0), false));
+    assert_motion(&sample.motion, [-0.5 * G, 0.0, G], [0.0, -1.0_f64.to_radians(), 0.0], [0.0; 3], 8.0);
+}
+
+#[test]
+fn the_shipped_tables_say_what_they_are() {
+    for (name, text) in SHIPPED {
+        let format: Format = text.parse().unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(format.name, name);
+        assert!(
+            !format.about.is_empty() && (format.note.starts_with("Ours.") || format.note.contains("No real packet"))
+        );
+    }
+}
+
+#[test]
+fn tables_that_make_no_sense_are_refused() {
+    let table = shipped("packed").unwrap();
+    for (from, to, reason) in [
+        ("at = 8,", "at = 4096,", "below 4096"),
+        ("at = 8,", "at = \"ax\",", "below 4096"),
+        ("at = 8,", "at = 8, scale = 0,", "other than zero"),
+        ("at = 8,", "at = 8, unit = \"furlong\",", "unknown variant"),
+        ("ax = ", "bx = ", "unknown variant"),
+        ("ax = { at = 8, type = \"f64\" }\n", "", "ax and ay are needed"),
+        ("gravity = \"included\"", "", "missing field"),
+        ("name = ", "Name = ", "unknown field"),
+        ("gravity = \"included\"\n", "gravity = \"included\"\nforce-axes = \"world\"\n", ""),
+    ] {
+        let text = table.replacen(from, to, 1);
+        assert_ne!(text, table);
+        match text.parse::<Format>() {
+            Err(error) => assert!(error.to_string().contains(reason) && !reason.is_empty(), "{error}"),
+            Ok(_) => assert!(reason.is_empty(), "{to}"),
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_decoded_without_a_panic(bytes in prop::collection::vec(any::<u8>(), 0..600), kind in 0..SHIPPED.len()) {
+        let format: Format = SHIPPED[kind].1.parse().unwrap();
+        let _ = format.decode(&bytes);
+        // Of a length and with a head that are right.
+        let length = format.lengths.first().copied().unwrap_or(bytes.len().max(8));
+        let mut packet = format.head.clone().into_bytes();
+        packet.extend(bytes);
+        packet.resize(length, 7);
+        let _ = format.decode(&packet).map(|sample| sample.is_plausible());
+    }
+
+    #[test]
+    fn any_text_is_decoded_without_a_panic(text in "[-0-9.eE,:{}\\[\\]\"a-z \n]*") {
+        for name in ["json", "csv"] {
+            let _ = format(name).decode(text.as_bytes());
+        }
+        let _ = text.parse::<Format>();
+    }
+}
+
+#[test]
+fn keys_may_stand_in_keys_and_lists() {
+    let table = |at: &str| {
+        let head = "name = 'own'\nabout = ''\nnote = ''\nlayout = 'json'\ngravity = 'included'\n[fields]\nax = { at = ";
+        format!("{head}'{at}' }}\nay = {{ at = 'ay' }}\n").parse::<Format>().unwrap()
+    };
+    let packet = br#"{"ay": 2.0, "a.b": 3.0, "a": {"b": 4.0, "c": {"d": [5.0, {"e": 6.0}]}}}"#;
+    for (at, expected) in [("a.b", 3.0), ("a.c.d.0", 5.0), ("a.c.d.1.e", 6.0)] {
+        assert_eq!(table(at).decode(packet).unwrap().motion.force().x, expected, "{at}");
+    }
+    for missing in ["a.x", "a.c.d.7", "a.c.d.e", "a.b.c", ""] {
+        assert!(table(missing).decode(packet).is_err(), "{missing}");
+    }
+}
+
+#[test]
+fn packets_of_another_format_are_explained() {
+    let outsim: Format = shipped("outsim").unwrap().parse().unwrap();
+    let mut motionsim = vec![0; 88];
+    motionsim[..4].copy_from_slice(b"BNG1");
+    assert_eq!(
+        outsim.explain(&motionsim, 4444),
+        "88-byte packets arrive on 4444; outsim has 64 or 68: motionsim fits: --format motionsim"
+    );
+    let unknown = outsim.explain(&[7; 33], 4444);
+    assert!(unknown.contains("33-byte packets") && unknown.contains("no format of moris-live fits"), "{unknown}");
+    let csv: Format = shipped("csv").unwrap().parse().unwrap();
+    let object = csv.explain(br#"{"ax": 1.0, "ay": 2.0, "az": 9.8}"#, 4444);
+    assert!(object.contains("json fits"), "{object}");
+}

@@ -1,0 +1,70 @@
+//! The options by which every command takes a rig and parameters.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use moris_interface::Group;
+use moris_setup::{Error, Setup, load_set};
+use moris_washout::Parameters;
+use moris_washout::interface::{AutomaticScale, StrategyKind};
+
+/// Options for rig and parameters.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct SetupOptions {
+    /// Rig file [default: the default rig]
+    #[arg(long, value_name = "FILE")]
+    pub rig: Option<PathBuf>,
+
+    /// Parameter file, or a preset: default, classical, motorcycle, car, paper, small-motions,
+    /// preaction, adaptive, optimal, robust, predictive, preview. May be given several times: later
+    /// ones override earlier ones
+    #[arg(long, value_name = "FILE|NAME")]
+    pub parameters: Vec<String>,
+
+    /// Strategy that divides the cue between surge, sway and tilt; overrides the parameters'
+    /// [default: predictive]
+    #[arg(long, value_parser = strategies())]
+    pub strategy: Option<StrategyKind>,
+}
+
+/// The washout's strategies, by name.
+pub fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
+    let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
+    PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()))
+        .map(move |name| named(name).unwrap_or(StrategyKind::Predictive))
+}
+
+/// The parameter that is on in what drives at once.
+const AUTOMATIC_SCALE: &str = "scale.automatic";
+
+impl SetupOptions {
+    /// As [`SetupOptions::load`], with the automatic scale on unless a file says otherwise: nobody
+    /// has chosen a scale for the drive that is to come.
+    ///
+    /// # Errors
+    /// As [`Setup::load`].
+    pub fn load_to_drive(&self) -> Result<Setup, Error> {
+        let mut setup = self.load()?;
+        for set in &self.parameters {
+            if load_set(set, Parameters::ROWS)?.iter().any(|(name, _)| name == AUTOMATIC_SCALE) {
+                return Ok(setup);
+            }
+        }
+        setup.parameters.automatic_scale.automatic = AutomaticScale::On;
+        Ok(setup)
+    }
+
+    /// The combined and validated parameters.
+    ///
+    /// # Errors
+    /// As [`Setup::load`].
+    pub fn load(&self) -> Result<Setup, Error> {
+        let mut setup = Setup::load(self.rig.as_deref(), &self.parameters)?;
+        let Some(strategy) = self.strategy else { return Ok(setup) };
+        setup.parameters.structure.strategy = strategy;
+        let name = strategy.name();
+        setup.parameters_name =
+            if self.parameters.is_empty() { name.to_owned() } else { format!("{} + {name}", setup.parameters_name) };
+        Ok(setup)
+    }
+}
