@@ -31,7 +31,7 @@ fn main() -> Result<(), ParameterError> {
         Some("jumps") => {
             let mut parameters = presets::parameters(presets::CLASSICAL);
             (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
-            (parameters, jumps(count.div_ceil(HELD)))
+            (parameters, jumps(count.div_ceil(STEPS_PER_JUMP)))
         }
         Some("classical") => (presets::parameters(presets::CLASSICAL), smooth()),
         Some("paper") => (presets::parameters(presets::PAPER), smooth()),
@@ -48,7 +48,7 @@ fn main() -> Result<(), ParameterError> {
 }
 
 /// Steps for which an input is held before it jumps.
-const HELD: usize = 500;
+const STEPS_PER_JUMP: usize = 500;
 
 /// Inputs that are independent of those before.
 fn jumps(count: usize) -> Vec<Input> {
@@ -59,5 +59,5 @@ fn jumps(count: usize) -> Vec<Input> {
         input.angular_velocity.apply(|rate| *rate = random.between(-1.0, 1.0));
         input
     };
-    (0..count).map(jump).flat_map(|input| std::iter::repeat_n(input, HELD)).collect()
+    (0..count).map(jump).flat_map(|input| std::iter::repeat_n(input, STEPS_PER_JUMP)).collect()
 }

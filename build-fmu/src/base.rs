@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Largest FMU as a base, packed or unpacked \[bytes\].
-const LARGEST: u64 = 256_000_000;
+const MAX_BASE_SIZE: u64 = 256_000_000;
 
 /// A model's libraries, by platform, and the extras, without start values in
 /// place of the model's own.
@@ -46,13 +46,13 @@ impl Base {
     /// The file is no FMU of this program's models, of another version, damaged, or put
     /// together from several FMUs.
     pub fn open(file: &Path) -> Result<Self, Error> {
-        let bytes = moris_fmu_host::files::bytes(file, LARGEST)
+        let bytes = moris_fmu_host::files::bytes(file, MAX_BASE_SIZE)
             .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
         Self::read(&bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })
     }
 
     fn read(bytes: &[u8]) -> Result<Self, String> {
-        let files = unpack(bytes, LARGEST).map_err(|error| format!("cannot be unpacked: {error}"))?;
+        let files = unpack(bytes, MAX_BASE_SIZE).map_err(|error| format!("cannot be unpacked: {error}"))?;
         let text = files.get("modelDescription.xml").ok_or("has no modelDescription.xml")?;
         let root: Root = from_str(&String::from_utf8_lossy(text))
             .map_err(|error| format!("has a modelDescription.xml that cannot be read: {error}"))?;

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 /// First bytes of a 64-bit Mach-O file.
 const MACH_O: u32 = 0xfeed_facf;
 /// Size of its header, after which the load commands stand \[bytes\].
-const HEADER: usize = 32;
+const HEADER_SIZE: usize = 32;
 /// The load command that says where the signature is.
 const CODE_SIGNATURE: u32 = 0x1d;
 /// The part of a signature that has the hashes.
@@ -50,7 +50,7 @@ fn directories(library: &[u8]) -> Option<Vec<Directory>> {
     if little(0)? != MACH_O {
         return None;
     }
-    let mut command = HEADER;
+    let mut command = HEADER_SIZE;
     let mut signature = None;
     for _ in 0..little(16)? {
         if little(command)? == CODE_SIGNATURE {

@@ -67,7 +67,7 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
 }
 
 /// The profile of the workspace's manifest by which the libraries are compiled.
-const PROFILE: &str = "fmu-library";
+const LIBRARY_PROFILE: &str = "fmu-library";
 /// Profile in which the WebAssembly is compiled that becomes sources in C.
 pub const WEBASSEMBLY_PROFILE: &str = "page-simulation";
 
@@ -78,7 +78,7 @@ pub const WEBASSEMBLY_PROFILE: &str = "page-simulation";
 pub fn compile(model: &FmuModel, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     run_cargo(&[(model, fmi)], plan)?;
     let built = plan.platform.built_library(model.library(fmi));
-    let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);
+    let file = workspace::target_directory().join(plan.platform.target()).join(LIBRARY_PROFILE).join(built);
     fs::read(&file).map_err(|reason| Error::Read { file, reason })
 }
 
@@ -97,7 +97,7 @@ pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> R
 /// Calls cargo for these libraries.
 fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
     let mut command = plan.cargo();
-    command.args(["--profile", PROFILE, "--target-dir"]).arg(workspace::target_directory());
+    command.args(["--profile", LIBRARY_PROFILE, "--target-dir"]).arg(workspace::target_directory());
     for (model, fmi) in libraries {
         command.args(["--package", model.package(*fmi)]);
     }

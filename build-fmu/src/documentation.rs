@@ -4,8 +4,8 @@ use crate::model::Wording;
 use crate::{FmiVersion, FmuModel, Start};
 
 /// The page, with places in double braces.
-const PAGE: &str = include_str!("../documentation/page.html");
-const STYLE: &str = include_str!("../documentation/style.css");
+const PAGE_TEMPLATE: &str = include_str!("../documentation/page.html");
+const PAGE_STYLE: &str = include_str!("../documentation/style.css");
 
 /// `documentation/index.html`: the model's sections, then its tables of variables.
 pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
@@ -20,8 +20,8 @@ pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
         contents += &format!("<li><a href=\"#{anchor}\">{heading}</a></li>");
         body += &format!("<section id=\"{anchor}\">\n<h2>{heading}</h2>\n{html}</section>\n");
     }
-    let page = PAGE
-        .replace("{{style}}", STYLE)
+    let page = PAGE_TEMPLATE
+        .replace("{{style}}", PAGE_STYLE)
         .replace("{{title}}", model.title)
         .replace("{{contents}}", &contents)
         .replace("{{sections}}", &body)

@@ -12,12 +12,12 @@ use moris_interface::{Causality, Identity, Kind, Model, SlotModel};
 use crate::archive::Contents;
 
 /// Directory of the layered standard's files.
-const DIRECTORY: &str = "extra/org.fmi-standard.fmi-ls-ref";
-const MANIFEST: &str = include_str!("../reference/fmi-ls-manifest.xml");
-const EXPERIMENTS: &str = include_str!("../reference/experiments.exp");
+const REFERENCE_DIRECTORY: &str = "extra/org.fmi-standard.fmi-ls-ref";
+const MANIFEST_TEMPLATE: &str = include_str!("../reference/fmi-ls-manifest.xml");
+const EXPERIMENTS_TEMPLATE: &str = include_str!("../reference/experiments.exp");
 
 /// The communication steps in a second: inputs are set at the beginning of each and held.
-const RATE: usize = 100;
+const STEPS_PER_SECOND: usize = 100;
 /// Communication steps from one row of the output to the next.
 const STEPS_PER_ROW: usize = 20;
 
@@ -27,12 +27,12 @@ pub fn files(name: &str, stop: f64, input: String, output: String) -> Contents {
     let fill = |text: &str| {
         text.replace("{{name}}", name)
             .replace("{{stop}}", &stop.to_string())
-            .replace("{{step}}", &(1.0 / RATE as f64).to_string())
+            .replace("{{step}}", &(1.0 / STEPS_PER_SECOND as f64).to_string())
     };
-    let file = |file: &str, text: String| (format!("{DIRECTORY}/{file}"), text.into_bytes());
+    let file = |file: &str, text: String| (format!("{REFERENCE_DIRECTORY}/{file}"), text.into_bytes());
     Contents::from([
-        file("fmi-ls-manifest.xml", fill(MANIFEST)),
-        file(&format!("{name}.exp"), fill(EXPERIMENTS)),
+        file("fmi-ls-manifest.xml", fill(MANIFEST_TEMPLATE)),
+        file(&format!("{name}.exp"), fill(EXPERIMENTS_TEMPLATE)),
         file(&format!("{name}_in.csv"), input),
         file(&format!("{name}_ref.csv"), output),
     ])
@@ -128,8 +128,8 @@ pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
     let names = outputs.iter().map(|&slot| identity.variable_name(slot));
     let mut table = std::iter::once("time".to_owned()).chain(names).collect::<Vec<_>>().join(",");
     table.push('\n');
-    let time = |step: usize| step as f64 / RATE as f64;
-    for step in 0..=(input.end() * RATE as f64).round() as usize {
+    let time = |step: usize| step as f64 / STEPS_PER_SECOND as f64;
+    for step in 0..=(input.end() * STEPS_PER_SECOND as f64).round() as usize {
         if step > 0 {
             set(&mut slots, time(step - 1));
             model.step_slots(&slots, None, time(step) - time(step - 1));

@@ -31,14 +31,14 @@ pub const TABLES: &[Table] = &[
     Table { page: "docs/strategies/predictive.md", name: "predictive", text: parameters },
 ];
 
-const END: &str = "<!-- end of table -->\n";
+const END_OF_TABLE: &str = "<!-- end of table -->\n";
 
 impl Table {
     /// The page's text with this table in its place. None if the page has no place for it.
     pub fn within(&self, page: &str) -> Option<String> {
         let (before, rest) = page.split_once(&self.begin())?;
-        let (_, after) = rest.split_once(END)?;
-        Some(format!("{before}{}{}{END}{after}", self.begin(), (self.text)(self.name)))
+        let (_, after) = rest.split_once(END_OF_TABLE)?;
+        Some(format!("{before}{}{}{END_OF_TABLE}{after}", self.begin(), (self.text)(self.name)))
     }
 
     fn begin(&self) -> String {

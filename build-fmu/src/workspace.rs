@@ -18,7 +18,8 @@ pub fn root() -> &'static Path {
         let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
         let starts = [package, env::current_dir().ok(), env::current_exe().ok()];
         let around = |start: &PathBuf| {
-            let manifest = start.ancestors().map(|directory| directory.join(MANIFEST)).find(|file| file.is_file())?;
+            let manifest =
+                start.ancestors().map(|directory| directory.join(MARKER_FILE)).find(|file| file.is_file())?;
             // A directory may be a link into the sources.
             fs::canonicalize(manifest).ok()?.ancestors().nth(2).map(Path::to_owned)
         };
@@ -27,7 +28,7 @@ pub fn root() -> &'static Path {
 }
 
 /// A file that only the sources of this project have, seen from their root.
-const MANIFEST: &str = "build-fmu/Cargo.toml";
+const MARKER_FILE: &str = "build-fmu/Cargo.toml";
 
 /// Directory of FMUs by default: the environment's `MORIS_FMUS`, or `fmu` in the directory in which
 /// cargo compiles.

@@ -16,12 +16,12 @@ use moris_fmi::{Overrides, SectionError, embedded};
 use crate::archive::Contents;
 use crate::{Error, FmiVersion, FmuModel, Start, compile, library, tools, workspace};
 
-const TARGET: &str = "wasm32-unknown-unknown";
+const WEBASSEMBLY_TARGET: &str = "wasm32-unknown-unknown";
 /// The version of WABT whose output the runtime in `c/` serves.
-const WASM2C: &str = "1.0.32";
+const WASM2C_VERSION: &str = "1.0.32";
 /// Places of the module's two files in an FMU.
-const DECLARATIONS: &str = "sources/module.h";
-const CODE: &str = "sources/module_code.h";
+const DECLARATIONS_PATH: &str = "sources/module.h";
+const CODE_PATH: &str = "sources/module_code.h";
 
 /// Output of wasm2c for a model's library, adapted to the runtime.
 pub struct Sources {
@@ -33,7 +33,7 @@ pub struct Sources {
 ///
 /// The memory of a module stays where it is, so that a function reads its address once. Otherwise
 /// the compiler would have to read it anew after each store, and a step would take twice the time.
-const CHANGES: &[(&str, &str)] = &[
+const CODE_CHANGES: &[(&str, &str)] = &[
     // Not in C99, and not used.
     ("#include <alloca.h>\n", ""),
     // It would keep each loaded value in a general register, for a signal handler that is not there.
@@ -57,8 +57,8 @@ impl Sources {
     /// # Errors
     /// A tool is missing, or fails.
     pub fn make(model: &FmuModel, fmi: FmiVersion) -> Result<Self, Error> {
-        tools::wasm2c(TARGET, WASM2C)?;
-        let directory = workspace::target_directory().join(TARGET).join(compile::WEBASSEMBLY_PROFILE);
+        tools::wasm2c(WEBASSEMBLY_TARGET, WASM2C_VERSION)?;
+        let directory = workspace::target_directory().join(WEBASSEMBLY_TARGET).join(compile::WEBASSEMBLY_PROFILE);
         let module = directory.join(format!("{}.wasm", model.library(fmi)));
         compile(model, fmi)?;
         let bytes = fs::read(&module).map_err(|reason| Error::Read { file: module.clone(), reason })?;
@@ -70,7 +70,7 @@ impl Sources {
             |file: &Path| fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason });
         // ISO C does not let a function without a result return one.
         let free = fmi.choose("w2c_fmi2FreeInstance(", "w2c_fmi3FreeInstance(");
-        let code = changed(read(&code)?, CHANGES)?;
+        let code = changed(read(&code)?, CODE_CHANGES)?;
         let code = changed(code, &[(&format!("return {free}"), free)])?;
         Ok(Sources { declarations: read(&directory.join(model.library(fmi)).join("module.h"))?, code })
     }
@@ -78,7 +78,7 @@ impl Sources {
     /// Those among the files of an FMU.
     pub(crate) fn of_files(files: &Contents) -> Option<Self> {
         let text = |path: &str| Some(String::from_utf8_lossy(files.get(path)?).into_owned());
-        Some(Sources { declarations: text(DECLARATIONS)?, code: text(CODE)? })
+        Some(Sources { declarations: text(DECLARATIONS_PATH)?, code: text(CODE_PATH)? })
     }
 
     /// The start values in place of the model's own.
@@ -125,8 +125,8 @@ impl Sources {
         add("sources/functions.h", functions);
         add("sources/instance.h", include_str!("c/instance.h"));
         add("sources/wasm-rt.h", include_str!("c/wasm-rt.h"));
-        add(DECLARATIONS, &self.declarations);
-        add(CODE, &self.code);
+        add(DECLARATIONS_PATH, &self.declarations);
+        add(CODE_PATH, &self.code);
         add("documentation/licenses/wabt.txt", include_str!("c/wabt.txt"));
         if let FmiVersion::Fmi3(_) = fmi {
             add(
@@ -144,7 +144,7 @@ fn compile(model: &FmuModel, fmi: FmiVersion) -> Result<(), Error> {
     cargo.args([
         "build",
         "--target",
-        TARGET,
+        WEBASSEMBLY_TARGET,
         "--profile",
         compile::WEBASSEMBLY_PROFILE,
         "--package",

@@ -6,9 +6,9 @@ use moris_interface::Model;
 use crate::{CallError, Guid, InstanceState, Mode, Tables};
 
 /// Marks bytes as a run.
-const MARK: [u8; 8] = *b"FMI-RUN\n";
+const FORMAT_MARK: [u8; 8] = *b"FMI-RUN\n";
 /// To be raised whenever [`InstanceState`] changes.
-const FORMAT: u32 = 3;
+const FORMAT_VERSION: u32 = 3;
 
 impl<M: Model> InstanceState<M> {
     /// The run as bytes: mark, format, the model's GUID, length and checksum of
@@ -21,7 +21,7 @@ impl<M: Model> InstanceState<M> {
             .map_err(|error| CallError::error(format!("the state cannot be serialized: {error}")))?;
         let length = (body.len() as u64).to_le_bytes();
         let checksum = checksum(&body).to_le_bytes();
-        let parts: [&[u8]; 6] = [&MARK, &FORMAT.to_le_bytes(), guid, &length, &checksum, &body];
+        let parts: [&[u8]; 6] = [&FORMAT_MARK, &FORMAT_VERSION.to_le_bytes(), guid, &length, &checksum, &body];
         Ok(parts.concat())
     }
 
@@ -36,10 +36,10 @@ impl<M: Model> InstanceState<M> {
             ))
         };
         let truncated = || refuse("it is truncated");
-        if take(&mut bytes).ok_or_else(truncated)? != MARK {
+        if take(&mut bytes).ok_or_else(truncated)? != FORMAT_MARK {
             return Err(refuse("it is not the state of an instance"));
         }
-        if u32::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != FORMAT {
+        if u32::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != FORMAT_VERSION {
             return Err(refuse("it comes from another version of this FMU"));
         }
         if take(&mut bytes).ok_or_else(truncated)? != *tables.guid {

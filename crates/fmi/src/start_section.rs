@@ -10,13 +10,13 @@ use std::ptr;
 use crate::CallError;
 
 /// Beginning of the place, by which a packing program finds it.
-const MARK: [u8; 16] = *b"moris-start-here";
+const SECTION_MARK: [u8; 16] = *b"moris-start-here";
 /// To be raised whenever the layout changes.
-const FORMAT: u64 = 1;
+const LAYOUT_VERSION: u64 = 1;
 /// In place of a value: the model's own. As a value it would be no number.
-const OWN: u64 = u64::MAX;
+const MODEL_START_VALUE: u64 = u64::MAX;
 /// Size of what precedes the values \[bytes\].
-const HEAD: usize = MARK.len() + 3 * size_of::<u64>();
+const HEADER_SIZE: usize = SECTION_MARK.len() + 3 * size_of::<u64>();
 
 /// Start values by slot, each a slot and its value.
 pub type Overrides = Vec<(usize, f64)>;
@@ -34,9 +34,9 @@ pub struct StartSection<const N: usize> {
 impl<const N: usize> StartSection<N> {
     /// The model's own start values.
     pub const fn own() -> Self {
-        let values = [OWN; N];
-        let (format, slots) = (FORMAT.to_le(), (N as u64).to_le());
-        StartSection { mark: MARK, format, slots, checksum: checksum(&values).to_le(), values }
+        let values = [MODEL_START_VALUE; N];
+        let (format, slots) = (LAYOUT_VERSION.to_le(), (N as u64).to_le());
+        StartSection { mark: SECTION_MARK, format, slots, checksum: checksum(&values).to_le(), values }
     }
 
     /// The values in place of the model's own, as they are in the library's file.
@@ -74,9 +74,10 @@ pub enum SectionError {
 /// The library has no place for them, one of another version, or damaged values.
 pub fn embedded(library: &[u8], slots: usize) -> Result<Overrides, SectionError> {
     let first = *places(library, slots)?.first().ok_or(SectionError::Missing)?;
-    let words = &library[first + HEAD..][..slots * size_of::<u64>()];
+    let words = &library[first + HEADER_SIZE..][..slots * size_of::<u64>()];
     let values: Vec<u64> = words.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect();
-    let stated = library[first + HEAD - size_of::<u64>()..].first_chunk().map(|bytes| u64::from_le_bytes(*bytes));
+    let stated =
+        library[first + HEADER_SIZE - size_of::<u64>()..].first_chunk().map(|bytes| u64::from_le_bytes(*bytes));
     if stated == Some(checksum(&values)) { Ok(overrides(values)) } else { Err(SectionError::Damaged) }
 }
 
@@ -88,14 +89,14 @@ pub fn embedded(library: &[u8], slots: usize) -> Result<Overrides, SectionError>
 /// # Panics
 /// A value is of no slot.
 pub fn embed(library: &mut [u8], slots: usize, start: &[(usize, f64)]) -> Result<(), SectionError> {
-    let mut values = vec![OWN; slots];
+    let mut values = vec![MODEL_START_VALUE; slots];
     for &(slot, value) in start {
         values[slot] = value.to_bits();
     }
     let words: Vec<u8> = [checksum(&values)].iter().chain(&values).flat_map(|word| word.to_le_bytes()).collect();
     // One for each version of FMI that the library exports.
     for place in places(library, slots)? {
-        let from = place + HEAD - size_of::<u64>();
+        let from = place + HEADER_SIZE - size_of::<u64>();
         library[from..from + words.len()].copy_from_slice(&words);
     }
     Ok(())
@@ -103,21 +104,22 @@ pub fn embed(library: &mut [u8], slots: usize, start: &[(usize, f64)]) -> Result
 
 /// Where in the file the places begin.
 fn places(library: &[u8], slots: usize) -> Result<Vec<usize>, SectionError> {
-    let is_mark = |&place: &usize| library[place..].starts_with(&MARK);
+    let is_mark = |&place: &usize| library[place..].starts_with(&SECTION_MARK);
     let places: Vec<usize> = (0..library.len()).filter(is_mark).collect();
     if places.is_empty() {
         return Err(SectionError::Missing);
     }
-    let head: Vec<u8> = [MARK.to_vec(), FORMAT.to_le_bytes().to_vec(), (slots as u64).to_le_bytes().to_vec()].concat();
+    let head: Vec<u8> =
+        [SECTION_MARK.to_vec(), LAYOUT_VERSION.to_le_bytes().to_vec(), (slots as u64).to_le_bytes().to_vec()].concat();
     let is_whole = |&place: &usize| {
-        library[place..].starts_with(&head) && library.len() - place >= HEAD + slots * size_of::<u64>()
+        library[place..].starts_with(&head) && library.len() - place >= HEADER_SIZE + slots * size_of::<u64>()
     };
     if places.iter().all(is_whole) { Ok(places) } else { Err(SectionError::Version) }
 }
 
 /// The values that are not the model's own.
 fn overrides(values: impl IntoIterator<Item = u64>) -> Overrides {
-    let of_slot = |(slot, value)| (value != OWN).then_some((slot, f64::from_bits(value)));
+    let of_slot = |(slot, value)| (value != MODEL_START_VALUE).then_some((slot, f64::from_bits(value)));
     values.into_iter().enumerate().filter_map(of_slot).collect()
 }
 
@@ -142,8 +144,10 @@ mod tests {
 
     /// A library that is nothing but the place, with something around it.
     fn library() -> Vec<u8> {
-        let words = [FORMAT, SLOTS as u64, checksum(&[OWN; SLOTS])].into_iter().chain([OWN; SLOTS]);
-        let place: Vec<u8> = MARK.into_iter().chain(words.flat_map(u64::to_le_bytes)).collect();
+        let words = [LAYOUT_VERSION, SLOTS as u64, checksum(&[MODEL_START_VALUE; SLOTS])]
+            .into_iter()
+            .chain([MODEL_START_VALUE; SLOTS]);
+        let place: Vec<u8> = SECTION_MARK.into_iter().chain(words.flat_map(u64::to_le_bytes)).collect();
         [b"before".to_vec(), place, b"after".to_vec()].concat()
     }
 
@@ -165,7 +169,7 @@ mod tests {
     #[test]
     fn the_compiled_place_is_as_a_packing_program_reads_it() {
         assert_eq!(SECTION.read(), Ok(vec![]));
-        assert_eq!(size_of_val(&SECTION), HEAD + SLOTS * size_of::<u64>());
+        assert_eq!(size_of_val(&SECTION), HEADER_SIZE + SLOTS * size_of::<u64>());
         let damaged = StartSection::<SLOTS> { checksum: 1, ..StartSection::own() };
         assert!(damaged.read().unwrap_err().text.contains("damaged"));
     }
@@ -176,12 +180,12 @@ mod tests {
         assert_eq!(embedded(b"no library", SLOTS), Err(SectionError::Missing));
         assert_eq!(embedded(&library, SLOTS + 1), Err(SectionError::Version));
         assert_eq!(embedded(&library[..library.len() - 6], SLOTS), Err(SectionError::Version));
-        for byte in 6 + HEAD..library.len() - 5 {
+        for byte in 6 + HEADER_SIZE..library.len() - 5 {
             library[byte] ^= 0x10;
             assert_eq!(embedded(&library, SLOTS), Err(SectionError::Damaged), "{byte}");
             library[byte] ^= 0x10;
         }
-        library[6 + MARK.len()] = 2;
+        library[6 + SECTION_MARK.len()] = 2;
         assert_eq!(embedded(&library, SLOTS), Err(SectionError::Version));
     }
 }

@@ -52,7 +52,7 @@ macro_rules! scalar {
 pub(crate) use scalar;
 
 /// Rounding of a value, relative to its range.
-const ROUNDING: f64 = 1e-9;
+const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +125,7 @@ impl VariableInfo {
     /// not more than rounding.
     pub fn replacement(&self, value: f64) -> Option<f64> {
         let end = value.clamp(self.lower, self.upper);
-        ((value - end).abs() > ROUNDING * (self.upper - self.lower)).then_some(end)
+        ((value - end).abs() > RELATIVE_ROUNDING * (self.upper - self.lower)).then_some(end)
     }
 }
 

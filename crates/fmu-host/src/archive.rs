@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use crate::HostError;
 
 /// Largest FMU, packed or unpacked \[bytes\].
-const LARGEST: u64 = 1_000_000_000;
+const MAX_ARCHIVE_SIZE: u64 = 1_000_000_000;
 
 /// Unpacks an FMU into a new temporary directory.
 pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
@@ -17,8 +17,8 @@ pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
         ArchiveError::Read(source) => file_error(source),
         source => HostError::Archive { path: path.into(), source },
     };
-    let mut archive = open_archive(path, LARGEST).map_err(archive_error)?;
-    check_unpacked(&mut archive, LARGEST).map_err(archive_error)?;
+    let mut archive = open_archive(path, MAX_ARCHIVE_SIZE).map_err(archive_error)?;
+    check_unpacked(&mut archive, MAX_ARCHIVE_SIZE).map_err(archive_error)?;
     let directory = TempDir::with_prefix("fmu-").map_err(file_error)?;
     archive.extract(&directory).map_err(|error| archive_error(error.into()))?;
     Ok(directory)

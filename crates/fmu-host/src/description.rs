@@ -81,7 +81,7 @@ pub(crate) struct Description {
 }
 
 /// Elements of an array that a host gets and sets.
-const LONGEST: usize = 4096;
+const MAX_ARRAY_LENGTH: usize = 4096;
 
 impl Description {
     /// A variable by name. `name[2]` and `name[2,3]` are elements of an array
@@ -97,7 +97,7 @@ impl Description {
         let places: Vec<usize> = places.split(',').map(|place| place.trim().parse().ok()).collect::<Option<_>>()?;
         let is_inside = places.iter().zip(&sizes).all(|(place, size)| (1..=*size).contains(place));
         let length = sizes.iter().try_fold(1, |length: usize, size| length.checked_mul(*size))?;
-        if places.len() != sizes.len() || !is_inside || length > LONGEST {
+        if places.len() != sizes.len() || !is_inside || length > MAX_ARRAY_LENGTH {
             return None;
         }
         let index = places.iter().zip(&sizes).fold(0, |index, (place, size)| index * size + place - 1);

@@ -11,7 +11,7 @@ use crate::messages::{self, Messages, log3};
 use crate::{Fmu, HostError, Instance, Status, Variable, VariableKind, archive, fmi3};
 
 /// Name of the instance.
-const NAME: &str = "model";
+const INSTANCE_NAME: &str = "model";
 
 /// A running FMU.
 pub enum Running {
@@ -30,7 +30,7 @@ impl Running {
         if description.is_fmi3 {
             return Ok(Running::Fmi3(Box::new(Running3::start(description, directory, values)?)));
         }
-        let mut instance = Fmu::open(path)?.instantiate(NAME)?;
+        let mut instance = Fmu::open(path)?.instantiate(INSTANCE_NAME)?;
         accepted(instance.initialize(values, None))?;
         Ok(Running::Fmi2(Box::new(Running2 { instance, description })))
     }
@@ -179,7 +179,7 @@ impl Running3 {
         let path = archive::library_path_of(directory.path(), &archive::platform3(), &description.model_identifier)?;
         let library = fmi3::Library::open(&path)?;
         let text = |text: &str| CString::new(text).map_err(|error| HostError::Description(error.to_string()));
-        let (name, token) = (text(NAME)?, text(&description.guid)?);
+        let (name, token) = (text(INSTANCE_NAME)?, text(&description.guid)?);
         let resources = text(&format!("{}/", directory.path().join("resources").display()))?;
         let messages = Box::new(Messages::default());
         let environment = (&raw const *messages).cast_mut().cast();

@@ -13,7 +13,7 @@ pub enum Layout {
 }
 
 /// End of the instantiation token of a description with arrays.
-const ARRAYS: &str = "-arrays";
+const ARRAYS_SUFFIX: &str = "-arrays";
 
 /// Types of the variables in a model description of FMI 2.0. One library serves both: the GUID says
 /// which description the host has read.
@@ -27,14 +27,14 @@ pub enum Types {
 }
 
 /// End of the GUID of a description with reals only.
-const REALS: &str = "-reals";
+const REALS_SUFFIX: &str = "-reals";
 
 impl Types {
     /// GUID of a description with these types, given the GUID of the model.
     pub fn token(self, guid: &str) -> String {
         match self {
             Types::Own => guid.to_owned(),
-            Types::Reals => format!("{guid}{REALS}"),
+            Types::Reals => format!("{guid}{REALS_SUFFIX}"),
         }
     }
 
@@ -43,7 +43,7 @@ impl Types {
     pub fn of_token(token: &[u8], guid: &[u8]) -> Option<Self> {
         match token.strip_prefix(guid)? {
             b"" => Some(Types::Own),
-            end if end == REALS.as_bytes() => Some(Types::Reals),
+            end if end == REALS_SUFFIX.as_bytes() => Some(Types::Reals),
             _ => None,
         }
     }
@@ -54,7 +54,7 @@ impl Layout {
     pub fn token(self, guid: &str) -> String {
         match self {
             Layout::Scalars => guid.to_owned(),
-            Layout::Arrays => format!("{guid}{ARRAYS}"),
+            Layout::Arrays => format!("{guid}{ARRAYS_SUFFIX}"),
         }
     }
 
@@ -63,7 +63,7 @@ impl Layout {
     pub fn of_token(token: &[u8], guid: &[u8]) -> Option<Self> {
         match token.strip_prefix(guid)? {
             b"" => Some(Layout::Scalars),
-            end if end == ARRAYS.as_bytes() => Some(Layout::Arrays),
+            end if end == ARRAYS_SUFFIX.as_bytes() => Some(Layout::Arrays),
             _ => None,
         }
     }

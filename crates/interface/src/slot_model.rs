@@ -12,7 +12,7 @@ pub trait SlotModel: Model {
     /// with the other values.
     fn start_slots(slots: &mut [f64]) {
         Time::START.write(&mut Writer::new(slots));
-        Self::Input::START.write(&mut Writer::new(&mut slots[INPUT..]));
+        Self::Input::START.write(&mut Writer::new(&mut slots[FIRST_INPUT_SLOT..]));
         Self::Parameters::START.write(&mut Writer::new(&mut slots[parameters::<Self>()..]));
         if let Ok(model) = Self::new(&Self::Parameters::START, &Self::Input::START) {
             model.write_outputs(slots);
@@ -24,7 +24,7 @@ pub trait SlotModel: Model {
     /// # Errors
     /// As [`Model::new`].
     fn from_slots(slots: &[f64]) -> Result<Self, ParameterError> {
-        Self::new(&Self::parameters_in(slots), &read(slots, INPUT))
+        Self::new(&Self::parameters_in(slots), &read(slots, FIRST_INPUT_SLOT))
     }
 
     /// The parameters in `slots`.
@@ -34,7 +34,7 @@ pub trait SlotModel: Model {
 
     /// Doubts about the parameters and inputs in `slots`, in sentences.
     fn warnings_in(slots: &[f64]) -> Vec<String> {
-        Self::warnings(&Self::parameters_in(slots), &read(slots, INPUT))
+        Self::warnings(&Self::parameters_in(slots), &read(slots, FIRST_INPUT_SLOT))
     }
 
     /// Changes tunable parameters to those in `slots`. On an error nothing has changed.
@@ -48,11 +48,11 @@ pub trait SlotModel: Model {
     /// Advances by `step` seconds from the inputs in `slots`. `derivatives` has a slot for each of
     /// `slots`, with the inputs' time derivatives, zero where the host gives none.
     fn step_slots(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64) {
-        let start = read(slots, INPUT);
+        let start = read(slots, FIRST_INPUT_SLOT);
         match derivatives {
             None => self.step(&start, step),
             Some(derivatives) => {
-                let end = Self::input_after(&start, &read(derivatives, INPUT), step);
+                let end = Self::input_after(&start, &read(derivatives, FIRST_INPUT_SLOT), step);
                 self.step_between(&start, &end, step);
             }
         }
@@ -72,9 +72,9 @@ pub trait SlotModel: Model {
 impl<M: Model> SlotModel for M {}
 
 /// The slots at which the groups begin.
-const INPUT: usize = slot_count(Time::ROWS);
+const FIRST_INPUT_SLOT: usize = slot_count(Time::ROWS);
 const fn output<M: Model>() -> usize {
-    const { INPUT + slot_count(M::Input::ROWS) }
+    const { FIRST_INPUT_SLOT + slot_count(M::Input::ROWS) }
 }
 const fn parameters<M: Model>() -> usize {
     const { output::<M>() + slot_count(M::Output::ROWS) }

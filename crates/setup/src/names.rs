@@ -1,11 +1,11 @@
 //! Which of the right names a wrong one was meant to be.
 
 /// Least similarity of a proposed name to the wrong one, from 0 to 1.
-const ALIKE: f64 = 0.6;
+const MIN_NAME_SIMILARITY: f64 = 0.6;
 /// Largest loss of similarity of a further proposal against the best.
 const ALMOST_AS_ALIKE: f64 = 0.15;
 /// No more than this many are proposed.
-const MOST: usize = 3;
+const MAX_PROPOSALS: usize = 3;
 
 /// The candidates that look most like `name`, the best first; none that does not look like it at
 /// all.
@@ -14,12 +14,12 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let mut scored: Vec<(f64, &str)> = candidates
         .into_iter()
         .map(|candidate| (strsim::normalized_damerau_levenshtein(&name, &candidate.to_lowercase()), candidate))
-        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .filter(|(likeness, _)| *likeness >= MIN_NAME_SIMILARITY)
         .collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     let best = scored.first().map_or(0.0, |(likeness, _)| *likeness);
     let close = scored.into_iter().take_while(|(likeness, _)| best - likeness <= ALMOST_AS_ALIKE);
-    close.take(MOST).map(|(_, candidate)| candidate.to_owned()).collect()
+    close.take(MAX_PROPOSALS).map(|(_, candidate)| candidate.to_owned()).collect()
 }
 
 /// The end of a message about a wrong name: ": did you mean a, b or c?", or what to do when nothing

@@ -126,17 +126,17 @@ pub struct Safety {
 }
 
 /// Every key that a rig file may have.
-const KEYS: &str = "name neutralHeight base.radius base.degrees base.joints platform.radius platform.degrees \
+const RIG_FILE_KEYS: &str = "name neutralHeight base.radius base.degrees base.joints platform.radius platform.degrees \
     platform.joints actuator.minLength actuator.maxLength actuator.velocityLimit \
     actuator.accelerationLimit actuator.diameter head.height head.torsoLength \
     safety.positionLimit safety.velocityLimit safety.accelerationLimit";
 
 /// A platform larger than this, in metres, has been given in other units.
-const LARGEST: f64 = 30.0;
+const MAX_PLATFORM_SIZE: f64 = 30.0;
 /// Joints closer than this to each other are one \[m\].
-const APART: f64 = 1e-3;
+const MIN_JOINT_DISTANCE: f64 = 1e-3;
 /// A leg faster than this, in m/s, has been given in other units.
-const FASTEST: f64 = 20.0;
+const MAX_LEG_SPEED: f64 = 20.0;
 /// A leg with more than this, in m/s2, has been given in other units.
 const LARGEST_ACCELERATION: f64 = 500.0;
 /// A leg thicker than this, in metres, has been given in other units.
@@ -150,11 +150,11 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
     let toml_error = |error| Error::toml(source_name, &error, "a rig file is TOML; moris rig new writes one");
     let table: toml::Table = text.parse().map_err(toml_error)?;
     // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
-    if let Some(name) = keys(&table).find(|key| !KEYS.split(' ').any(|known| known == *key)) {
+    if let Some(name) = keys(&table).find(|key| !RIG_FILE_KEYS.split(' ').any(|known| known == *key)) {
         return Err(Error::UnknownName {
             source_name: source_name.to_owned(),
             what: "key",
-            nearest: if is_other_kind(&name) { Vec::new() } else { nearest(&name, KEYS.split(' ')) },
+            nearest: if is_other_kind(&name) { Vec::new() } else { nearest(&name, RIG_FILE_KEYS.split(' ')) },
             otherwise: if is_other_kind(&name) { OTHER_KIND } else { "docs/workbench.md lists the keys of a rig file" },
             name,
         });
@@ -233,10 +233,10 @@ impl RigFile {
                 .coordinates()
                 .ok_or_else(|| wrong("needs either radius and degrees, or joints; not both".to_owned()))?;
             let farthest = joints.iter().map(Vector3::amax).fold(0.0, f64::max);
-            if joints.iter().all(|joint| (joint - joints[0]).norm() < APART) {
+            if joints.iter().all(|joint| (joint - joints[0]).norm() < MIN_JOINT_DISTANCE) {
                 return Err(wrong("has all its joints at one point; a platform needs at least three".to_owned()));
             }
-            if farthest > LARGEST {
+            if farthest > MAX_PLATFORM_SIZE {
                 let farthest = shown(farthest);
                 return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
             }
@@ -254,10 +254,10 @@ impl RigFile {
     fn check_actuators(&self, source_name: &str) -> Result<(), Error> {
         let Actuator { min_length, max_length, velocity_limit, acceleration_limit, .. } = self.actuator;
         for (name, value, largest, [unit, other]) in [
-            ("neutralHeight", self.neutral_height.abs(), LARGEST, ["m", "millimetres"]),
-            ("actuator.minLength", min_length, LARGEST, ["m", "millimetres"]),
-            ("actuator.maxLength", max_length, LARGEST, ["m", "millimetres"]),
-            ("actuator.velocityLimit", velocity_limit, FASTEST, ["m/s", "mm/s"]),
+            ("neutralHeight", self.neutral_height.abs(), MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+            ("actuator.minLength", min_length, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+            ("actuator.maxLength", max_length, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+            ("actuator.velocityLimit", velocity_limit, MAX_LEG_SPEED, ["m/s", "mm/s"]),
             ("actuator.accelerationLimit", acceleration_limit, LARGEST_ACCELERATION, ["m/s2", "mm/s2"]),
         ] {
             // Numbers that are beyond any unit have the parameter's range as their error.

@@ -10,16 +10,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const TARGET: &str = "wasm32-unknown-unknown";
-const PACKAGE: &str = "moris-pages";
+const WEBASSEMBLY_TARGET: &str = "wasm32-unknown-unknown";
+const MODULE_PACKAGE: &str = "moris-pages";
 /// Examples of the package that are modules, the feature that each takes, and what is missing
 /// without one.
-const MODULES: [(&str, &str, &str); 2] =
+const WEBASSEMBLY_MODULES: [(&str, &str, &str); 2] =
     [("page_simulation", "", "the report's page will not simulate"), ("page_ride", "ride", "there will be no ride")];
-const PROFILE: &str = "page-simulation";
+const MODULE_PROFILE: &str = "page-simulation";
 
 /// Directories of the workspace whose files the modules are compiled of.
-const SOURCES: [&str; 9] = [
+const SOURCE_DIRECTORIES: [&str; 9] = [
     "src",
     "crates/interface",
     "crates/live/laps",
@@ -44,7 +44,7 @@ const OF_THE_HOST: [&str; 6] = [
 fn main() -> Result<(), Box<dyn Error>> {
     let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?).join("../../..");
     let out = PathBuf::from(variable("OUT_DIR")?);
-    for source in SOURCES {
+    for source in SOURCE_DIRECTORIES {
         println!("cargo::rerun-if-changed={}", root.join(source).display());
     }
     println!("cargo::rerun-if-changed={}", root.join("crates/workbench/pages/page").display());
@@ -53,8 +53,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
     // The modules themselves are compiled with this package, too.
-    let is_wanted = variable("TARGET")? != TARGET && is_installed()?;
-    for (name, feature, missing) in MODULES {
+    let is_wanted = variable("TARGET")? != WEBASSEMBLY_TARGET && is_installed()?;
+    for (name, feature, missing) in WEBASSEMBLY_MODULES {
         let is_wanted = is_wanted && (feature.is_empty() || env::var_os("CARGO_FEATURE_RIDE").is_some());
         let module = if is_wanted { compile(&root, &out, [name, feature], missing)? } else { Vec::new() };
         fs::write(out.join(name).with_extension("wasm"), module)?;
@@ -115,7 +115,7 @@ fn is_installed() -> Result<bool, Box<dyn Error>> {
     if components.exists() {
         println!("cargo::rerun-if-changed={}", components.display());
     }
-    Ok(printed(&["--print", "target-libdir", "--target", TARGET])?.exists())
+    Ok(printed(&["--print", "target-libdir", "--target", WEBASSEMBLY_TARGET])?.exists())
 }
 
 /// A module, compiled in a directory of its own, because this build holds the lock of its
@@ -124,10 +124,18 @@ fn compile(root: &Path, out: &Path, [name, feature]: [&str; 2], missing: &str) -
     // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
     let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
     let mut command = Command::new(variable("CARGO")?);
-    command.current_dir(root).args(["rustc", "--locked", "--offline", "--package", PACKAGE, "--profile", PROFILE]);
+    command.current_dir(root).args([
+        "rustc",
+        "--locked",
+        "--offline",
+        "--package",
+        MODULE_PACKAGE,
+        "--profile",
+        MODULE_PROFILE,
+    ]);
     // Alone this kind of library is optimised as a whole.
     command.args(["--no-default-features", "--features", feature]);
-    command.args(["--example", name, "--target", TARGET, "--target-dir"]).arg(&directory);
+    command.args(["--example", name, "--target", WEBASSEMBLY_TARGET, "--target-dir"]).arg(&directory);
     for name in OF_THE_HOST {
         command.env_remove(name);
     }
@@ -143,7 +151,9 @@ fn compile(root: &Path, out: &Path, [name, feature]: [&str; 2], missing: &str) -
         println!("cargo::warning={missing}, because {name} does not compile: {}", last_lines(&said));
         return Ok(Vec::new());
     }
-    Ok(fs::read(directory.join(TARGET).join(PROFILE).join("examples").join(name).with_extension("wasm"))?)
+    Ok(fs::read(
+        directory.join(WEBASSEMBLY_TARGET).join(MODULE_PROFILE).join("examples").join(name).with_extension("wasm"),
+    )?)
 }
 
 /// The last lines of a message as one.

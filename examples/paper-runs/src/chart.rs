@@ -14,22 +14,22 @@ use crate::thin::thin;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-const WIDTH: u32 = 1600;
-const FONT: &str = "sans-serif";
+const PICTURE_WIDTH: u32 = 1600;
+const LABEL_FONT: &str = "sans-serif";
 const FONT_SIZE: i32 = 26;
-const TEXT: RGBColor = RGBColor(40, 40, 40);
-const GRID: RGBColor = RGBColor(222, 222, 222);
-const LIMIT: RGBColor = RGBColor(190, 30, 45);
+const TEXT_COLOUR: RGBColor = RGBColor(40, 40, 40);
+const GRID_COLOUR: RGBColor = RGBColor(222, 222, 222);
+const LIMIT_COLOUR: RGBColor = RGBColor(190, 30, 45);
 
 /// Background of the second that is enlarged.
-const ENLARGED: RGBColor = RGBColor(238, 238, 238);
+const ENLARGED_COLOUR: RGBColor = RGBColor(238, 238, 238);
 /// Fraction of a panel's width for the whole, where a second is enlarged beside it.
-const WHOLE: f64 = 0.72;
+const WHOLE_WIDTH_FRACTION: f64 = 0.72;
 
 /// Fraction of a panel's height reserved for its legend, above the curves.
 const LEGEND_HEIGHT: f64 = 0.16;
 /// Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a pixel.
-const TOLERANCE: f64 = 0.0005;
+const CURVE_TOLERANCE: f64 = 0.0005;
 
 /// A diagram of curves over time.
 #[derive(Clone, Debug, Default)]
@@ -79,7 +79,7 @@ impl Stroke {
 /// # Errors
 /// The file cannot be written.
 pub fn draw(path: &Path, panels: &[Panel], panel_height: u32) -> Result<()> {
-    let root = SVGBackend::new(path, (WIDTH, panel_height * panels.len() as u32)).into_drawing_area();
+    let root = SVGBackend::new(path, (PICTURE_WIDTH, panel_height * panels.len() as u32)).into_drawing_area();
     root.fill(&WHITE)?;
     for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
         draw_panel(area, panel)?;
@@ -93,7 +93,7 @@ fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
     let Some(from) = panel.enlarged else {
         return draw_diagram(area, panel, 0.0..end);
     };
-    let (whole, second) = area.split_horizontally((100.0 * WHOLE).percent_width());
+    let (whole, second) = area.split_horizontally((100.0 * WHOLE_WIDTH_FRACTION).percent_width());
     draw_diagram(&whole, panel, 0.0..end)?;
     let part = |curve: &Curve| Curve { points: within(&curve.points, from, from + 1.0), ..curve.clone() };
     let curves = panel.curves.iter().map(part).collect();
@@ -110,14 +110,14 @@ fn draw_diagram(area: &Area, panel: &Panel, times: Range<f64>) -> Result<()> {
     let Range { start, end } = times;
     let is_part = start > 0.0;
     let mut chart = ChartBuilder::on(area)
-        .caption(&panel.title, (FONT, FONT_SIZE + 4).into_font().color(&TEXT))
+        .caption(&panel.title, (LABEL_FONT, FONT_SIZE + 4).into_font().color(&TEXT_COLOUR))
         .margin(14)
         .margin_right(40)
         .x_label_area_size(74)
         .y_label_area_size(if is_part { 70 } else { 116 })
         .build_cartesian_2d(start..end, bottom..top)?;
     if let Some(from) = panel.enlarged {
-        chart.draw_series([Rectangle::new([(from, bottom), (from + 1.0, top)], ENLARGED.filled())])?;
+        chart.draw_series([Rectangle::new([(from, bottom), (from + 1.0, top)], ENLARGED_COLOUR.filled())])?;
     }
     chart
         .configure_mesh()
@@ -127,18 +127,18 @@ fn draw_diagram(area: &Area, panel: &Panel, times: Range<f64>) -> Result<()> {
         .y_labels(7)
         .x_label_formatter(&|value| tick(*value))
         .y_label_formatter(&|value| tick(*value))
-        .bold_line_style(GRID)
+        .bold_line_style(GRID_COLOUR)
         .light_line_style(TRANSPARENT)
-        .axis_style(TEXT)
-        .label_style((FONT, FONT_SIZE - 2).into_font().color(&TEXT))
-        .axis_desc_style((FONT, FONT_SIZE).into_font().color(&TEXT))
+        .axis_style(TEXT_COLOUR)
+        .label_style((LABEL_FONT, FONT_SIZE - 2).into_font().color(&TEXT_COLOUR))
+        .axis_desc_style((LABEL_FONT, FONT_SIZE).into_font().color(&TEXT_COLOUR))
         .draw()?;
     for &limit in &panel.limits {
         let line = [(start, limit), (end, limit)];
-        chart.draw_series(DashedLineSeries::new(line, 18, 10, LIMIT.stroke_width(3)))?;
+        chart.draw_series(DashedLineSeries::new(line, 18, 10, LIMIT_COLOUR.stroke_width(3)))?;
     }
     for curve in in_drawing_order(&panel.curves) {
-        let points = thin(&curve.points, TOLERANCE * (top - bottom));
+        let points = thin(&curve.points, CURVE_TOLERANCE * (top - bottom));
         let style = curve.colour.stroke_width(curve.stroke.width());
         if curve.stroke == Stroke::Dashed {
             chart.draw_series(DashedLineSeries::new(points, 16, 16, style))?;
@@ -174,7 +174,7 @@ fn draw_legend(area: &Area, panel: &Panel) -> Result<()> {
     const GAP: i32 = 12;
     let (sample, next) = if panel.enlarged.is_some() { (28, 14) } else { (56, 36) };
     let y = (LEGEND_HEIGHT * f64::from(area.dim_in_pixel().1) / 2.0) as i32;
-    let text = (FONT, FONT_SIZE - 2).into_font().color(&TEXT);
+    let text = (LABEL_FONT, FONT_SIZE - 2).into_font().color(&TEXT_COLOUR);
     let mut x = 24;
     for (label, colour, stroke) in legend_entries(panel) {
         let dashes = if stroke == Stroke::Dashed { vec![(0, 16), (20, 36), (40, 56)] } else { vec![(0, sample)] };
@@ -190,7 +190,7 @@ fn draw_legend(area: &Area, panel: &Panel) -> Result<()> {
 
 fn legend_entries(panel: &Panel) -> Vec<(&str, RGBColor, Stroke)> {
     let curves = panel.curves.iter().map(|curve| (curve.label.as_str(), curve.colour, curve.stroke));
-    let limits = panel.limits.first().map(|_| ("limits", LIMIT, Stroke::Dashed));
+    let limits = panel.limits.first().map(|_| ("limits", LIMIT_COLOUR, Stroke::Dashed));
     curves.chain(limits).collect()
 }
 

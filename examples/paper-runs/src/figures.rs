@@ -11,16 +11,16 @@ use crate::trace::{Sample, Trace};
 use moris_simulation::drives::runs::{A, B, C, TOWN};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
-const BLUE: RGBColor = RGBColor(0, 114, 178);
-const VERMILION: RGBColor = RGBColor(213, 94, 0);
-const GREEN: RGBColor = RGBColor(0, 158, 115);
-const PURPLE: RGBColor = RGBColor(204, 121, 167);
-const SKY: RGBColor = RGBColor(86, 180, 233);
-const ORANGE: RGBColor = RGBColor(230, 159, 0);
-const GREY: RGBColor = RGBColor(170, 170, 170);
+const COLOUR_BLUE: RGBColor = RGBColor(0, 114, 178);
+const COLOUR_VERMILION: RGBColor = RGBColor(213, 94, 0);
+const COLOUR_GREEN: RGBColor = RGBColor(0, 158, 115);
+const COLOUR_PURPLE: RGBColor = RGBColor(204, 121, 167);
+const COLOUR_SKY: RGBColor = RGBColor(86, 180, 233);
+const COLOUR_ORANGE: RGBColor = RGBColor(230, 159, 0);
+const COLOUR_GREY: RGBColor = RGBColor(170, 170, 170);
 
-const FORCE: &str = "specific force [m/s²]";
-const RATE: &str = "angular velocity [deg/s]";
+const FORCE_LABEL: &str = "specific force [m/s²]";
+const RATE_LABEL: &str = "angular velocity [deg/s]";
 const PANEL_HEIGHT: u32 = 560;
 const RIDE_PANEL_HEIGHT: u32 = 360;
 
@@ -84,7 +84,7 @@ fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     let quantity = format!("specific force along {}_H", ["x", "y", "z"][axis]);
     Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
-        quantity: FORCE,
+        quantity: FORCE_LABEL,
         curves: felt_against_desired(runs, |s| s.desired_force[axis], |s| s.felt_force[axis]),
         ..Panel::default()
     }
@@ -94,7 +94,7 @@ fn rate(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     let quantity = format!("ω_{} at the head", ["x", "y", "z"][axis]);
     Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
-        quantity: RATE,
+        quantity: RATE_LABEL,
         curves: felt_against_desired(runs, |s| s.desired_rate[axis].to_degrees(), |s| s.felt_rate[axis].to_degrees()),
         ..Panel::default()
     }
@@ -131,8 +131,8 @@ fn felt_against_desired(
     desired: impl Fn(&Sample) -> f64,
     felt: impl Fn(&Sample) -> f64,
 ) -> Vec<Curve> {
-    let mut curves = vec![curve("desired", GREY, Stroke::Broad, runs[0], desired)];
-    let colours = [BLUE, VERMILION, GREEN, PURPLE, BLACK];
+    let mut curves = vec![curve("desired", COLOUR_GREY, Stroke::Broad, runs[0], desired)];
+    let colours = [COLOUR_BLUE, COLOUR_VERMILION, COLOUR_GREEN, COLOUR_PURPLE, BLACK];
     assert!(runs.len() <= colours.len(), "no colour for each of {} curves", runs.len());
     for (run, colour) in runs.iter().zip(colours) {
         let label = match runs.len() {
@@ -150,12 +150,12 @@ fn felt_against_desired(
 /// them to show it.
 fn legs(figure: &str, run: &Trace) -> Panel {
     let styles = [
-        (BLUE, Stroke::Broad),
-        (ORANGE, Stroke::Dashed),
-        (GREEN, Stroke::Broad),
-        (SKY, Stroke::Broad),
+        (COLOUR_BLUE, Stroke::Broad),
+        (COLOUR_ORANGE, Stroke::Dashed),
+        (COLOUR_GREEN, Stroke::Broad),
+        (COLOUR_SKY, Stroke::Broad),
         (BLACK, Stroke::Dashed),
-        (PURPLE, Stroke::Dashed),
+        (COLOUR_PURPLE, Stroke::Dashed),
     ];
     let leg = |(i, (colour, stroke))| curve(&format!("leg {}", i + 1), colour, stroke, run, |s| s.legs[i]);
     Panel {

@@ -8,7 +8,8 @@ use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};
 use moris_simulation::drives::runs::Manoeuvre;
 
-const FLAGS: [&str; 4] = ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
+const STATUS_FLAGS: [&str; 4] =
+    ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
 
 /// Simulates one run with one set of parameters, in communication steps of `step` seconds.
 ///
@@ -55,7 +56,7 @@ struct References {
     legs: [u32; 6],
     position: [u32; 3],
     tilt_rate: [u32; 2],
-    flags: [u32; FLAGS.len()],
+    flags: [u32; STATUS_FLAGS.len()],
 }
 
 impl References {
@@ -70,7 +71,7 @@ impl References {
             legs: value_references(fmu, [1, 2, 3, 4, 5, 6].map(|leg| format!("actuator[{leg}].length")))?,
             position: vector("platform.position")?,
             tilt_rate: value_references(fmu, ["tilt.rollRate", "tilt.pitchRate"])?,
-            flags: value_references(fmu, FLAGS)?,
+            flags: value_references(fmu, STATUS_FLAGS)?,
         })
     }
 
@@ -86,7 +87,7 @@ impl References {
     }
 
     fn sample(&self, instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<Sample> {
-        let mut flags = [0; FLAGS.len()];
+        let mut flags = [0; STATUS_FLAGS.len()];
         let status = instance.get_boolean(&self.flags, &mut flags);
         check(instance, status)?;
         let [tilt, soft, safety, actuator] = flags.map(|flag| flag != 0);

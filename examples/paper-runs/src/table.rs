@@ -7,9 +7,9 @@ use moris_simulation::measures::fidelity::fidelity;
 use crate::trace::{Sample, Trace};
 
 /// Stands where a number is not defined.
-const UNDEFINED: &str = "–";
+const UNDEFINED_MARK: &str = "–";
 
-const AXES: [&str; 3] = ["x", "y", "z"];
+const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// Rows of cells under a header; displayed with aligned columns, the first ones' text to the left
 /// and numbers to the right.
@@ -75,11 +75,11 @@ fn fidelity_table(
         let fidelity = fidelity(&desired, &felt, trace.step)?;
         let mut row = labels(trace);
         row.extend([
-            AXES[axis].to_string(),
+            AXIS_NAMES[axis].to_string(),
             number(fidelity.rms_error, 3),
             number(fidelity.peak_error, 3),
-            fidelity.correlation.map_or(UNDEFINED.into(), |correlation| number(correlation, 4)),
-            fidelity.delay.map_or(UNDEFINED.into(), |delay| number(1000.0 * delay, 1)),
+            fidelity.correlation.map_or(UNDEFINED_MARK.into(), |correlation| number(correlation, 4)),
+            fidelity.delay.map_or(UNDEFINED_MARK.into(), |delay| number(1000.0 * delay, 1)),
         ]);
         Some(row)
     };
@@ -87,7 +87,7 @@ fn fidelity_table(
         title,
         header: vec!["run", "parameters", "axis", rms, peak, "correlation", "delay [ms]"],
         text_columns: 3,
-        rows: traces.iter().flat_map(|trace| (0..AXES.len()).filter_map(move |axis| row(trace, axis))).collect(),
+        rows: traces.iter().flat_map(|trace| (0..AXIS_NAMES.len()).filter_map(move |axis| row(trace, axis))).collect(),
     }
 }
 

@@ -7,7 +7,7 @@ use super::{origin, units};
 
 /// Relative tolerance for tools that ask for one. The models step without error control: runs with
 /// different communication steps agree to this.
-const TOLERANCE: f64 = 1e-3;
+const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 /// The root with its attributes. `token` is the attribute that identifies the description as the
 /// binary's own, with its value.
@@ -57,7 +57,7 @@ pub(crate) fn default_experiment(identity: &Identity) -> Element {
     Element::new("DefaultExperiment")
         .with("startTime", 0.0)
         .with("stopTime", identity.stop_time)
-        .with("tolerance", TOLERANCE)
+        .with("tolerance", DEFAULT_TOLERANCE)
         .with("stepSize", identity.step_size)
 }
 

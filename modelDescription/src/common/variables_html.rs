@@ -16,7 +16,7 @@ pub(crate) struct Notation {
 /// runs, and parameters that cannot. `start` has the start value of each slot.
 pub(crate) fn html(identity: &Identity, start: &[f64], notation: &Notation) -> String {
     let mut html = String::new();
-    for section in SECTIONS {
+    for section in TABLE_SECTIONS {
         html.push_str(&section_html(identity, start, section, notation));
     }
     html
@@ -29,7 +29,7 @@ struct Section {
     holds: fn(&Row) -> bool,
 }
 
-const SECTIONS: &[Section] = &[
+const TABLE_SECTIONS: &[Section] = &[
     Section { anchor: "inputs", heading: "Inputs", holds: |row| row.causality == Causality::Input },
     Section { anchor: "outputs", heading: "Outputs", holds: |row| row.causality == Causality::Output },
     Section {

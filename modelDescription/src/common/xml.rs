@@ -67,7 +67,7 @@ impl Serialize for Element {
 /// Indentation of a variable, in spaces.
 const VARIABLE_DEPTH: usize = 4;
 
-const DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
+const XML_DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
 
 /// The text of a file, such as a description of either version as `modelDescription.xml` has it:
 /// UTF-8, indented, a variable a line.
@@ -75,7 +75,7 @@ const DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
 /// Numbers are written in the shortest form that reads back as the very same number.
 pub fn to_xml(description: &Element) -> String {
     let body = indented(description).expect("every part of a model description has an XML form");
-    format!("{DECLARATION}\n{}\n", one_variable_a_line(&body))
+    format!("{XML_DECLARATION}\n{}\n", one_variable_a_line(&body))
 }
 
 fn indented(description: &Element) -> Result<String, SeError> {

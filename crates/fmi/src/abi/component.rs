@@ -31,7 +31,7 @@ pub trait Host {
 }
 
 /// Mark at the beginning of every component until it is freed. Other memory is unlikely to hold it.
-const MARK: u64 = u64::from_le_bytes(*b"instance");
+const LIVE_INSTANCE_MARK: u64 = u64::from_le_bytes(*b"instance");
 
 /// An instance and its host's logger.
 #[repr(C)]
@@ -45,7 +45,7 @@ pub struct Component<M, H> {
 impl<M, H> Component<M, H> {
     /// The pointer that the host gets.
     pub fn into_pointer(instance: Instance<M>, logger: H) -> *mut c_void {
-        Box::into_raw(Box::new(Component { mark: MARK, instance, logger })).cast()
+        Box::into_raw(Box::new(Component { mark: LIVE_INSTANCE_MARK, instance, logger })).cast()
     }
 
     /// The component that `pointer` points to. `None` if the pointer is null or misaligned, or if
@@ -59,7 +59,8 @@ impl<M, H> Component<M, H> {
         let pointer = pointer.cast::<Self>();
         // SAFETY: the pointer is not null and is aligned where it is read. The caller guarantees
         // readable memory, and any bits are a valid `u64`.
-        let marked = !pointer.is_null() && pointer.is_aligned() && unsafe { pointer.cast::<u64>().read() } == MARK;
+        let marked =
+            !pointer.is_null() && pointer.is_aligned() && unsafe { pointer.cast::<u64>().read() } == LIVE_INSTANCE_MARK;
         // SAFETY: the memory has the mark, so `into_pointer` made the component.
         marked.then(|| unsafe { &mut *pointer })
     }

@@ -14,7 +14,7 @@ use crate::{CallError, Guid, InstanceState};
 type FmuState = *mut c_void;
 
 /// Mark at the beginning of every state of this library. Other memory is unlikely to hold it.
-const MARK: u64 = u64::from_le_bytes(*b"FMUstate");
+const LIVE_STATE_MARK: u64 = u64::from_le_bytes(*b"FMUstate");
 
 /// Target of an [`FmuState`].
 #[repr(C)]
@@ -34,7 +34,7 @@ struct Owner {
 
 impl Owner {
     fn of<M: Model, H: Host>(component: &Component<M, H>) -> Self {
-        Owner { mark: MARK, guid: component.instance.tables().guid }
+        Owner { mark: LIVE_STATE_MARK, guid: component.instance.tables().guid }
     }
 }
 

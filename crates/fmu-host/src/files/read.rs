@@ -9,7 +9,7 @@ use super::size::shown;
 /// Largest text that a person writes, such as a rig or parameters \[bytes\].
 pub const TEXT: u64 = 16_000_000;
 /// Part that is read at a time \[bytes\].
-const PART: u64 = 1 << 20;
+const READ_CHUNK_SIZE: u64 = 1 << 20;
 
 /// The text of a file of at most `largest` bytes.
 ///
@@ -46,7 +46,7 @@ fn read(
     let mut source = File::open(file)?.take(largest.saturating_add(1));
     loop {
         let before = bytes.len();
-        source.by_ref().take(PART).read_to_end(bytes)?;
+        source.by_ref().take(READ_CHUNK_SIZE).read_to_end(bytes)?;
         if let Some(reason) = fault(&bytes[before..]) {
             return Err(refused(reason));
         }

@@ -10,11 +10,11 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 /// Drawn large, because coordinates are whole pixels; shown at about half its size.
-const WIDTH: u32 = 1600;
-const PANEL: u32 = 330;
-const FONT: (&str, i32) = ("sans-serif", 26);
-const GRID: RGBColor = RGBColor(222, 222, 222);
-const COLOURS: [RGBColor; 3] = [RGBColor(31, 119, 180), RGBColor(214, 100, 20), RGBColor(60, 140, 60)];
+const PICTURE_WIDTH: u32 = 1600;
+const PANEL_HEIGHT: u32 = 330;
+const LABEL_FONT: (&str, i32) = ("sans-serif", 26);
+const GRID_COLOUR: RGBColor = RGBColor(222, 222, 222);
+const CURVE_COLOURS: [RGBColor; 3] = [RGBColor(31, 119, 180), RGBColor(214, 100, 20), RGBColor(60, 140, 60)];
 
 /// A diagram: what it shows, what the axes say, and named curves.
 struct Panel {
@@ -116,7 +116,7 @@ fn modes() -> Result<Vec<Panel>, Box<dyn Error>> {
 }
 
 fn draw(path: &Path, panels: &[Panel]) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::new(path, (WIDTH, PANEL * panels.len() as u32)).into_drawing_area();
+    let root = SVGBackend::new(path, (PICTURE_WIDTH, PANEL_HEIGHT * panels.len() as u32)).into_drawing_area();
     root.fill(&WHITE)?;
     for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
         draw_panel(area, panel)?;
@@ -133,7 +133,7 @@ fn draw_panel(area: &DrawingArea<SVGBackend, Shift>, panel: &Panel) -> Result<()
     let ((left, right), (low, high)) = (range(|p| p.0), range(|p| p.1));
     let room = 0.08 * (high - low);
     let mut chart = ChartBuilder::on(area)
-        .caption(panel.title, FONT)
+        .caption(panel.title, LABEL_FONT)
         .margin(12)
         .x_label_area_size(56)
         .y_label_area_size(80)
@@ -141,12 +141,12 @@ fn draw_panel(area: &DrawingArea<SVGBackend, Shift>, panel: &Panel) -> Result<()
     chart
         .configure_mesh()
         .light_line_style(WHITE)
-        .bold_line_style(GRID)
+        .bold_line_style(GRID_COLOUR)
         .y_labels(6)
-        .label_style(FONT)
+        .label_style(LABEL_FONT)
         .x_desc(panel.across)
         .draw()?;
-    for ((name, points), colour) in panel.curves.iter().zip(COLOURS) {
+    for ((name, points), colour) in panel.curves.iter().zip(CURVE_COLOURS) {
         if panel.dotted {
             chart.draw_series(points.iter().map(|&point| Circle::new(point, 4, colour.filled())))?;
         } else {
@@ -161,7 +161,7 @@ fn draw_panel(area: &DrawingArea<SVGBackend, Shift>, panel: &Panel) -> Result<()
             .configure_series_labels()
             .position(SeriesLabelPosition::LowerLeft)
             .background_style(WHITE.mix(0.8))
-            .label_font(FONT)
+            .label_font(LABEL_FONT)
             .draw()?;
     }
     Ok(())

@@ -95,8 +95,8 @@ pub fn design_rider(
     let rider = Rider::new(&lateral, parameters, fastest)?;
     check_step(parameters, suspension)?;
     let mut pole = 0.0;
-    for k in 0..=SPEEDS {
-        let speed = fastest * f64::from(k) / f64::from(SPEEDS);
+    for k in 0..=CHECKED_SPEEDS {
+        let speed = fastest * f64::from(k) / f64::from(CHECKED_SPEEDS);
         let closed_loop = rider.closed_loop(&lateral, speed);
         let finite = closed_loop.iter().all(|number| number.is_finite());
         let poles = if finite { closed_loop.complex_eigenvalues() } else { SVector::repeat(Complex::new(0.0, 0.0)) };
@@ -156,4 +156,4 @@ fn fastest_lag(parameters: &Parameters) -> f64 {
 }
 
 /// Number of speeds checked.
-const SPEEDS: u32 = 200;
+const CHECKED_SPEEDS: u32 = 200;

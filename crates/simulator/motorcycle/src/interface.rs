@@ -36,7 +36,7 @@ interface! {
 
 /// Beginnings of the names of what forces depend on before the first step: all
 /// but paths and frames.
-const DYNAMICS: &[&str] = &[
+const DYNAMICS_PREFIXES: &[&str] = &[
     "aero.",
     "brake.",
     "command.",
@@ -61,7 +61,7 @@ interface! {
     /// Inputs of the washout, and further quantities of the simulation.
     pub struct Output: Output, Continuous, starts_from(&[]) {
         /// Specific force at the rider's head in head axes (x forward, y left, z up), as an accelerometer measures it: (0, 0, +g) at rest.
-        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY), starts_from(DYNAMICS);
+        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY), starts_from(DYNAMICS_PREFIXES);
         /// Angular velocity of the motorcycle, in the axes given by angularVelocityFrame.
         "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Orientation of the motorcycle in the world (roll about x, pitch about y with nose down positive, yaw about z); yaw is the heading and does not wrap.
@@ -73,11 +73,11 @@ interface! {
         /// Position in the world of the point where the rear tyre touches the road.
         "vehicle.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
         /// Rate of the forward speed.
-        "vehicle.acceleration" acceleration: f64 [M_PER_S2] = 0.0, starts_from(DYNAMICS);
+        "vehicle.acceleration" acceleration: f64 [M_PER_S2] = 0.0, starts_from(DYNAMICS_PREFIXES);
         /// Velocity to the left of the point where the rear tyre touches the road.
         "vehicle.lateralVelocity" lateral_velocity: f64 [M_PER_S] = 0.0;
         /// Position in the world of the rider's head.
-        "head.position.@" head_position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(DYNAMICS);
+        "head.position.@" head_position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(DYNAMICS_PREFIXES);
         /// Velocity in the world of the rider's head, in the world's axes.
         "head.velocity.@" head_velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["head.", "initial."]);
         /// Steer angle about the steering axis, which points up; positive to the left.
@@ -95,13 +95,13 @@ interface! {
         /// Brake application after the lag of the brakes, from 0 to 1.
         "brake.application" brake: f64 = 0.0;
         /// Load of the front tyre on the road.
-        "tyre.front.load" front_load: f64 [N] = 0.0, starts_from(DYNAMICS);
+        "tyre.front.load" front_load: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
         /// Load of the rear tyre on the road.
-        "tyre.rear.load" rear_load: f64 [N] = 0.0, starts_from(DYNAMICS);
+        "tyre.rear.load" rear_load: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
         /// Forward force of the road on the front tyre.
-        "tyre.front.longitudinalForce" front_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS);
+        "tyre.front.longitudinalForce" front_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
         /// Forward force of the road on the rear tyre.
-        "tyre.rear.longitudinalForce" rear_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS);
+        "tyre.rear.longitudinalForce" rear_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
         /// Force of the road on the front tyre to the left.
         "tyre.front.lateralForce" front_lateral: f64 [N] = 0.0;
         /// Force of the road on the rear tyre to the left.
@@ -111,9 +111,9 @@ interface! {
         /// Compression of the rear suspension at the wheel, from its length at rest.
         "suspension.rear.travel" rear_travel: f64 [M] = 0.0;
         /// True if tyre friction limited drive or brakes at the end of the last communication step.
-        "status.frictionLimited" friction_limited: bool = false, starts_from(DYNAMICS);
+        "status.frictionLimited" friction_limited: bool = false, starts_from(DYNAMICS_PREFIXES);
         /// True if wheel lift limited drive or brakes at the end of the last communication step.
-        "status.wheelLiftLimited" wheel_lift_limited: bool = false, starts_from(DYNAMICS);
+        "status.wheelLiftLimited" wheel_lift_limited: bool = false, starts_from(DYNAMICS_PREFIXES);
         /// Distance covered along the path, with all rounds.
         "path.distance" path_distance: f64 [M] = 0.0;
         /// Deviation of the rear tyre's contact from the path, positive to the left.

@@ -20,8 +20,8 @@ use crate::lateral::{self, Lateral, foot_support, place};
 use crate::speeds::Speeds;
 
 /// The lateral state, and the accumulated error of the lean.
-const SIZE: usize = lateral::SIZE + 1;
-const ERROR: usize = lateral::SIZE;
+const PLANT_SIZE: usize = lateral::SIZE + 1;
+const LEAN_ERROR_INDEX: usize = lateral::SIZE;
 /// Number of speeds for which gains are computed.
 pub const SPEEDS: usize = 48;
 
@@ -196,13 +196,13 @@ impl Rider {
         let fastest = self.parameters.lean_rate_limit * square;
         let to_right = LIMIT_RATE * ((LIMIT_APPROACH * (most - lean)).min(fastest) - rate);
         let to_left = LIMIT_RATE * ((-LIMIT_APPROACH * (most + lean)).max(-fastest) - rate);
-        let upright = -UPRIGHT * (UPRIGHT * lean + 2.0 * rate);
+        let upright = -UPRIGHT_FREQUENCY * (UPRIGHT_FREQUENCY * lean + 2.0 * rate);
         let control = (1.0 - feet) * control.min(to_right).max(to_left) + feet * upright;
         control / square - 2.0 * lean * state.lean_rate * state.lean_rate
     }
 
     /// The matrix of the closed loop of lateral state and accumulated error at a speed \[m/s\].
-    pub fn closed_loop(&self, lateral: &Lateral, speed: f64) -> SMatrix<f64, SIZE, SIZE> {
+    pub fn closed_loop(&self, lateral: &Lateral, speed: f64) -> SMatrix<f64, PLANT_SIZE, PLANT_SIZE> {
         let gains = self.gains(speed);
         let (a, torque) = plant(lateral, speed, self.parameters.feet_speed);
         a - torque * gains.gain.push(gains.error_gain).transpose()
@@ -222,7 +222,7 @@ const LIMIT_APPROACH: f64 = 8.0;
 const LIMIT_RATE: f64 = 30.0;
 /// Natural frequency with which the reference lean on a path returns to zero below
 /// walking pace \[1/s\].
-const UPRIGHT: f64 = 4.0;
+const UPRIGHT_FREQUENCY: f64 = 4.0;
 
 /// The limited value: at most `limit` to either side.
 pub(crate) fn within(value: f64, limit: f64) -> f64 {
@@ -236,23 +236,27 @@ pub(crate) fn within(value: f64, limit: f64) -> f64 {
 fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<GainSet> {
     let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
     let (a, torque) = plant(lateral, speed, limits.feet_speed);
-    let unit = lateral::units::<SIZE>();
+    let unit = lateral::units::<PLANT_SIZE>();
     let (scale, inverse) = (SMatrix::from_diagonal(&unit), SMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
-    let mut cost = SVector::<f64, SIZE>::zeros();
+    let mut cost = SVector::<f64, PLANT_SIZE>::zeros();
     cost[place::LEAN] = 100.0;
     cost[place::LEAN_RATE] = 4.0;
     cost[place::STEER] = 25.0;
     cost[place::STEER_RATE] = 0.25;
-    cost[ERROR] = 100.0;
+    cost[LEAN_ERROR_INDEX] = 100.0;
     let torque = inverse * torque;
     let inverse_weight = limits.torque_weight * limits.torque_weight;
     let spread = torque * torque.transpose() * inverse_weight;
-    let to_go = riccati::solve::<SIZE, { 2 * SIZE }>(&(inverse * a * scale), &spread, &SMatrix::from_diagonal(&cost))?;
+    let to_go = riccati::solve::<PLANT_SIZE, { 2 * PLANT_SIZE }>(
+        &(inverse * a * scale),
+        &spread,
+        &SMatrix::from_diagonal(&cost),
+    )?;
     let gain = inverse * to_go * torque * inverse_weight;
     let finite = gain.iter().chain(turn.iter()).chain([&turn_torque]).all(|number| number.is_finite());
     finite.then(|| GainSet {
         gain: gain.fixed_rows::<{ lateral::SIZE }>(0).into_owned(),
-        error_gain: gain[ERROR],
+        error_gain: gain[LEAN_ERROR_INDEX],
         turn,
         turn_torque,
     })
@@ -279,11 +283,15 @@ fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lat
 ///
 /// The first part is the matrix of the lateral state and the accumulated error of the lean, the
 /// second the effect of a torque.
-fn plant(lateral: &Lateral, speed: f64, feet_speed: f64) -> (SMatrix<f64, SIZE, SIZE>, SVector<f64, SIZE>) {
+fn plant(
+    lateral: &Lateral,
+    speed: f64,
+    feet_speed: f64,
+) -> (SMatrix<f64, PLANT_SIZE, PLANT_SIZE>, SVector<f64, PLANT_SIZE>) {
     let feet = foot_support(speed, feet_speed);
-    let mut a = SMatrix::<f64, SIZE, SIZE>::zeros();
+    let mut a = SMatrix::<f64, PLANT_SIZE, PLANT_SIZE>::zeros();
     a.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(&lateral.state_matrix(speed, feet));
-    a[(ERROR, place::LEAN)] = 1.0 - feet;
-    a[(ERROR, ERROR)] = -feet / FORGETTING;
+    a[(LEAN_ERROR_INDEX, place::LEAN)] = 1.0 - feet;
+    a[(LEAN_ERROR_INDEX, LEAN_ERROR_INDEX)] = -feet / FORGETTING;
     (a, lateral.torque.push(0.0) * (1.0 - feet))
 }

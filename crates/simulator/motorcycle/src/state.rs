@@ -84,7 +84,7 @@ impl State {
     /// in finite time.
     pub fn flush_small(mut self) -> State {
         let flush = |value: &mut f64| {
-            if value.abs() < NEGLIGIBLE {
+            if value.abs() < NEGLIGIBLE_MOTION {
                 *value = 0.0;
             }
         };
@@ -100,4 +100,4 @@ impl State {
 }
 
 /// Angles, lengths, forces and their rates below this count as zero, in SI units.
-const NEGLIGIBLE: f64 = 1e-12;
+const NEGLIGIBLE_MOTION: f64 = 1e-12;

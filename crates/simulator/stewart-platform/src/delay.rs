@@ -12,7 +12,7 @@ pub struct Ramp {
 }
 
 /// Capacity of the queue, in ramps.
-const CAPACITY: usize = 32;
+const QUEUE_CAPACITY: usize = 32;
 
 /// A queue of ramps whose durations add up to the dead time.
 ///
@@ -20,7 +20,7 @@ const CAPACITY: usize = 32;
 /// longer ones leave the queue exactly as they entered it. There is no clock, so nothing drifts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DelayLine {
-    ramps: [Ramp; CAPACITY],
+    ramps: [Ramp; QUEUE_CAPACITY],
     first: usize,
     count: usize,
     /// Two neighbours that last no longer than this together are joined \[s\].
@@ -31,16 +31,16 @@ impl DelayLine {
     /// A dead time \[s\], during which the commands were these.
     pub fn new(dead_time: f64, commands: &[f64; 6]) -> Self {
         let constant = Ramp { duration: dead_time, from: *commands, to: *commands };
-        let finest = 2.0 * dead_time / (CAPACITY - 4) as f64;
-        DelayLine { ramps: [constant; CAPACITY], first: 0, count: usize::from(dead_time > 0.0), finest }
+        let finest = 2.0 * dead_time / (QUEUE_CAPACITY - 4) as f64;
+        DelayLine { ramps: [constant; QUEUE_CAPACITY], first: 0, count: usize::from(dead_time > 0.0), finest }
     }
 
     /// Changes the dead time \[s\]. A straight line to the newest command replaces the pending
     /// commands, so that the output does not jump. With a dead time of 0 the newest command is the
     /// output at once.
     pub fn set_dead_time(&mut self, dead_time: f64) {
-        let newest = self.ramps[(self.first + self.count + CAPACITY - 1) % CAPACITY].to;
-        let next = if self.count > 0 { self.ramps[self.first % CAPACITY].from } else { newest };
+        let newest = self.ramps[(self.first + self.count + QUEUE_CAPACITY - 1) % QUEUE_CAPACITY].to;
+        let next = if self.count > 0 { self.ramps[self.first % QUEUE_CAPACITY].from } else { newest };
         *self = DelayLine::new(dead_time, &newest);
         self.ramps[0].from = next;
     }
@@ -48,14 +48,14 @@ impl DelayLine {
     /// Appends the next command.
     pub fn push(&mut self, ramp: &Ramp) {
         if self.count > 0 {
-            let last = &mut self.ramps[(self.first + self.count - 1) % CAPACITY];
-            if last.duration + ramp.duration <= self.finest || self.count >= CAPACITY {
+            let last = &mut self.ramps[(self.first + self.count - 1) % QUEUE_CAPACITY];
+            if last.duration + ramp.duration <= self.finest || self.count >= QUEUE_CAPACITY {
                 last.duration += ramp.duration;
                 last.to = ramp.to;
                 return;
             }
         }
-        self.ramps[(self.first + self.count) % CAPACITY] = *ramp;
+        self.ramps[(self.first + self.count) % QUEUE_CAPACITY] = *ramp;
         self.count += 1;
     }
 
@@ -66,12 +66,12 @@ impl DelayLine {
         /// Relative remainder of a ramp that leaves with it.
         const ROUNDING: f64 = 1e-9;
         if self.count == 0 {
-            let last = self.ramps[(self.first + CAPACITY - 1) % CAPACITY].to;
+            let last = self.ramps[(self.first + QUEUE_CAPACITY - 1) % QUEUE_CAPACITY].to;
             return Ramp { duration: longest, from: last, to: last };
         }
-        let head = &mut self.ramps[self.first % CAPACITY];
+        let head = &mut self.ramps[self.first % QUEUE_CAPACITY];
         if head.duration <= longest * (1.0 + ROUNDING) {
-            self.first = (self.first + 1) % CAPACITY;
+            self.first = (self.first + 1) % QUEUE_CAPACITY;
             self.count -= 1;
             return *head;
         }

@@ -30,7 +30,7 @@ pub struct Outcome {
 /// Largest number of sweeps over the six legs; some tens suffice.
 const MOST_SWEEPS: usize = 500;
 /// Convergence: largest change of a force as a fraction of the largest force.
-const TOLERANCE: f64 = 1e-12;
+const FORCE_TOLERANCE: f64 = 1e-12;
 
 /// Solves the conditions leg by leg, over and over (Gauss and Seidel's method, which converges for
 /// them).
@@ -50,7 +50,7 @@ pub fn solve(free: &Vector6<f64>, gain: &Matrix6<f64>, legs: &[Leg; 6], limit: f
             change = change.max((next - force[i]).abs());
             force[i] = next;
         }
-        if change <= TOLERANCE * force.amax() {
+        if change <= FORCE_TOLERANCE * force.amax() {
             break;
         }
     }

@@ -131,7 +131,9 @@ impl Model for StewartPlatform {
     /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
     /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     fn step(&mut self, input: &Input, step: f64) {
-        let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i].clamp(VELOCITY.0, VELOCITY.1));
+        let end = std::array::from_fn(|i| {
+            input.length[i] + step * input.velocity[i].clamp(VELOCITY_RANGE.0, VELOCITY_RANGE.1)
+        });
         self.step_between(input, &Input { length: end, ..*input }, step);
     }
 
@@ -400,10 +402,10 @@ fn ahead(motion: &PlatformMotion, time: f64) -> PlatformMotion {
 }
 
 /// The ranges of the commanded velocities \[m/s\] and of the lean \[rad\].
-const VELOCITY: (f64, f64) = bounds_of(Input::ROWS, "command[#].velocity");
-const LEAN: (f64, f64) = bounds_of(Input::ROWS, "rider.lean");
+const VELOCITY_RANGE: (f64, f64) = bounds_of(Input::ROWS, "command[#].velocity");
+const LEAN_RANGE: (f64, f64) = bounds_of(Input::ROWS, "rider.lean");
 
 /// The lean within its range, or another where it is not a number.
 fn lean_or(lean: f64, other: f64) -> f64 {
-    if lean.is_nan() { other } else { lean.clamp(LEAN.0, LEAN.1) }
+    if lean.is_nan() { other } else { lean.clamp(LEAN_RANGE.0, LEAN_RANGE.1) }
 }

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Time between the lines of a log.
 const LOG_EVERY: Duration = Duration::from_secs(2);
 /// Time between two updates of the bar.
-const TICK: Duration = Duration::from_millis(200);
+const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
 
 /// Progress of one recording through its phases.
 pub struct Progress {
@@ -34,7 +34,7 @@ impl Progress {
         bar.set_style(ProgressStyle::with_template("{spinner} {msg} {wide_bar} {percent:>3} %")?);
         let is_logged = !stderr().is_terminal();
         if !is_logged {
-            bar.enable_steady_tick(TICK);
+            bar.enable_steady_tick(UPDATE_INTERVAL);
         }
         let mut progress =
             Progress { name: name.to_owned(), bar, is_logged, phase, done: 0, total: 0, last: Instant::now() };

@@ -19,8 +19,8 @@ use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
 use serde_json::{Value, json};
 
-const INPUTS: usize = slot_count(Input::ROWS);
-const PARAMETERS: usize = slot_count(Parameters::ROWS);
+const INPUT_SLOTS: usize = slot_count(Input::ROWS);
+const PARAMETER_SLOTS: usize = slot_count(Parameters::ROWS);
 
 /// A recording, as the page knows it.
 struct Recorded {
@@ -45,10 +45,10 @@ thread_local! {
 #[unsafe(no_mangle)]
 pub extern "C" fn record() -> usize {
     let recorded = with_numbers(|numbers| {
-        let (head, samples) = numbers.split_at(4 + PARAMETERS);
+        let (head, samples) = numbers.split_at(4 + PARAMETER_SLOTS);
         let input = |slots| Input::read(&mut Reader::new(slots));
         Recorded {
-            manoeuvre: Manoeuvre::new(head[0], samples.chunks_exact(INPUTS).map(input).collect()),
+            manoeuvre: Manoeuvre::new(head[0], samples.chunks_exact(INPUT_SLOTS).map(input).collect()),
             start: Parameters::read(&mut Reader::new(&head[4..])),
             bounds: [head[1], head[2], head[3]],
             references: References::default(),

@@ -5,7 +5,7 @@
 //! those that it imports, without these words: a name at the top of a module is unique in a page.
 
 /// The path of every module below `page/`, and its text.
-const MODULES: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/scripts.rs"));
+const PAGE_MODULES: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/scripts.rs"));
 
 /// The script of a page that begins with the module at `entry`, such as `ride/main.js`.
 ///
@@ -30,7 +30,7 @@ fn add(path: &str, paths: &mut Vec<String>) {
 }
 
 fn text(path: &str) -> &'static str {
-    let found = MODULES.iter().find(|(known, _)| *known == path);
+    let found = PAGE_MODULES.iter().find(|(known, _)| *known == path);
     found.unwrap_or_else(|| panic!("no page has a module {path}")).1
 }
 
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn every_import_names_an_export_that_it_uses() {
         let mut imports = HashSet::new();
-        for (path, text) in MODULES {
+        for (path, text) in PAGE_MODULES {
             for line in text.lines().filter(|line| line.starts_with("import ")) {
                 let from = resolved(path, imported(line).unwrap_or_else(|| panic!("{path}: {line}")));
                 for name in names(line) {
@@ -97,7 +97,7 @@ mod tests {
                 }
             }
         }
-        for (path, text) in MODULES {
+        for (path, text) in PAGE_MODULES {
             for (name, is_exported) in text.lines().filter_map(declared) {
                 let is_imported = imports.contains(&((*path).to_owned(), name));
                 assert_eq!(is_exported, is_imported, "{path}: export of {name}");
@@ -120,12 +120,12 @@ mod tests {
             }
             assert!(!script.lines().any(|line| line.starts_with("import ")), "{entry}");
         }
-        assert_eq!(reached, MODULES.iter().map(|(path, _)| (*path).to_owned()).collect());
+        assert_eq!(reached, PAGE_MODULES.iter().map(|(path, _)| (*path).to_owned()).collect());
     }
 
     #[test]
     fn shared_modules_import_from_each_other_alone() {
-        for (path, text) in MODULES.iter().filter(|(path, _)| path.starts_with("shared/")) {
+        for (path, text) in PAGE_MODULES.iter().filter(|(path, _)| path.starts_with("shared/")) {
             for from in text.lines().filter_map(imported) {
                 assert!(resolved(path, from).starts_with("shared/"), "{path}: {from}");
             }

@@ -5,17 +5,17 @@ use serde::Serialize;
 use crate::report::shared;
 use crate::ride::page::STYLE as MOTION;
 
-const TEMPLATE: &str = include_str!("../page/live/live.html");
-const STYLE: &str = include_str!("../page/live/live.css");
-const ENTRY: &str = "live/live.js";
+const PAGE_TEMPLATE: &str = include_str!("../page/live/live.html");
+const PAGE_STYLE: &str = include_str!("../page/live/live.css");
+const ENTRY_MODULE: &str = "live/live.js";
 
 /// The whole page as HTML, with the data of its start. It asks its own server alone.
 ///
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(subtitle: &str, data: &impl Serialize) -> String {
-    let style = [MOTION, STYLE].join("\n");
+    let style = [MOTION, PAGE_STYLE].join("\n");
     let policy = "connect-src 'self'";
     let head = shared::Head { title: "Live", subtitle, style: &style, scripts: "", policy };
-    shared::assembled(&head, TEMPLATE, data, ENTRY)
+    shared::assembled(&head, PAGE_TEMPLATE, data, ENTRY_MODULE)
 }

@@ -9,7 +9,7 @@ use crate::error;
 use crate::setup::Given;
 
 /// Steps of time that differ by less than this count as equal \[fraction of a step\].
-const EQUAL: f64 = 1e-6;
+const STEP_TOLERANCE: f64 = 1e-6;
 
 /// The times of samples.
 pub enum Time {
@@ -33,7 +33,7 @@ impl Time {
         }
         let mean = (times[times.len() - 1] - times[0]) / steps.len() as f64;
         let is_equal = |step: f64| {
-            times.iter().enumerate().all(|(k, time)| (time - times[0] - k as f64 * step).abs() <= EQUAL * step)
+            times.iter().enumerate().all(|(k, time)| (time - times[0] - k as f64 * step).abs() <= STEP_TOLERANCE * step)
         };
         // Times are mostly multiples of a step with few decimals: 0.01 and not 0.010000000000000002.
         let short = format!("{mean:.12e}").parse().unwrap_or(mean);

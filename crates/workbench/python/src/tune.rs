@@ -27,7 +27,7 @@ use crate::washout::parameter_dict;
 use crate::words::argument;
 
 /// Time between two checks of progress and signals.
-const LOOK: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Result of a tuning: parameters, sets tried, summary, the first line, is it worse, was it
 /// interrupted, and for each recording its name and errors before, tuned and unseen.
@@ -160,7 +160,7 @@ impl PyTuning {
             thread::scope(|scope| {
                 let searching = scope.spawn(|| pool.install(search));
                 while !searching.is_finished() {
-                    thread::park_timeout(LOOK);
+                    thread::park_timeout(POLL_INTERVAL);
                     let looked = Python::attach(|py| look(py, &observe, lock(&progress).take()));
                     match looked {
                         Ok(true) => (),

@@ -13,10 +13,10 @@ use moris_paper_runs::table::{force_table, platform_table};
 use moris_simulation::drives::runs::TOWN;
 
 /// Communication step \[s\].
-const STEP: f64 = 0.001;
+const COMMUNICATION_STEP: f64 = 0.001;
 
 fn main() -> Result<()> {
-    let ride = [simulate(&built()?, &TOWN, &RIDE, STEP)?];
+    let ride = [simulate(&built()?, &TOWN, &RIDE, COMMUNICATION_STEP)?];
     println!("{}", force_table(&ride));
     println!("{}", platform_table(&ride));
     let directory = workspace::target_directory().join("first-ride");

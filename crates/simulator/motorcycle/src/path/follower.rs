@@ -67,7 +67,7 @@ impl Follower {
             forward: limits.forward,
             backward: limits.backward,
             friction: parameters.tyres.friction * parameters.path.friction_ratio,
-            hardest: HARD * parameters.tyres.friction * parameters.run.gravity,
+            hardest: HARD_BRAKING_FRACTION * parameters.tyres.friction * parameters.run.gravity,
         })))
     }
 
@@ -113,15 +113,15 @@ impl Follower {
         for (k, steady_lean) in steady_leans.iter_mut().enumerate() {
             let plan = self.plan_at(place);
             *steady_lean = self.table.curvature_at(place) * pace * pace * gains.lean_per_acceleration;
-            if k < SMOOTHED {
-                planned += plan.1 / SMOOTHED as f64;
+            if k < SMOOTHED_SAMPLES {
+                planned += plan.1 / SMOOTHED_SAMPLES as f64;
             }
             let change = self.acceleration(plan, pace) * INTERVAL;
             place += (pace + 0.5 * change).max(0.0) * INTERVAL;
             pace = (pace + change).max(0.0);
         }
         let now = self.plan_at(distance).0;
-        let demand = if now < STOPPED { -self.backward } else { self.acceleration((now, planned), speed) };
+        let demand = if now < STOPPING_SPEED { -self.backward } else { self.acceleration((now, planned), speed) };
         let demand = demand.max(-self.hardest(state));
         let (throttle, brake) = longitudinal.pedals(demand, speed);
         Ahead { lean: gains.feedforward(&steady_leans), throttle, brake }
@@ -160,7 +160,8 @@ impl Follower {
         let curvature = self.table.curvature_at(distance);
         let (sin, cos) = libm::sincos(heading);
         let to_right = state.lateral[place::VELOCITY];
-        let along = (state.speed * cos - to_right * sin) / (1.0 - curvature * deviation).max(INNERMOST);
+        let along =
+            (state.speed * cos - to_right * sin) / (1.0 - curvature * deviation).max(MIN_RELATIVE_CURVATURE_DISTANCE);
         let accumulated = (1.0 - feet) * within(deviation, LARGEST_ACCUMULATED);
         PathState {
             distance: along,
@@ -172,18 +173,18 @@ impl Follower {
 }
 
 /// Fraction of the friction that the hardest braking takes.
-const HARD: f64 = 0.8;
+const HARD_BRAKING_FRACTION: f64 = 0.8;
 /// Gain of the speed control \[1/s\].
 const SPEED_GAIN: f64 = 1.5;
 /// Samples of the preview over which the planned acceleration is averaged: the lags of drive and
 /// brakes, and less jerk.
-const SMOOTHED: usize = 4;
+const SMOOTHED_SAMPLES: usize = 4;
 /// Planned speed below which the rider stops \[m/s\].
-const STOPPED: f64 = 0.3;
+const STOPPING_SPEED: f64 = 0.3;
 /// Deviation \[m\] and heading \[rad\] of which the lean control takes account, and deviation that
 /// accumulates.
 const LARGEST_DEVIATION: f64 = 1.5;
 const LARGEST_HEADING: f64 = 0.3;
 const LARGEST_ACCUMULATED: f64 = 0.3;
 /// Least distance from the path's centre of curvature, relative to its radius.
-const INNERMOST: f64 = 0.1;
+const MIN_RELATIVE_CURVATURE_DISTANCE: f64 = 0.1;

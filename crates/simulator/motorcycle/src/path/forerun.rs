@@ -16,12 +16,12 @@ use crate::state::{RunState, State};
 /// Time between two elements of the preview \[s\].
 pub const PREVIEW_STEP: f64 = 0.2;
 /// Time between two records \[s\].
-const RECORD: f64 = 0.02;
-const RECORDS: usize = 256;
+const RECORD_INTERVAL: f64 = 0.02;
+const RECORD_CAPACITY: usize = 256;
 /// Time by which the second simulation is ahead \[s\]: the preview and a record.
-const LEAD: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64 + RECORD;
+const LEAD_TIME: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64 + RECORD_INTERVAL;
 /// Largest time simulated ahead per second of the motorcycle \[s\].
-const PACE: f64 = 5.0;
+const MAX_AHEAD_RATE: f64 = 5.0;
 
 /// A record of the second simulation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -52,8 +52,8 @@ impl Record {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Forerun {
     run: RunState,
-    /// The last records, each at its number modulo [`RECORDS`].
-    records: SVector<Record, RECORDS>,
+    /// The last records, each at its number modulo [`RECORD_CAPACITY`].
+    records: SVector<Record, RECORD_CAPACITY>,
     /// Number of the last record.
     last: usize,
     /// Internal steps since the last record.
@@ -84,30 +84,30 @@ impl Forerun {
         record: impl Fn(&RunState) -> Record,
     ) {
         self.find(step, here);
-        let per_record = libm::ceil(RECORD / longest - 1e-6).max(1.0);
-        let size = RECORD / per_record;
-        self.allowance = (self.allowance + PACE * step).min(PACE * step + RECORD);
-        while self.last as f64 * RECORD < self.now + LEAD && self.allowance >= size {
+        let per_record = libm::ceil(RECORD_INTERVAL / longest - 1e-6).max(1.0);
+        let size = RECORD_INTERVAL / per_record;
+        self.allowance = (self.allowance + MAX_AHEAD_RATE * step).min(MAX_AHEAD_RATE * step + RECORD_INTERVAL);
+        while self.last as f64 * RECORD_INTERVAL < self.now + LEAD_TIME && self.allowance >= size {
             self.run = advanced(&self.run, size);
             self.allowance -= size;
             self.steps += 1;
             if f64::from(self.steps) >= per_record {
                 self.steps = 0;
                 self.last += 1;
-                self.records[self.last % RECORDS] = record(&self.run);
+                self.records[self.last % RECORD_CAPACITY] = record(&self.run);
             }
         }
     }
 
     /// Finds the time in the records that corresponds to the motorcycle's present position.
     fn find(&mut self, step: f64, here: &State) {
-        self.now = (self.now + step).min(self.last as f64 * RECORD);
-        if here.speed < SLOW {
+        self.now = (self.now + step).min(self.last as f64 * RECORD_INTERVAL);
+        if here.speed < SLOW_SPEED {
             return;
         }
         let distance = here.place.distance;
-        let mut number = (self.now / RECORD) as usize;
-        let oldest = (self.last + 1).saturating_sub(RECORDS);
+        let mut number = (self.now / RECORD_INTERVAL) as usize;
+        let oldest = (self.last + 1).saturating_sub(RECORD_CAPACITY);
         while number > oldest && self.record(number).distance > distance {
             number -= 1;
         }
@@ -118,7 +118,7 @@ impl Forerun {
         let covered = after.distance - before.distance;
         if covered > 0.0 {
             let fraction = ((distance - before.distance) / covered).clamp(0.0, 1.0);
-            self.now = (number as f64 + fraction) * RECORD;
+            self.now = (number as f64 + fraction) * RECORD_INTERVAL;
         }
     }
 
@@ -135,12 +135,14 @@ impl Forerun {
     pub fn preview(&self, felt: [f64; 2]) -> Preview {
         let then = self.at(self.now);
         let [surge, sway] = [felt[0] - then.surge, felt[1] - then.sway];
-        let end = self.last as f64 * RECORD;
+        let end = self.last as f64 * RECORD_INTERVAL;
         let time = |k: usize| self.now + (k + 1) as f64 * PREVIEW_STEP;
         let count = (0..PREVIEW_SAMPLES).take_while(|&k| time(k) <= end).count();
         let record = |k: usize| if k < count { self.at(time(k)) } else { Record::default() };
         let records: [Record; PREVIEW_SAMPLES] = std::array::from_fn(record);
-        let fading = |k: usize| if k < count { libm::exp(-((k + 1) as f64) * PREVIEW_STEP / FADING) } else { 0.0 };
+        let fading = |k: usize| {
+            if k < count { libm::exp(-((k + 1) as f64) * PREVIEW_STEP / DIFFERENCE_TIME_CONSTANT) } else { 0.0 }
+        };
         (
             count as i32,
             std::array::from_fn(|k| records[k].surge + surge * fading(k)),
@@ -150,12 +152,12 @@ impl Forerun {
 
     /// The record of this number.
     fn record(&self, number: usize) -> &Record {
-        &self.records[number % RECORDS]
+        &self.records[number % RECORD_CAPACITY]
     }
 
     /// The second simulation at a time since its beginning, interpolated between two records.
     fn at(&self, time: f64) -> Record {
-        let along = time / RECORD;
+        let along = time / RECORD_INTERVAL;
         let number = (along as usize).min(self.last);
         let fraction = (along - number as f64).clamp(0.0, 1.0);
         self.record(number).toward(self.record((number + 1).min(self.last)), fraction)
@@ -163,9 +165,9 @@ impl Forerun {
 }
 
 /// Time constant with which a difference between the two is assumed to decay \[s\].
-const FADING: f64 = 1.0;
+const DIFFERENCE_TIME_CONSTANT: f64 = 1.0;
 /// Speed below which records are found by time, not by distance \[m/s\].
-const SLOW: f64 = 1.0;
+const SLOW_SPEED: f64 = 1.0;
 /// Least time between two restarts \[s\].
 const LEAST_TIME: f64 = 2.0;
 /// Largest errors of speed \[m/s\] and deviation \[m\] without a restart.

@@ -47,13 +47,14 @@ pub const SLIDING: f64 = 0.4;
 pub const SETTLING: f64 = 0.1;
 
 /// Roll beyond the rider's limit at which the motorcycle has fallen \[rad\], and the largest roll.
-const BEYOND: f64 = 0.35;
-const FLAT: f64 = 1.35;
+const FALLEN_ROLL_MARGIN: f64 = 0.35;
+const MAX_FALLEN_ROLL: f64 = 1.35;
 /// Slip angle at which it has fallen, as a tangent, above a lateral velocity of 1 m/s.
-const SPUN: f64 = 0.7;
+const SPUN_SLIP_TANGENT: f64 = 0.7;
 
 /// True for a motorcycle that has fallen: with a roll, the speed and the lateral velocity of its
 /// rear contact.
 pub fn has_fallen(roll: f64, lean_limit: f64, speed: f64, lateral_velocity: f64) -> bool {
-    roll.abs() > (lean_limit + BEYOND).min(FLAT) || lateral_velocity.abs() > 1.0 + SPUN * speed
+    roll.abs() > (lean_limit + FALLEN_ROLL_MARGIN).min(MAX_FALLEN_ROLL)
+        || lateral_velocity.abs() > 1.0 + SPUN_SLIP_TANGENT * speed
 }

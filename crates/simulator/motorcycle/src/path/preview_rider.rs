@@ -28,26 +28,26 @@ use crate::speeds::Speeds;
 /// They are the lateral state, the accumulated error of the lean, the reference lean (its tangent)
 /// and its rate, and the torso's lean and its rate. The last three are the deviation from the path
 /// to the right, the heading relative to it, and the deviation's integral.
-const SIZE: usize = lateral::SIZE + 8;
-const ERROR: usize = lateral::SIZE;
-const REFERENCE: usize = ERROR + 1;
-pub const REFERENCE_RATE: usize = ERROR + 2;
-const TORSO: usize = ERROR + 3;
-const TORSO_RATE: usize = ERROR + 4;
-const DEVIATION: usize = ERROR + 5;
-const HEADING: usize = ERROR + 6;
-const INTEGRAL: usize = ERROR + 7;
+const PLANT_SIZE: usize = lateral::SIZE + 8;
+const LEAN_ERROR_INDEX: usize = lateral::SIZE;
+const REFERENCE_INDEX: usize = LEAN_ERROR_INDEX + 1;
+pub const REFERENCE_RATE: usize = LEAN_ERROR_INDEX + 2;
+const TORSO_INDEX: usize = LEAN_ERROR_INDEX + 3;
+const TORSO_RATE: usize = LEAN_ERROR_INDEX + 4;
+const DEVIATION_INDEX: usize = LEAN_ERROR_INDEX + 5;
+const HEADING_INDEX: usize = LEAN_ERROR_INDEX + 6;
+const INTEGRAL_INDEX: usize = LEAN_ERROR_INDEX + 7;
 
 /// State of the plant.
-pub type Plant = SVector<f64, SIZE>;
-type PlantMatrix = SMatrix<f64, SIZE, SIZE>;
+pub type Plant = SVector<f64, PLANT_SIZE>;
+type PlantMatrix = SMatrix<f64, PLANT_SIZE, PLANT_SIZE>;
 
 /// Intervals of the preview, and the duration of each \[s\].
 pub const SAMPLES: usize = 30;
 pub const INTERVAL: f64 = 0.1;
 
 /// Number of speeds for which gains are computed.
-const SPEEDS: usize = 24;
+const GAIN_SPEEDS: usize = 24;
 
 /// Gains at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -87,14 +87,14 @@ impl PreviewGains {
 }
 
 /// The plant's state: the lateral state, and the coordinates after it in their order.
-pub fn plant_state(lateral: &lateral::State, others: [f64; SIZE - lateral::SIZE]) -> Plant {
+pub fn plant_state(lateral: &lateral::State, others: [f64; PLANT_SIZE - lateral::SIZE]) -> Plant {
     Plant::from_iterator(lateral.iter().copied().chain(others))
 }
 
 /// Gains for all speeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PreviewRider {
-    gains: SVector<PreviewGains, SPEEDS>,
+    gains: SVector<PreviewGains, GAIN_SPEEDS>,
     speeds: Speeds,
 }
 
@@ -104,15 +104,15 @@ impl PreviewRider {
     pub fn new(lateral: &Lateral, rider: &Rider) -> Option<Self> {
         let speeds = Speeds { slowest: rider.feet_speed(), fastest: rider.fastest() };
         let mut designed = PreviewRider { gains: SVector::repeat(PreviewGains::default()), speeds };
-        for k in 0..SPEEDS {
-            designed.gains[k] = design(lateral, rider, speeds.knot(k, SPEEDS))?;
+        for k in 0..GAIN_SPEEDS {
+            designed.gains[k] = design(lateral, rider, speeds.knot(k, GAIN_SPEEDS))?;
         }
         Some(designed)
     }
 
     /// Gains at a speed \[m/s\]: interpolated between two knots.
     pub fn gains(&self, speed: f64) -> PreviewGains {
-        let (k, fraction) = self.speeds.find(speed, SPEEDS);
+        let (k, fraction) = self.speeds.find(speed, GAIN_SPEEDS);
         self.gains[k].interpolated(&self.gains[k + 1], fraction)
     }
 
@@ -133,19 +133,21 @@ fn control() -> Plant {
 fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> PlantMatrix {
     let (fraction, frequency) = rider.torso();
     let mut a = PlantMatrix::zeros();
-    for column in 0..SIZE {
+    for column in 0..PLANT_SIZE {
         let mut unit = Plant::zeros();
         unit[column] = 1.0;
         let motion: lateral::State = unit.fixed_rows::<{ lateral::SIZE }>(0).into_owned();
-        let mut deviation = motion - gains.turn * unit[REFERENCE];
+        let mut deviation = motion - gains.turn * unit[REFERENCE_INDEX];
         deviation[place::LEAN_RATE] -= unit[REFERENCE_RATE];
-        let torque = gains.turn_torque * unit[REFERENCE] - gains.gain.dot(&deviation) - gains.error_gain * unit[ERROR];
+        let torque = gains.turn_torque * unit[REFERENCE_INDEX]
+            - gains.gain.dot(&deviation)
+            - gains.error_gain * unit[LEAN_ERROR_INDEX];
         let torso_acceleration =
-            frequency * (frequency * (fraction * unit[REFERENCE] - unit[TORSO]) - 2.0 * unit[TORSO_RATE]);
-        let actions = Actions { torque, torso: unit[TORSO], torso_acceleration, wind: 0.0 };
-        let error = unit[place::LEAN] - unit[REFERENCE];
-        let deviation = speed * unit[HEADING] + unit[place::VELOCITY];
-        let (heading, integral) = (unit[place::YAW_RATE], unit[DEVIATION]);
+            frequency * (frequency * (fraction * unit[REFERENCE_INDEX] - unit[TORSO_INDEX]) - 2.0 * unit[TORSO_RATE]);
+        let actions = Actions { torque, torso: unit[TORSO_INDEX], torso_acceleration, wind: 0.0 };
+        let error = unit[place::LEAN] - unit[REFERENCE_INDEX];
+        let deviation = speed * unit[HEADING_INDEX] + unit[place::VELOCITY];
+        let (heading, integral) = (unit[place::YAW_RATE], unit[DEVIATION_INDEX]);
         let rates =
             [error, unit[REFERENCE_RATE], 0.0, unit[TORSO_RATE], torso_acceleration, deviation, heading, integral];
         a.set_column(column, &plant_state(&lateral.derivative(&motion, speed, 0.0, &actions), rates));
@@ -170,7 +172,7 @@ fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
     for (k, &coordinate) in unknown.iter().enumerate() {
         turn[coordinate] = solution[k];
     }
-    turn[HEADING] = -turn[place::VELOCITY] / a[(DEVIATION, HEADING)];
+    turn[HEADING_INDEX] = -turn[place::VELOCITY] / a[(DEVIATION_INDEX, HEADING_INDEX)];
     Some((turn, turn[place::YAW_RATE]))
 }
 
@@ -178,7 +180,7 @@ fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
 fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> {
     let a = plant(lateral, rider, &rider.gains(speed), speed);
     let (turn, yaw_rate) = steady_turn(&a)?;
-    let unit = lateral::units::<SIZE>();
+    let unit = lateral::units::<PLANT_SIZE>();
     let (scale, inverse) = (PlantMatrix::from_diagonal(&unit), PlantMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
     let scaled = inverse * a * scale;
     let mut cost = Plant::zeros();
@@ -186,7 +188,7 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
         cost[coordinate] = 1.0 / (size * size);
     }
     let spread = control() * control().transpose() * INVERSE_CONTROL_WEIGHT;
-    let to_go = riccati::solve::<SIZE, { 2 * SIZE }>(&scaled, &spread, &PlantMatrix::from_diagonal(&cost))?;
+    let to_go = riccati::solve::<PLANT_SIZE, { 2 * PLANT_SIZE }>(&scaled, &spread, &PlantMatrix::from_diagonal(&cost))?;
     let gain = to_go * control() * INVERSE_CONTROL_WEIGHT;
     let closed = scaled - control() * gain.transpose();
     // The mean of exp(A_c' τ) P X over each interval.
@@ -203,7 +205,8 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
 }
 
 /// Deviations of equal cost. A control of 1 / sqrt([`INVERSE_CONTROL_WEIGHT`]) has the same cost.
-pub const WEIGHTS: [(usize, f64); 4] = [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL, 0.3)];
+pub const WEIGHTS: [(usize, f64); 4] =
+    [(DEVIATION_INDEX, 0.1), (HEADING_INDEX, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL_INDEX, 0.3)];
 pub const INVERSE_CONTROL_WEIGHT: f64 = 16.0;
 
 /// exp(A t), and the mean of exp(A τ) from 0 to t, by Taylor's series over a small part of the time

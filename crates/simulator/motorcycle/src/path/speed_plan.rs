@@ -13,15 +13,15 @@ use crate::interface::{PATH_POINTS, Parameters};
 use crate::longitudinal::Longitudinal;
 
 /// Places between two rows of the path, the first row included.
-const DIVISIONS: usize = 12;
-const NODES: usize = (PATH_POINTS - 1) * DIVISIONS + 1;
+const DIVISIONS_PER_ROW: usize = 12;
+const MAX_PLAN_NODES: usize = (PATH_POINTS - 1) * DIVISIONS_PER_ROW + 1;
 
 /// The square of the speed, linear between the places.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpeedPlan {
-    square: SVector<f64, NODES>,
+    square: SVector<f64, MAX_PLAN_NODES>,
     /// Acceleration between two places \[m/s2\].
-    acceleration: SVector<f64, NODES>,
+    acceleration: SVector<f64, MAX_PLAN_NODES>,
 }
 
 /// Limits of a plan \[m/s2\].
@@ -62,14 +62,14 @@ const DRIVE_FRACTION: f64 = 0.9;
 impl SpeedPlan {
     /// The fastest plan along a path.
     pub fn new(table: &Table, limits: &Limits, longitudinal: &Longitudinal) -> Self {
-        let nodes = (table.count() - 1) * DIVISIONS + 1;
+        let nodes = (table.count() - 1) * DIVISIONS_PER_ROW + 1;
         let place = |node: usize| {
-            let row = (node / DIVISIONS).min(table.count() - 2);
-            Between { row, fraction: (node - row * DIVISIONS) as f64 / DIVISIONS as f64 }
+            let row = (node / DIVISIONS_PER_ROW).min(table.count() - 2);
+            Between { row, fraction: (node - row * DIVISIONS_PER_ROW) as f64 / DIVISIONS_PER_ROW as f64 }
         };
         let curvature = |node: usize| table.curvature(place(node)).abs();
         let length = |node: usize| table.distance(place(node + 1)) - table.distance(place(node));
-        let mut square = SVector::<f64, NODES>::zeros();
+        let mut square = SVector::<f64, MAX_PLAN_NODES>::zeros();
         for node in 0..nodes {
             let limit = table.speed(place(node));
             square[node] = (limit * limit).min(limits.lateral / curvature(node).max(1e-9));
@@ -107,9 +107,9 @@ impl SpeedPlan {
 
     /// Speed \[m/s\] and acceleration \[m/s2\] at a place.
     pub fn at(&self, place: Between) -> (f64, f64) {
-        let along = place.fraction * DIVISIONS as f64;
-        let part = (along as usize).min(DIVISIONS - 1);
-        let node = place.row * DIVISIONS + part;
+        let along = place.fraction * DIVISIONS_PER_ROW as f64;
+        let part = (along as usize).min(DIVISIONS_PER_ROW - 1);
+        let node = place.row * DIVISIONS_PER_ROW + part;
         let square = self.square[node] + (along - part as f64) * (self.square[node + 1] - self.square[node]);
         (libm::sqrt(square.max(0.0)), self.acceleration[node])
     }

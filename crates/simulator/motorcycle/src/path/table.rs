@@ -27,7 +27,7 @@ pub struct Between {
 }
 
 /// The paths that come with the model.
-const SHIPPED: [(Course, &str, bool); 4] = [
+const SHIPPED_PATHS: [(Course, &str, bool); 4] = [
     (Course::LaneChange, include_str!("../../paths/lane-change.csv"), false),
     (Course::Slalom, include_str!("../../paths/slalom.csv"), false),
     (Course::Hairpin, include_str!("../../paths/hairpin.csv"), false),
@@ -105,7 +105,7 @@ impl Table {
             check(parameters)?;
             return Ok(Some(custom(parameters, parameters.repeat)));
         }
-        let shipped = SHIPPED.iter().find(|(of, ..)| *of == course);
+        let shipped = SHIPPED_PATHS.iter().find(|(of, ..)| *of == course);
         Ok(shipped
             .map(|(_, text, repeat)| custom(&from_csv(text).expect("the model's own paths are readable"), *repeat)))
     }
@@ -183,9 +183,9 @@ fn between(values: &PathColumn, Between { row, fraction }: Between) -> f64 {
 }
 
 /// Least distance between two rows \[m\].
-const SHORTEST: f64 = 0.1;
+const MIN_ROW_DISTANCE: f64 = 0.1;
 /// Least speed limit, except at the end of a path that does not repeat \[m/s\].
-const SLOWEST: f64 = 1.0;
+const MIN_SPEED_LIMIT: f64 = 1.0;
 
 /// Checks the custom path.
 fn check(path: &Path) -> Result<(), ParameterError> {
@@ -198,20 +198,22 @@ fn check(path: &Path) -> Result<(), ParameterError> {
     }
     for row in 1..count {
         let (before, here) = (path.distance[row - 1], path.distance[row]);
-        if here < before + SHORTEST {
+        if here < before + MIN_ROW_DISTANCE {
             return refuse(
                 format!("path.point.distance[{}]", row + 1),
-                format!("is {here} m, and the row before is at {before} m; rows are {SHORTEST} m apart at least"),
+                format!(
+                    "is {here} m, and the row before is at {before} m; rows are {MIN_ROW_DISTANCE} m apart at least"
+                ),
             );
         }
     }
     for row in 0..count {
         let is_end = row == count - 1 && !path.repeat;
-        if path.speed_limit[row] < SLOWEST && !is_end {
+        if path.speed_limit[row] < MIN_SPEED_LIMIT && !is_end {
             return refuse(
                 format!("path.point.speed[{}]", row + 1),
                 format!(
-                    "is {} m/s; it must be {SLOWEST} m/s at least, except at the end of a path that does not repeat",
+                    "is {} m/s; it must be {MIN_SPEED_LIMIT} m/s at least, except at the end of a path that does not repeat",
                     path.speed_limit[row]
                 ),
             );

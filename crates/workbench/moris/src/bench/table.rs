@@ -18,7 +18,7 @@ pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         let heads = ["bench", "drive", "rig", "washout", "scale", "factor", "fits"];
-        table.write_record(heads.into_iter().chain(COLUMNS.iter().map(|column| column.name)).chain(BEST))?;
+        table.write_record(heads.into_iter().chain(COLUMNS.iter().map(|column| column.name)).chain(BEST_COLUMNS))?;
         for row in rows {
             let (scale, factor, fits) = match row.scale {
                 Scale::One => ("1", String::new(), String::new()),
@@ -129,7 +129,7 @@ fn line(group: &[&Row], error: Figure) -> Vec<String> {
     let ratio = |over: Figure| {
         let of = |row: &Row, axis: usize| {
             let [value, over] = [error.of(row, axis)?, over.of(row, axis)?];
-            let is_meant = over >= LEAST && (error != Figure::Bound || value >= LEAST);
+            let is_meant = over >= MIN_DIVISOR && (error != Figure::Bound || value >= MIN_DIVISOR);
             is_meant.then(|| value / over)
         };
         let ratios = group.iter().flat_map(|row| (0..2).filter_map(move |axis| of(row, axis)));
@@ -155,10 +155,10 @@ fn line(group: &[&Row], error: Figure) -> Vec<String> {
 }
 
 /// Names of the columns of [`Row::best`].
-const BEST: [&str; 3] = ["best x [m/s2]", "best y [m/s2]", "best z [m/s2]"];
+const BEST_COLUMNS: [&str; 3] = ["best x [m/s2]", "best y [m/s2]", "best z [m/s2]"];
 
 /// Least desired force, or bound, with which a ratio means anything \[m/s2\].
-const LEAST: f64 = 0.03;
+const MIN_DIVISOR: f64 = 0.03;
 
 fn geometric_mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     mean_of_any(values.map(|value| value.max(1e-9).ln())).map(f64::exp)

@@ -12,7 +12,7 @@ use super::Measured;
 use crate::text_table::TextTable;
 
 /// A smaller modulus is rounding.
-const NOTHING: f64 = 1e-9;
+const NEGLIGIBLE_MODULUS: f64 = 1e-9;
 
 /// Writes every response from every channel to every channel.
 ///
@@ -38,7 +38,7 @@ pub fn write(file: &Path, measured: &Measured) -> Result<()> {
 fn record(signal: &str, response: &Response, output: Channel) -> [(&'static str, String); 16] {
     let input = response.input;
     // What is not felt has neither phase nor distortion.
-    let felt = modulus(response, output) > NOTHING;
+    let felt = modulus(response, output) > NEGLIGIBLE_MODULUS;
     let if_felt = |text: String| if felt { text } else { String::new() };
     let [tilt, safety, actuator] = response.limited.map(|fraction| format!("{fraction:.4}"));
     [

@@ -21,7 +21,7 @@ pub struct Entry {
 }
 
 /// Heads of the figures. Errors come first: they stand beside the verdict on a small screen, too.
-const HEADS: [&str; 11] = [
+const FIGURE_TITLES: [&str; 11] = [
     "sensed error, surge m/s²",
     "sway m/s²",
     "heave m/s²",
@@ -102,7 +102,7 @@ pub fn write(directory: &Path, rig: &str, parameters: &str, mut recordings: Vec<
          those with the larger error of the sensed specific force. A tick: fits the rig, and no channel is worse than on a \
          platform at rest."
     );
-    fs::write(&file, index_html(&title, &subtitle, &HEADS, &rows))
+    fs::write(&file, index_html(&title, &subtitle, &FIGURE_TITLES, &rows))
         .with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

@@ -9,7 +9,7 @@ use moris_washout::{Input, Output};
 use super::Simulation;
 
 /// Digits after the point: micrometres, and no more than a sensor has.
-const DECIMALS: usize = 6;
+const OUTPUT_DECIMALS: usize = 6;
 
 /// Writes every input and output at every sample, in columns named as the FMU's variables;
 /// booleans are 0 and 1.
@@ -33,5 +33,5 @@ pub fn write(file: &Path, simulation: &Simulation) -> Result<()> {
 }
 
 fn written(value: f64) -> String {
-    if value == value.trunc() { format!("{value:.0}") } else { format!("{value:.DECIMALS$}") }
+    if value == value.trunc() { format!("{value:.0}") } else { format!("{value:.OUTPUT_DECIMALS$}") }
 }

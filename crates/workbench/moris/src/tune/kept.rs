@@ -18,7 +18,7 @@ use super::tuner::{BestSoFar, SoFar};
 use moris_command_line::console;
 
 /// Exit status after a second Ctrl-C.
-const INTERRUPTED: i32 = 130;
+const INTERRUPTED_STATUS: i32 = 130;
 
 /// The tuning in progress.
 #[derive(Debug, Default)]
@@ -109,7 +109,7 @@ pub fn listen(kept: Arc<Kept>) -> Result<Arc<AtomicBool>> {
                 Err(error) => format!("{error:#}"),
             });
             console::flush();
-            exit(INTERRUPTED);
+            exit(INTERRUPTED_STATUS);
         }
         console::line(
             "ending after this generation; press Ctrl-C again to end at once with the best so far, unchecked",

@@ -27,9 +27,9 @@ const OF_TIMES: i32 = -30;
 /// in a script.
 const OF_LONG_TIMES: i32 = 49;
 /// Powers between the quantum and the largest value of a series: six digits.
-const RESOLUTION: i32 = 21;
+const RESOLUTION_BITS: i32 = 21;
 /// Values below this power of two count as zero.
-const SMALLEST: i32 = -1000;
+const MIN_EXPONENT: i32 = -1000;
 
 impl Series {
     /// A series with a quantum of this power.
@@ -49,7 +49,7 @@ impl Series {
     fn looked_at(values: &[f64]) -> Self {
         let largest = largest(values);
         if values.iter().all(|value| value.is_finite()) {
-            Series::of(values, power_of(largest) - RESOLUTION)
+            Series::of(values, power_of(largest) - RESOLUTION_BITS)
         } else {
             let bytes: Vec<u8> = values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect();
             Series { power: None, deflated: deflated(&bytes) }
@@ -63,7 +63,7 @@ fn largest(values: &[f64]) -> f64 {
 
 /// The power of two that is at least this.
 fn power_of(value: f64) -> i32 {
-    (value.log2().ceil() as i32).max(SMALLEST)
+    (value.log2().ceil() as i32).max(MIN_EXPONENT)
 }
 
 /// Appends a number in groups of seven bits, the lowest first; all but the last byte have their

@@ -28,10 +28,10 @@ pub enum Kind {
 }
 
 /// Stretches closer to each other than this are one \[s\].
-const GAP: f64 = 0.1;
+const MERGE_GAP: f64 = 0.1;
 
 /// A limit counts as reached at this fraction of it.
-const REACHED: f64 = 0.98;
+const REACHED_FRACTION: f64 = 0.98;
 
 /// A quantity's largest fraction of its limit, and the limit in words.
 #[derive(Clone)]
@@ -92,7 +92,7 @@ fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usiz
     for (index, _) in flags.iter().enumerate().filter(|(_, raised)| **raised) {
         let start = index.saturating_sub(1);
         match stretches.last_mut() {
-            Some(last) if times[start] - times[last.1] <= GAP => last.1 = index,
+            Some(last) if times[start] - times[last.1] <= MERGE_GAP => last.1 = index,
             _ => stretches.push((start, index)),
         }
     }
@@ -142,7 +142,7 @@ impl Stretch<'_> {
 /// The limit that came closest, which the soft limits act ahead of.
 fn soft_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     let utilisations = of_safety(run, rig, at).into_iter().chain(of_actuators(run, rig, at)).flatten();
-    closest(utilisations).map_or_else(|| UNKNOWN.into(), |one| format!("ahead of a limit; {}", one.share()))
+    closest(utilisations).map_or_else(|| UNKNOWN_LIMIT.into(), |one| format!("ahead of a limit; {}", one.share()))
 }
 
 /// Of the limits of the safety units: of position, velocity and acceleration.
@@ -189,16 +189,16 @@ fn of_actuators(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
 /// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
 fn reason(kinds: [Vec<Utilisation>; 3]) -> String {
     for utilisations in &kinds {
-        let reached: Vec<&Utilisation> = utilisations.iter().filter(|one| one.fraction >= REACHED).collect();
+        let reached: Vec<&Utilisation> = utilisations.iter().filter(|one| one.fraction >= REACHED_FRACTION).collect();
         if !reached.is_empty() {
             return limits_reached(&reached);
         }
     }
     closest(kinds.into_iter().flatten())
-        .map_or_else(|| UNKNOWN.into(), |one| format!("braking or catching up; {}", one.share()))
+        .map_or_else(|| UNKNOWN_LIMIT.into(), |one| format!("braking or catching up; {}", one.share()))
 }
 
-const UNKNOWN: &str = "no limit is known";
+const UNKNOWN_LIMIT: &str = "no limit is known";
 
 /// The one closest to its limit; none if no limit is known.
 fn closest(utilisations: impl Iterator<Item = Utilisation>) -> Option<Utilisation> {

@@ -10,21 +10,21 @@ use crate::report::data::Report;
 use crate::report::events::{Event, events};
 
 /// Every page: what stands before its own template, its heading, and what follows.
-const HEAD: &str = include_str!("../../page/shared/head.html");
-const HEADING: &str = include_str!("../../page/shared/heading.html");
-const END: &str = include_str!("../../page/shared/scripts.html");
+const HEAD_TEMPLATE: &str = include_str!("../../page/shared/head.html");
+const HEADING_TEMPLATE: &str = include_str!("../../page/shared/heading.html");
+const END_TEMPLATE: &str = include_str!("../../page/shared/scripts.html");
 
-const TEMPLATE: &str = include_str!("../../page/report/page.html");
+const PAGE_TEMPLATE: &str = include_str!("../../page/report/page.html");
 /// The style of every page, whose colours the scripts name.
-const STYLE: &str = include_str!("../../page/shared/style.css");
+const SHARED_STYLE: &str = include_str!("../../page/shared/style.css");
 /// Runs before the other scripts, and says if one of them fails.
-const ALARM: &str = include_str!("../../page/shared/alarm.js");
+const ALARM_SCRIPT: &str = include_str!("../../page/shared/alarm.js");
 /// The source of scripts for a page with a WebAssembly.
 pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
 /// The modules that a report and its worker begin with.
-const ENTRY: &str = "report/main.js";
-const WORKER: &str = "report/worker.js";
+const ENTRY_MODULE: &str = "report/main.js";
+const WORKER_MODULE: &str = "report/worker.js";
 
 /// Differences between the heads of pages.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,13 +43,13 @@ pub struct Head<'a> {
 impl Head<'_> {
     /// All up to the body of a page with these scripts. No other script and style can run.
     pub(crate) fn html(&self, scripts: &[&str]) -> String {
-        let style = format!("\n{STYLE}{}", self.style);
+        let style = format!("\n{SHARED_STYLE}{}", self.style);
         let sources: String = scripts.iter().map(|script| format!("{} ", hash(script))).collect();
         let policy = format!("script-src {sources}{}; {}", self.scripts, self.policy);
         let policy = if scripts.is_empty() { String::new() } else { policy };
         let texts =
             [("title", escaped(self.title)), ("style-hash", hash(&style)), ("policy", policy), ("style", style)];
-        filled(HEAD, &texts)
+        filled(HEAD_TEMPLATE, &texts)
     }
 }
 
@@ -78,7 +78,7 @@ pub fn html(report: &Report) -> String {
     let page = Page {
         report,
         events: report.runs.iter().map(|run| events(run, &report.rig)).collect(),
-        worker: report.simulator.is_some().then(|| format!("\"use strict\";\n{}", bundle(WORKER))),
+        worker: report.simulator.is_some().then(|| format!("\"use strict\";\n{}", bundle(WORKER_MODULE))),
     };
     let head = Head {
         title: &report.title,
@@ -87,7 +87,7 @@ pub fn html(report: &Report) -> String {
         scripts: COMPILED,
         policy: "worker-src blob:",
     };
-    assembled(&head, TEMPLATE, &page, ENTRY)
+    assembled(&head, PAGE_TEMPLATE, &page, ENTRY_MODULE)
 }
 
 /// A page: a head, a template with the heading, then the data, and the script of the module at
@@ -99,10 +99,10 @@ pub fn assembled(head: &Head, template: &str, data: &impl Serialize, entry: &str
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(data).expect("plain data serialise").replace('<', "\\u003c");
     let script = format!("\n(async () => {{\n\"use strict\";\n{}\n}})();\n", bundle(entry));
-    let head_html = head.html(&[ALARM, &script]);
-    let of_end = [("alarm", ALARM.to_owned()), ("data", data), ("script", script)];
-    let heading = filled(HEADING, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);
-    head_html + &filled(template, &[("heading", heading.trim_end().to_owned())]) + &filled(END, &of_end)
+    let head_html = head.html(&[ALARM_SCRIPT, &script]);
+    let of_end = [("alarm", ALARM_SCRIPT.to_owned()), ("data", data), ("script", script)];
+    let heading = filled(HEADING_TEMPLATE, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);
+    head_html + &filled(template, &[("heading", heading.trim_end().to_owned())]) + &filled(END_TEMPLATE, &of_end)
 }
 
 /// The template with every `{{name}}` replaced. The inserted text is not expanded again.

@@ -6,7 +6,7 @@ use serde::Serialize;
 /// Distance between two points of the centre \[m\].
 pub const SPACING: f64 = 2.0;
 /// Parts in which the heading between two points is integrated.
-const PARTS: usize = 8;
+const HEADING_SUBDIVISIONS: usize = 8;
 
 /// Position and heading in the plane, in m and rad, positive to the left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,14 +62,14 @@ impl Circuit {
         let length = table.length();
         let count = (length / SPACING).round() as usize;
         let spacing = length / count as f64;
-        let part = spacing / PARTS as f64;
+        let part = spacing / HEADING_SUBDIVISIONS as f64;
         let mut centre = vec![PlanePose::default()];
-        for k in 0..count * PARTS {
+        for k in 0..count * HEADING_SUBDIVISIONS {
             let here = centre[centre.len() - 1];
             // Of the model, positive to the right.
             let turn = -table.curvature_at((k as f64 + 0.5) * part) * part;
             let next = here.moved(0.0, 0.0, 0.5 * turn).moved(part, 0.0, 0.5 * turn);
-            if k % PARTS == 0 {
+            if k % HEADING_SUBDIVISIONS == 0 {
                 centre.push(next);
             } else {
                 let last = centre.len() - 1;

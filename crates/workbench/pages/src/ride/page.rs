@@ -3,10 +3,10 @@
 use crate::report::{Parameter, Rig, shared};
 use serde::Serialize;
 
-const TEMPLATE: &str = include_str!("../../page/ride/ride.html");
+const PAGE_TEMPLATE: &str = include_str!("../../page/ride/ride.html");
 /// The style of a page with curves, a platform and lamps.
 pub(crate) const STYLE: &str = include_str!("../../page/shared/motion.css");
-const ENTRY: &str = "ride/main.js";
+const ENTRY_MODULE: &str = "ride/main.js";
 
 /// The WebAssembly of the ride, `modules/ride.rs`; empty where it was not compiled.
 pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
@@ -33,5 +33,5 @@ pub struct Page {
 pub fn html(page: &Page) -> String {
     let head =
         shared::Head { title: "Ride", subtitle: &page.subtitle, style: STYLE, scripts: shared::COMPILED, policy: "" };
-    shared::assembled(&head, TEMPLATE, page, ENTRY)
+    shared::assembled(&head, PAGE_TEMPLATE, page, ENTRY_MODULE)
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Steps of the ride to a sample.
 pub const DIVISIONS: usize = 10;
 /// Longest recording \[samples\]: 20 minutes.
-const LONGEST: usize = 120_000;
+const MAX_SAMPLES: usize = 120_000;
 
 /// Inputs of the washout, and the motion that the rider felt.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ impl Recording {
 
     /// Adds a step of the ride.
     pub fn push(&mut self, input: &Input, felt: [f64; 2]) {
-        if self.inputs.len() == LONGEST {
+        if self.inputs.len() == MAX_SAMPLES {
             return;
         }
         for (series, value) in self.felt.iter_mut().zip(felt) {

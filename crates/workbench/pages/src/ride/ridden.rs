@@ -24,7 +24,7 @@ pub struct RiderCommand {
 }
 
 /// Speed above which a motorcycle off the road turns \[m/s\].
-const MOVING: f64 = 0.05;
+const MIN_TURNING_SPEED: f64 = 0.05;
 
 /// A motorcycle on the lap.
 #[derive(Clone, Debug)]
@@ -72,7 +72,7 @@ impl Ridden {
         self.has_ended |= now.fallen || now.off_path;
         self.place = if self.has_ended {
             // Off the path the model counts no distance along it.
-            let turned = if now.speed > MOVING { now.angular_velocity.z * STEP } else { 0.0 };
+            let turned = if now.speed > MIN_TURNING_SPEED { now.angular_velocity.z * STEP } else { 0.0 };
             self.place.moved(now.speed * STEP, now.lateral_velocity * STEP, turned)
         } else {
             self.course.at(now.path_distance, now.path_deviation, now.path_heading)

@@ -17,10 +17,10 @@ pub const STEP: f64 = 0.001;
 pub const HALF_WIDTH: f64 = 4.0;
 
 /// The platform counts as neutral within these distances and speeds, in m, rad and s.
-const NEUTRAL: f64 = 2e-3;
-const STILL: f64 = 5e-3;
+const NEUTRAL_TOLERANCE: f64 = 2e-3;
+const STANDSTILL_TOLERANCE: f64 = 5e-3;
 /// Longest time to wait for the platform at neutral \[s\].
-const PATIENCE: f64 = 20.0;
+const NEUTRAL_TIMEOUT: f64 = 20.0;
 
 /// Where a ride is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,7 +236,7 @@ impl Ride {
     fn exchange_washout(&mut self) {
         let at_rest = matches!(self.stage, Stage::Ready | Stage::Returning);
         let has_faded = self.washout.engagement() == 0.0 || self.stage == Stage::Ready;
-        if self.next.is_none() || !(has_faded && self.is_neutral() || self.disengaged > PATIENCE) {
+        if self.next.is_none() || !(has_faded && self.is_neutral() || self.disengaged > NEUTRAL_TIMEOUT) {
             return;
         }
         let Some(next) = self.next.take() else { return };
@@ -252,9 +252,9 @@ impl Ride {
         let height = self.parameters.rig.neutral_height;
         let moved = [now.position.x, now.position.y, now.position.z - height];
         let turn = now.orientation;
-        moved.into_iter().chain([turn.roll, turn.pitch, turn.yaw]).all(|value| value.abs() < NEUTRAL)
-            && now.velocity.norm() < STILL
-            && now.angular_velocity.norm() < STILL
+        moved.into_iter().chain([turn.roll, turn.pitch, turn.yaw]).all(|value| value.abs() < NEUTRAL_TOLERANCE)
+            && now.velocity.norm() < STANDSTILL_TOLERANCE
+            && now.angular_velocity.norm() < STANDSTILL_TOLERANCE
     }
 
     fn update_lamps(&mut self) {
