@@ -113,9 +113,9 @@ impl VariableInfo {
         value >= self.lower && value <= self.upper
     }
 
-    /// Checks that the variable accepts `value`. Rounding in a host must not end a simulation, so the
-    /// model takes a real input beyond its range as the range's end. A fraction counts as the nearest
-    /// whole number where only these make sense. A parameter has to be such a number.
+    /// Checks that the variable accepts `value`. Rounding in a host must not end a simulation, so
+    /// the model takes a real input beyond its range as the range's end. A fraction counts as the
+    /// nearest whole number where only these make sense. A parameter has to be such a number.
     pub fn accepts(&self, value: f64) -> bool {
         let is_real_input = matches!((self.role, self.value_type), (Role::Input { .. }, ValueType::Real));
         self.contains(value) && (!self.whole || value.fract() == 0.0) || is_real_input && value.is_finite()

@@ -95,8 +95,8 @@ pub trait Group: Default + 'static {
     /// The values forced into their ranges: a number outside counts as the nearest end, and what is
     /// not a number as the start value.
     fn sanitized(&self) -> Self;
-    /// Sets the variable of this name, as the FMU has it: `scale.specificForce.x`, say. Booleans are
-    /// 0 and 1, enumerations and integers whole numbers.
+    /// Sets the variable of this name, as the FMU has it: `scale.specificForce.x`, say. Booleans
+    /// are 0 and 1, enumerations and integers whole numbers.
     ///
     /// # Errors
     /// There is no such variable, or it cannot have this value. Then nothing has changed.
