@@ -274,7 +274,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (device, interval, time_out, place) = if options.frames == moog::NAME {
         sink.listen()?;
         // The base itself goes from its home to neutral.
-        (Device::moog(), moog::INTERVAL, None, LegPlace::own())
+        (Device::moog(rig), moog::INTERVAL, None, LegPlace::own())
     } else {
         let template = tables::frames(&options.frames)?;
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;

@@ -2,18 +2,29 @@
 //!
 //! | state | sent, if the base is wanted up | sent, if it is wanted down |
 //! |---|---|---|
-//! | power up | DOF mode | DOF mode |
-//! | idle | engage, at neutral; after a fault only when a person has started again | new position, at neutral |
-//! | standby | new position, at neutral | park |
+//! | power up | DOF mode, once the packets' pose is neutral | the same |
+//! | idle | engage, once the packets' pose is neutral; after a fault only when a person has started again | new position |
+//! | standby | new position | park |
 //! | engaged | new position | park |
-//! | parking | new position, at neutral | new position, at neutral |
-//! | a fault, disabled, inhibited | new position, at neutral; a fault for the session | the same |
+//! | parking | new position | new position |
+//! | a fault, disabled, inhibited | new position; a fault for the session | the same |
 //!
-//! The base itself moves from its home to neutral. Then its pose fades in from neutral, so that it
-//! does not matter how long that takes. A fault is reset by a person at the base.
+//! A state counts once [`CONFIRMING_ANSWERS`] answers in a row have it: a single wrong answer changes
+//! nothing. The base itself moves from its home to neutral. Then its pose fades in from neutral, so
+//! that it does not matter how long that takes. In all other states it fades out again, as the base
+//! may still follow. [`Moog::faded`] has the pose with the lengths that it asks of the legs, so that
+//! the limits of the legs' frames hold for packets, too: nothing changes a pose after them.
+//!
+//! A fault is reset by a person at the base.
 //!
 //! Layout, commands and states are those of two public programs for this base. No base has verified
 //! them.
+
+use moris_washout::Rig;
+use moris_washout::interface::RollPitchYaw;
+use moris_washout::motion::orientation::Orientation;
+use moris_washout::platform::{Geometry, Pose, leg_lengths};
+use nalgebra::Vector3;
 
 use crate::frame::Values;
 use crate::transitions::Event;
@@ -24,10 +35,14 @@ pub const NAME: &str = "moog-6dof2000e";
 pub const ABOUT: &str = "Motion base MOOG 6DOF2000E by UDP, which answers with its state";
 /// Time between packets \[s\].
 pub const INTERVAL: f64 = 1.0 / 60.0;
-/// Packets for which the pose fades in: 3 s.
-const FADE: u32 = 180;
-/// Packets without an answer after which the base counts as lost: 0.5 s.
-const PATIENCE: u32 = 30;
+/// Packets for which the pose fades in or out: 3 s.
+const FADE_PACKETS: u32 = 180;
+/// Packets without an answer that confirms a state, after which the base counts as lost: 0.5 s.
+const ANSWER_TIMEOUT_PACKETS: u32 = 30;
+/// Equal answers in a row with which a state counts: 50 ms.
+pub const CONFIRMING_ANSWERS: u32 = 3;
+/// Largest number of a packet's pose that counts as neutral \[m, rad\].
+const NEUTRAL_TOLERANCE: f64 = 1e-4;
 /// Length of an answer, and of a packet \[bytes\].
 const ANSWER: usize = 40;
 const PACKET: usize = 32;
@@ -78,31 +93,52 @@ impl Base {
 }
 
 /// The program's side of the connection.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moog {
+    geometry: Geometry,
+    /// Height of neutral in the geometry \[m\].
+    neutral_height: f64,
     base: Option<Base>,
-    /// Packets sent since the last answer.
+    /// State of the last answers, and how many have it.
+    answered: Option<(Base, u32)>,
+    /// Packets sent since an answer has confirmed a state.
     unanswered: u32,
-    /// Packets sent since the base is engaged.
-    engaged: u32,
+    /// Packets of the fade that have passed.
+    faded_packets: u32,
     /// After a fault the base is not engaged until a person starts it again.
     waits: bool,
 }
 
 impl Moog {
+    /// A base with the geometry of this rig.
+    pub fn new(rig: &Rig) -> Self {
+        Moog {
+            geometry: Geometry::from(rig),
+            neutral_height: rig.neutral_height,
+            base: None,
+            answered: None,
+            unanswered: 0,
+            faded_packets: 0,
+            waits: false,
+        }
+    }
+
     /// A person starts the base.
     pub fn start(&mut self) {
         self.waits = false;
     }
 
-    /// Takes an answer. A fault, if the base has failed or left its state by itself.
+    /// Takes an answer. A fault, if the base has failed or left its state by itself, as
+    /// [`CONFIRMING_ANSWERS`] say.
     pub fn receive(&mut self, answer: &[u8]) -> Option<Event> {
         let base = Base::of(answer)?;
+        let count = self.answered.filter(|(last, _)| *last == base).map_or(1, |(_, count)| count.saturating_add(1));
+        self.answered = Some((base, count));
+        if count < CONFIRMING_ANSWERS && self.base != Some(base) {
+            return None;
+        }
         self.unanswered = 0;
         let before = self.base.replace(base);
-        if base != Base::Engaged {
-            self.engaged = 0;
-        }
         // A base that leaves its state by itself is no longer where the session thinks it is.
         let has_left = before == Some(Base::Engaged) && !matches!(base, Base::Engaged | Base::Parking);
         let has_failed = base == Base::Failed && before != Some(Base::Failed);
@@ -110,35 +146,50 @@ impl Moog {
         (has_left || has_failed).then_some(Event::Fault)
     }
 
-    /// The next packet, and a fault if the base is silent. `is_up`: the base is wanted at neutral
-    /// or moving.
-    pub fn send(&mut self, is_up: bool, values: &Values) -> ([u8; PACKET], Option<Event>) {
-        self.unanswered = self.unanswered.saturating_add(1);
-        let silent = self.unanswered == PATIENCE;
-        if silent {
-            (self.base, self.waits) = (None, true);
-        }
-        let (command, moves) = match (self.base, is_up) {
-            (Some(Base::PowerUp), _) => (Command::DofMode, false),
-            (Some(Base::Idle), true) if !self.waits => (Command::Engage, false),
-            (Some(Base::Standby | Base::Engaged), false) => (Command::Park, false),
-            (Some(Base::Engaged), true) => (Command::NewPosition, true),
-            _ => (Command::NewPosition, false),
-        };
-        self.engaged = match self.base {
-            _ if moves => (self.engaged + 1).min(FADE),
-            // It may receive, and follow, although its answers are lost.
-            None => self.engaged.saturating_sub(1),
-            Some(_) => 0,
-        };
-        let part = f64::from(self.engaged) / f64::from(FADE);
+    /// The values of the next packet: this part of the pose, and the lengths of the legs for it.
+    pub fn faded(&self, values: &Values) -> Values {
+        let part = f64::from(self.faded_packets) / f64::from(FADE_PACKETS);
         let part = part * part * (3.0 - 2.0 * part);
-        (packet(command, part, values), silent.then_some(Event::Fault))
+        let mut faded = *values;
+        faded.pose = values.pose.map(|number| part * number);
+        faded.heave_above = part * values.heave_above;
+        faded.velocity = values.velocity.map(|speed| part * speed);
+        let [x, y, _, roll, pitch, yaw] = faded.pose;
+        let pose = Pose {
+            position: Vector3::new(x, y, self.neutral_height + faded.heave_above),
+            orientation: Orientation::new(RollPitchYaw::new(roll, pitch, yaw)),
+        };
+        faded.length = leg_lengths(&self.geometry, &pose);
+        faded
     }
 
-    /// The packet at the end: home, under power.
-    pub fn last() -> [u8; PACKET] {
-        packet(Command::Park, 0.0, &Values::default())
+    /// The next packet, and a fault if the base is silent. `is_up`: the base is wanted at neutral
+    /// or moving. The values are those of [`Moog::faded`] within the limits of the legs.
+    pub fn send(&mut self, is_up: bool, values: &Values) -> ([u8; PACKET], Option<Event>) {
+        self.unanswered = self.unanswered.saturating_add(1);
+        let silent = self.unanswered == ANSWER_TIMEOUT_PACKETS;
+        if silent {
+            (self.base, self.answered, self.waits) = (None, None, true);
+        }
+        let is_neutral = pose_numbers(values).iter().all(|number| number.abs() < NEUTRAL_TOLERANCE);
+        let command = match (self.base, is_up) {
+            (Some(Base::PowerUp), _) if is_neutral => Command::DofMode,
+            (Some(Base::Idle), true) if is_neutral && !self.waits => Command::Engage,
+            (Some(Base::Standby | Base::Engaged), false) => Command::Park,
+            _ => Command::NewPosition,
+        };
+        // A base that follows no more, as its answers say, may follow all the same.
+        self.faded_packets = if self.base == Some(Base::Engaged) && is_up {
+            (self.faded_packets + 1).min(FADE_PACKETS)
+        } else {
+            self.faded_packets.saturating_sub(1)
+        };
+        (packet(command, values), silent.then_some(Event::Fault))
+    }
+
+    /// The packet at the end: home, under power, from the last packet's pose.
+    pub fn last(values: &Values) -> [u8; PACKET] {
+        packet(Command::Park, values)
     }
 
     /// The state of the base, if it answers.
@@ -147,14 +198,19 @@ impl Moog {
     }
 }
 
-/// A packet with this part of the pose. The base has x forward, y right, z down.
-fn packet(command: Command, part: f64, values: &Values) -> [u8; PACKET] {
+/// The numbers of a packet: roll, pitch, heave, surge, yaw and lateral. The base has x forward, y
+/// right, z down.
+fn pose_numbers(values: &Values) -> [f64; 6] {
     let [x, y, _, roll, pitch, yaw] = values.pose;
-    let pose = [roll, -pitch, -values.heave_above, x, -yaw, -y].map(|value| ((part * value) as f32).to_be_bytes());
+    [roll, -pitch, -values.heave_above, x, -yaw, -y]
+}
+
+fn packet(command: Command, values: &Values) -> [u8; PACKET] {
     let mut packet = [0; PACKET];
     packet[..4].copy_from_slice(&(command as u32).to_be_bytes());
-    for (place, value) in packet[4..28].chunks_exact_mut(4).zip(pose) {
-        place.copy_from_slice(&value);
+    for (place, value) in packet[4..28].chunks_exact_mut(4).zip(pose_numbers(values)) {
+        // Zero of either sign is neutral.
+        place.copy_from_slice(&(value as f32 + 0.0).to_be_bytes());
     }
     packet
 }
@@ -170,8 +226,26 @@ mod tests {
         answer
     }
 
+    fn base() -> Moog {
+        Moog::new(&Rig::default())
+    }
+
     fn values() -> Values {
         Values { pose: [0.1, 0.2, 9.0, 0.01, 0.02, 0.03], heave_above: 0.3, ..Values::default() }
+    }
+
+    /// As many answers as confirm a state: what they cause.
+    fn confirm(moog: &mut Moog, state: u8) -> Option<Event> {
+        (0..CONFIRMING_ANSWERS).fold(None, |event, _| moog.receive(&answer(state)).or(event))
+    }
+
+    fn sent(moog: &mut Moog, is_up: bool) -> [u8; PACKET] {
+        let faded = moog.faded(&values());
+        moog.send(is_up, &faded).0
+    }
+
+    fn heave(moog: &mut Moog) -> f32 {
+        numbers(&sent(moog, true))[2]
     }
 
     fn command(packet: &[u8]) -> u32 {
@@ -184,7 +258,7 @@ mod tests {
 
     #[test]
     fn a_packet_has_the_layout_of_the_base() {
-        let packet = packet(Command::NewPosition, 1.0, &values());
+        let packet = packet(Command::NewPosition, &values());
         assert_eq!(command(&packet), 130);
         assert_eq!(packet[28..], [0; 4]);
         // Roll, pitch, heave, surge, yaw, lateral; z down and y right.
@@ -204,25 +278,41 @@ mod tests {
             (0xB, 130, 130),
         ] {
             for (is_up, expected) in [(true, up), (false, down)] {
-                let mut moog = Moog::default();
-                moog.receive(&answer(state));
-                let (packet, _) = moog.send(is_up, &values());
+                let mut moog = base();
+                confirm(&mut moog, state);
+                let packet = sent(&mut moog, is_up);
                 assert_eq!(command(&packet), expected, "{state:#x} {is_up}");
-                if state != 0x3 {
-                    assert!(numbers(&packet).iter().all(|number| *number == 0.0), "{state:#x}");
-                }
+                assert!(numbers(&packet).iter().all(|number| *number == 0.0), "{state:#x}");
             }
         }
     }
 
+    /// The lengths of a pose on the default rig, from the formula of the inverse kinematics.
+    #[test]
+    fn the_lengths_are_those_of_the_faded_pose() {
+        let mut moog = base();
+        confirm(&mut moog, 0x3);
+        for _ in 0..FADE_PACKETS {
+            confirm(&mut moog, 0x3);
+            sent(&mut moog, true);
+        }
+        let rig = Rig::default();
+        let faded = moog.faded(&values());
+        let pose = Pose {
+            position: Vector3::new(0.1, 0.2, rig.neutral_height + 0.3),
+            orientation: Orientation::new(RollPitchYaw::new(0.01, 0.02, 0.03)),
+        };
+        assert_eq!(faded.length, leg_lengths(&Geometry::from(&rig), &pose));
+        assert_eq!(base().faded(&values()).length, leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig)));
+    }
+
     #[test]
     fn the_pose_fades_in_once_the_base_is_engaged() {
-        let mut moog = Moog::default();
-        moog.receive(&answer(0x3));
+        let mut moog = base();
         let mut before = 0.0;
-        for _ in 0..180 {
+        for _ in 0..183 {
             moog.receive(&answer(0x3));
-            let heave = numbers(&moog.send(true, &values()).0)[2];
+            let heave = heave(&mut moog);
             // At most 0.15 m/s for 0.3 m.
             assert!((0.0..0.0026).contains(&(before - heave)), "{before} {heave}");
             before = heave;
@@ -234,10 +324,10 @@ mod tests {
     #[test]
     fn the_pose_takes_three_seconds_and_silence_half_a_second() {
         assert_eq!((1.0 / INTERVAL).round(), 60.0);
-        let mut moog = Moog::default();
-        moog.receive(&answer(0x3));
+        let mut moog = base();
+        confirm(&mut moog, 0x3);
         let mut time = 0.0;
-        while numbers(&moog.send(true, &values()).0)[2] > -0.3 {
+        while heave(&mut moog) > -0.3 {
             moog.receive(&answer(0x3));
             time += INTERVAL;
         }
@@ -249,44 +339,110 @@ mod tests {
         assert!((silent - 0.5).abs() < 0.05, "{silent} s");
     }
 
+    /// Whatever the base answers, no packet is far from the one before it: at most 0.15 m/s.
+    fn assert_no_jump(before: &mut f32, heave: f32) {
+        assert!((heave - *before).abs() < 0.0026, "{before} {heave}");
+        *before = heave;
+    }
+
     #[test]
     fn a_base_whose_answers_are_lost_gets_no_jump() {
-        let mut moog = Moog::default();
+        let mut moog = base();
+        let mut before = 0.0;
         for _ in 0..200 {
             moog.receive(&answer(0x3));
-            moog.send(true, &values());
+            assert_no_jump(&mut before, heave(&mut moog));
         }
-        let mut before = -0.3;
         let mut heaves = Vec::new();
         for k in 0..400 {
             // They come back after 2 s.
             if k > 120 {
                 moog.receive(&answer(0x3));
             }
-            let heave = numbers(&moog.send(true, &values()).0)[2];
-            assert!((heave - before).abs() < 0.0026, "{before} {heave}");
-            before = heave;
-            heaves.push(heave);
+            assert_no_jump(&mut before, heave(&mut moog));
+            heaves.push(before);
         }
         assert!(heaves[120] > -0.2 && before == -0.3, "{heaves:?}");
     }
 
+    /// One wrong answer at each moment of the fade and after it, and two alike.
+    #[test]
+    fn a_single_wrong_answer_changes_nothing() {
+        for wrong in (0x0..=0xF).filter(|state| *state != 0x3) {
+            for moment in (3..240).step_by(13) {
+                for count in 1..CONFIRMING_ANSWERS {
+                    let (mut moog, mut right) = (base(), base());
+                    for k in 0..260 {
+                        let is_wrong = (moment..moment + count).contains(&k);
+                        let event = moog.receive(&answer(if is_wrong { wrong } else { 0x3 }));
+                        right.receive(&answer(0x3));
+                        assert_eq!(event, None, "{wrong:#x}");
+                        assert_eq!(sent(&mut moog, true), sent(&mut right, true), "{wrong:#x} at {moment}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// A base that really leaves its state: the pose fades out, and no mode command precedes that.
+    #[test]
+    fn every_other_state_fades_the_pose_out() {
+        for state in (0x0..=0xF).filter(|state| *state != 0x3) {
+            let (mut moog, mut before) = (base(), 0.0);
+            for _ in 0..200 {
+                moog.receive(&answer(0x3));
+                assert_no_jump(&mut before, heave(&mut moog));
+            }
+            assert_eq!(before, -0.3);
+            let mut events = Vec::new();
+            for _ in 0..200 {
+                events.extend(moog.receive(&answer(state)));
+                let packet = sent(&mut moog, true);
+                assert!(command(&packet) == 130 || numbers(&packet).iter().all(|number| number.abs() < 1e-3));
+                assert_no_jump(&mut before, numbers(&packet)[2]);
+            }
+            assert_eq!(before, 0.0, "{state:#x}");
+            // Parking is what a person asks for at the base.
+            assert_eq!(events.len(), usize::from(state != 0x7), "{state:#x}");
+        }
+    }
+
+    /// Answers that never agree are no answers.
+    #[test]
+    fn answers_that_change_each_time_are_silence() {
+        let mut moog = base();
+        confirm(&mut moog, 0x3);
+        let mut faults = 0;
+        for k in 0..60 {
+            moog.receive(&answer(if k % 2 == 0 { 0x1 } else { 0x8 }));
+            faults += usize::from(moog.send(true, &values()).1.is_some());
+        }
+        assert_eq!((faults, moog.base()), (1, None));
+    }
+
     #[test]
     fn faults_and_silence_are_reported_once() {
-        let mut moog = Moog::default();
-        assert_eq!(moog.receive(&answer(0x3)), None);
-        assert_eq!(moog.receive(&answer(0x8)), Some(Event::Fault));
-        assert_eq!(moog.receive(&answer(0x9)), None);
-        assert_eq!(moog.receive(&answer(0x3)), None);
-        assert_eq!(moog.receive(&answer(0x1)), Some(Event::Fault));
-        let faults = (0..200).filter_map(|_| moog.send(true, &values()).1).count();
+        let mut moog = base();
+        assert_eq!(confirm(&mut moog, 0x3), None);
+        assert_eq!(confirm(&mut moog, 0x8), Some(Event::Fault));
+        assert_eq!(confirm(&mut moog, 0x9), None);
+        assert_eq!(confirm(&mut moog, 0x3), None);
+        assert_eq!(confirm(&mut moog, 0x1), Some(Event::Fault));
+        let faults = (0..200).filter_map(|_| moog.send(true, &Values::default()).1).count();
         assert_eq!((faults, moog.base()), (1, None));
         assert_eq!(moog.receive(&[0; 39]), None);
         // After a fault only a person makes it engage again.
-        moog.receive(&answer(0x1));
-        assert_eq!(command(&moog.send(true, &values()).0), 130);
+        confirm(&mut moog, 0x1);
+        assert_eq!(command(&sent(&mut moog, true)), 130);
         moog.start();
-        assert_eq!(command(&moog.send(true, &values()).0), 180);
+        assert_eq!(command(&sent(&mut moog, true)), 180);
         assert_eq!(moog.receive(&[]), None);
+    }
+
+    #[test]
+    fn the_last_packet_has_the_pose_of_the_one_before_it() {
+        let packet = Moog::last(&values());
+        assert_eq!(command(&packet), 210);
+        assert_eq!(numbers(&packet), [0.01, -0.02, -0.3, 0.1, -0.03, -0.2]);
     }
 }

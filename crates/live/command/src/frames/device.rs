@@ -3,6 +3,7 @@
 use moris_live::Event;
 use moris_live::frame::{Encoder, Values};
 use moris_live::moog::Moog;
+use moris_washout::Rig;
 
 use super::Message;
 
@@ -16,9 +17,17 @@ pub enum Device {
 }
 
 impl Device {
-    /// The motion base.
-    pub fn moog() -> Self {
-        Device::Moog { moog: Moog::default(), is_up: false }
+    /// The motion base, with the geometry of this rig.
+    pub fn moog(rig: &Rig) -> Self {
+        Device::Moog { moog: Moog::new(rig), is_up: false }
+    }
+
+    /// The values that the device is to follow, before the limits of the legs' frames.
+    pub fn followed(&self, values: &Values) -> Values {
+        match self {
+            Device::Template(_) => *values,
+            Device::Moog { moog, .. } => moog.faded(values),
+        }
     }
 
     /// Number of times that a message is sent: an answering base has no time-out that is known,
@@ -42,7 +51,7 @@ impl Device {
             Device::Moog { moog, is_up } => {
                 out.clear();
                 let (packet, fault) = if message == Message::Stop {
-                    (Moog::last(), None)
+                    (Moog::last(values), None)
                 } else {
                     let starts = matches!(message, Message::Start | Message::Begin);
                     if starts {
@@ -81,5 +90,43 @@ impl Device {
             Device::Template(_) => None,
             Device::Moog { moog, .. } => moog.receive(answer),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use moris_live::moog::INTERVAL;
+
+    use super::*;
+    use crate::live::wire::{Actuators, Wire};
+
+    /// Commands that jump by 0.3 m, as by an error somewhere before: what the base is sent.
+    #[test]
+    fn a_pose_is_under_the_limit_of_the_legs() {
+        let rig = Rig::default();
+        let mut device = Device::moog(&rig);
+        let stroke = [rig.min_length, rig.max_length];
+        let actuators = Actuators { speed: rig.velocity_limit, acceleration: rig.acceleration_limit, stroke };
+        let mut wire = Wire::new(INTERVAL, actuators);
+        let mut answer = [0; 40];
+        answer[11] = 0x23;
+        let (mut bytes, mut before, mut fastest) = (Vec::new(), 0.0, 0.0_f64);
+        device.bytes(Message::Start, &Values::default(), &mut bytes);
+        for k in 0..1200 {
+            device.receive(&answer);
+            let heave_above = if k / 300 % 2 == 0 { 0.15 } else { -0.15 };
+            let commanded = Values { time: f64::from(k) * INTERVAL, heave_above, ..Values::default() };
+            let now = Duration::from_secs_f64(commanded.time);
+            let values = wire.pass(now, &device.followed(&commanded));
+            device.bytes(Message::Frame, &values, &mut bytes);
+            let heave = f64::from(f32::from_be_bytes(bytes[12..16].try_into().unwrap()));
+            fastest = fastest.max((heave - before).abs() / INTERVAL);
+            before = heave;
+        }
+        // The legs of the default rig are steep: a heave is nearly their own way.
+        assert!(fastest <= 1.2 * rig.velocity_limit, "{fastest} m/s");
+        assert!((before - 0.15).abs() < 1e-3, "{before} m");
     }
 }

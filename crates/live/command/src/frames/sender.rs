@@ -157,7 +157,7 @@ impl<'a> Sender<'a> {
         let mut values = *values;
         let interval = self.wire.interval();
         let end = pace::now() + LONGEST_ARRIVAL;
-        while !self.wire.is_at(&values) && !self.contact.is_lost() && pace::now() < end {
+        while !self.wire.is_at(&self.device.followed(&values)) && !self.contact.is_lost() && pace::now() < end {
             std::thread::sleep(Duration::from_secs_f64(interval));
             values.time += interval;
             let fault = self.take(Message::Frame, &values);
@@ -200,9 +200,12 @@ impl<'a> Sender<'a> {
                     return None;
                 }
             }
-            values = self.wire.pass(now, &values);
+            let commanded = values.length;
+            // Whatever changes values does so before their limits.
+            values = self.wire.pass(now, &self.device.followed(&values));
             self.last = values;
-            self.sent.last = Some(values.length);
+            // A base that goes its own way parks where the commands do.
+            self.sent.last = Some(if self.device.answers() { commanded } else { values.length });
         }
         self.deliver(message, &values)
     }

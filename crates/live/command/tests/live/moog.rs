@@ -2,7 +2,7 @@
 
 use std::net::UdpSocket;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -14,8 +14,21 @@ const MOVING: u32 = 40;
 /// A packet: its command and its six numbers.
 type Packet = (u32, [f32; 6]);
 
+/// What a test and the base tell each other.
+#[derive(Default)]
+struct Told {
+    fails: AtomicBool,
+    /// Times that it has been engaged.
+    engaged: AtomicU32,
+    /// It has been moved by 5 mm or 0.3 degrees.
+    has_moved: AtomicBool,
+    /// State of the next answer, in the place of the true one; 0xFF: none.
+    lie: AtomicU8,
+}
+
 /// A base that answers each packet with its state, until it is parked or no packet comes.
-fn base(socket: &UdpSocket, fails: &AtomicBool, engaged: &AtomicU32, has_moved: &AtomicBool) -> Vec<Packet> {
+fn base(socket: &UdpSocket, told: &Told) -> Vec<Packet> {
+    let Told { fails, engaged, has_moved, lie } = told;
     let (mut state, mut moved) = (0_u8, 0);
     let mut packets = Vec::new();
     let mut bytes = [0; 64];
@@ -46,7 +59,8 @@ fn base(socket: &UdpSocket, fails: &AtomicBool, engaged: &AtomicU32, has_moved: 
             engaged.fetch_add(u32::from(command == 180), Ordering::Relaxed);
         }
         let mut answer = [0; 40];
-        answer[11] = 0x20 | state;
+        let said = Some(lie.swap(0xFF, Ordering::Relaxed)).filter(|lie| *lie != 0xFF).unwrap_or(state);
+        answer[11] = 0x20 | said;
         socket.send_to(&answer, from).unwrap();
     }
     packets
@@ -55,37 +69,23 @@ fn base(socket: &UdpSocket, fails: &AtomicBool, engaged: &AtomicU32, has_moved: 
 struct Session {
     live: Live,
     base: thread::JoinHandle<Vec<Packet>>,
-    fails: Arc<AtomicBool>,
-    /// Times that it has been engaged.
-    engaged: Arc<AtomicU32>,
-    /// It has been moved by 5 mm or 0.3 degrees.
-    moved: Arc<AtomicBool>,
+    told: Arc<Told>,
 }
 
 fn start(directory: &std::path::Path, port: u16, arguments: &[&str]) -> Session {
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     socket.set_read_timeout(Some(Duration::from_secs(2))).unwrap();
     let to = format!("udp:{}", socket.local_addr().unwrap());
-    let fails = Arc::new(AtomicBool::new(false));
-    let failing = Arc::clone(&fails);
-    let engaged = Arc::new(AtomicU32::new(0));
-    let engaging = Arc::clone(&engaged);
-    let moved = Arc::new(AtomicBool::new(false));
-    let moving = Arc::clone(&moved);
+    let told = Arc::new(Told { lie: AtomicU8::new(0xFF), ..Told::default() });
+    let of_base = Arc::clone(&told);
     // Before the first packet the base waits for as long as the command takes to start.
     let base = thread::spawn(move || {
         while socket.peek(&mut [0; 64]).is_err() {}
-        base(&socket, &failing, &engaging, &moving)
+        base(&socket, &of_base)
     });
     let arguments = [&["--format", "csv", "--frames", "moog-6dof2000e"], arguments].concat();
     let nothing = thread::spawn(Vec::new);
-    Session {
-        live: Live::with(directory, &format!("udp:{port}"), &to, &arguments, nothing),
-        base,
-        fails,
-        engaged,
-        moved,
-    }
+    Session { live: Live::with(directory, &format!("udp:{port}"), &to, &arguments, nothing), base, told }
 }
 
 /// Each command once for each run of it.
@@ -99,13 +99,18 @@ fn runs(packets: &[Packet]) -> Vec<u32> {
 fn the_base_goes_up_follows_and_goes_home_at_a_stop() {
     let directory = tempfile::tempdir().unwrap();
     let port = free_port();
-    let Session { mut live, base, moved, .. } = start(directory.path(), port, &["--engage"]);
+    let Session { mut live, base, told } = start(directory.path(), port, &["--engage"]);
     let is_running = AtomicBool::new(true);
     thread::scope(|scope| {
         scope.spawn(|| vehicle(port, &is_running));
         live.wait_for("engaging");
-        while !moved.load(Ordering::Relaxed) {
+        while !told.has_moved.load(Ordering::Relaxed) {
             thread::sleep(Duration::from_millis(10));
+        }
+        // Each other state once, in a base that follows.
+        for state in [0x0, 0x1, 0x2, 0x7, 0x9] {
+            told.lie.store(state, Ordering::Relaxed);
+            thread::sleep(Duration::from_millis(100));
         }
         is_running.store(false, Ordering::Relaxed);
     });
@@ -122,25 +127,27 @@ fn the_base_goes_up_follows_and_goes_home_at_a_stop() {
             assert!((after - before).abs() < 0.05, "{pair:?}");
         }
     }
-    // At rest at neutral wherever it does not follow.
-    assert!(packets.iter().filter(|packet| packet.0 != 130).all(|packet| packet.1 == [0.0; 6]));
+    // At rest at neutral wherever it does not follow; the way home begins where it is.
+    assert!(packets.iter().filter(|packet| [170, 180].contains(&packet.0)).all(|packet| packet.1 == [0.0; 6]));
+    let home = packets.iter().position(|packet| packet.0 == 210).unwrap();
+    assert_eq!(packets[home].1, packets[home - 1].1);
 }
 
 #[test]
 fn a_base_that_fails_is_engaged_again_by_a_person_only() {
     let directory = tempfile::tempdir().unwrap();
-    let Session { mut live, base, fails, engaged, .. } = start(directory.path(), free_port(), &[]);
+    let Session { mut live, base, told } = start(directory.path(), free_port(), &[]);
     live.command("start");
     live.wait_for("neutral");
-    fails.store(true, Ordering::Relaxed);
+    told.fails.store(true, Ordering::Relaxed);
     live.wait_for("Repair it, then clear");
     live.wait_for("fault");
-    fails.store(false, Ordering::Relaxed);
+    told.fails.store(false, Ordering::Relaxed);
     live.command("engage");
     live.wait_for("refused: engage does nothing in the state fault");
     live.command("clear");
     live.wait_for("neutral");
-    while engaged.load(Ordering::Relaxed) < 2 {
+    while told.engaged.load(Ordering::Relaxed) < 2 {
         thread::sleep(Duration::from_millis(10));
     }
     live.command("stop");

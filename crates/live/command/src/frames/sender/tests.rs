@@ -3,6 +3,7 @@
 use std::net::UdpSocket;
 
 use moris_live::frame::{self, Encoder};
+use moris_washout::Rig;
 use rtrb::RingBuffer;
 
 use super::*;
@@ -107,7 +108,8 @@ fn a_loss_that_the_loop_has_no_room_for_is_reported_later() {
     let shared = Shared::default();
     let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
     let (ring, messages) = RingBuffer::new(1);
-    let mut sender = Sender::new(messages, Device::moog(), Sink::Dry, orders, (0.01, actuators), &shared);
+    let mut sender =
+        Sender::new(messages, Device::moog(&Rig::default()), Sink::Dry, orders, (0.01, actuators), &shared);
     sender.report(Loss::Device);
     drop(ring);
     assert!(matches!(reported.pop(), Ok(Order::Report(_))));
@@ -178,7 +180,7 @@ fn csv() -> Device {
 
 #[test]
 fn an_error_while_sending_costs_a_frame_and_fails_the_session() {
-    for device in [csv(), Device::moog()] {
+    for device in [csv(), Device::moog(&Rig::default())] {
         let shared = Shared::default();
         let (sent, _) = sent_to(Sink::Panicking(std::cell::Cell::new(0)), device, 20, &shared);
         assert!(shared.failed.has(Part::Frames));
