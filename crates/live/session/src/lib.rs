@@ -10,6 +10,8 @@
 //! | [`session`] | the whole: events in, commands out, one step |
 //! | [`source`] | health of the telemetry: pause, silence, bad samples, teleports |
 //! | [`clock`] | time of a sample from its packet's clock or its arrival |
+//! | [`clock_pace`] | how fast a packet's clock runs beside the arrivals |
+//! | [`standing`] | pauses in which a source sends on |
 //! | [`attitude`] | attitudes compared as rotations |
 //! | [`spikes`] | samples that no vehicle causes |
 //! | [`gaps`] | times between samples, from which the delay follows |
@@ -20,6 +22,8 @@
 //! | [`travel`] | the way between the settled pose and neutral |
 //! | [`tuning`] | parameters that glide to chosen values |
 //! | [`signs`] | test of the telemetry's signs |
+//! | [`sizes`] | test of its units, axes and gravity |
+//! | [`relation`] | how two signals go together |
 //! | [`format`](mod@format) | packets of telemetry, described by tables |
 //! | [`moog`] | the motion base MOOG 6DOF2000E |
 //! | [`frame`] | frames to actuators, described by templates |
@@ -48,6 +52,7 @@
 
 pub mod attitude;
 pub mod clock;
+pub mod clock_pace;
 pub mod format;
 pub mod frame;
 pub mod gaps;
@@ -56,17 +61,20 @@ pub mod legs;
 pub mod log;
 pub mod moog;
 pub mod motion;
+pub mod relation;
 pub mod resampler;
 pub mod road;
 pub mod session;
 pub mod signs;
+pub mod sizes;
 pub mod source;
 pub mod spikes;
+pub mod standing;
 pub mod transitions;
 pub mod travel;
 pub mod tuning;
 
 pub use legs::Legs;
 pub use motion::{Motion, Sample};
-pub use session::{Commands, Refusal, STEP, Session, Settings};
+pub use session::{Commands, Objection, Refusal, STEP, Session, Settings};
 pub use transitions::{Event, State};

@@ -6,7 +6,7 @@
 
 use std::fmt::{self, Display, Formatter, Write};
 
-use moris_interface::{Group, Reader, Slot, slots_of};
+use moris_interface::{Group, Kind, ParameterError, Reader, Slot, refuse, slots_of};
 use moris_laps::Laps;
 use moris_washout::Parameters;
 use nalgebra::Vector3;
@@ -90,6 +90,17 @@ pub fn header(parameters: &Parameters, settings: &Settings, laps: Option<&Laps>)
 pub fn name_of(slot: usize) -> String {
     let name = |slot: &Slot| Parameters::ROWS[usize::from(slot.row)].variable_name(usize::from(slot.element));
     Parameters::SLOTS.get(slot).map(name).unwrap_or_default()
+}
+
+/// Checks that a parameter's slot may have a value: a whole number for one of several items.
+///
+/// # Errors
+/// The parameter, and why not.
+pub fn check_value(slot: usize, value: f64) -> Result<(), ParameterError> {
+    let Some(place) = Parameters::SLOTS.get(slot) else { return Ok(()) };
+    let row = &Parameters::ROWS[usize::from(place.row)];
+    let is_whole = matches!(row.kind, Kind::Real(_)) || value.fract() == 0.0;
+    if row.accepts(value) && is_whole { Ok(()) } else { refuse(name_of(slot), row.reason(value)) }
 }
 
 /// The slot of a parameter.

@@ -9,11 +9,12 @@
 //! | parking | new position | new position |
 //! | a fault, disabled, inhibited | new position; a fault for the session | the same |
 //!
-//! A state counts once [`CONFIRMING_ANSWERS`] answers in a row have it: a single wrong answer changes
-//! nothing. The base itself moves from its home to neutral. Then its pose fades in from neutral, so
-//! that it does not matter how long that takes. In all other states it fades out again, as the base
-//! may still follow. [`Moog::faded`] has the pose with the lengths that it asks of the legs, so that
-//! the limits of the legs' frames hold for packets, too: nothing changes a pose after them.
+//! A state counts once [`CONFIRMING_ANSWERS`] answers in a row have it: a single wrong answer
+//! changes nothing. The base itself moves from its home to neutral. Then its pose fades in
+//! from neutral, so that it does not matter how long that takes. In all other states it fades
+//! out again, as the base may still follow. [`Moog::faded`] has that pose, and the lengths
+//! that it asks of the legs. So the limits of the legs' frames hold for packets, too: nothing
+//! changes a pose after them.
 //!
 //! A fault is reset by a person at the base.
 //!

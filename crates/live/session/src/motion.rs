@@ -1,6 +1,7 @@
 //! Motion of the vehicle, as the washout takes it.
 
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
 use moris_washout::Input;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
@@ -104,19 +105,59 @@ pub struct Sample {
     pub has_angles: bool,
 }
 
+/// Names of the channels of a [`Motion`], as in tables.
+pub const CHANNEL_NAMES: [&str; CHANNELS] = ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
+
+/// Reason for which a sample is dropped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Implausible {
+    /// A channel, by its place, or the position or time is no finite number.
+    NoNumber(Option<usize>),
+    /// A channel, by its place, is beyond its largest plausible value.
+    TooLarge(usize, f64),
+}
+
+impl Display for Implausible {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match *self {
+            Implausible::NoNumber(place) => {
+                write!(f, "{} is no number", place.map_or("position or time", |place| CHANNEL_NAMES[place]))
+            }
+            Implausible::TooLarge(place, value) => {
+                let name = CHANNEL_NAMES[place];
+                let most = Sample::LARGEST[place];
+                write!(
+                    f,
+                    "{name} is {value:.0}, more than {most:.0} in the washout's unit: check its unit in the table"
+                )
+            }
+        }
+    }
+}
+
 impl Sample {
+    /// Largest plausible values: 10 g, 2000 degrees a second as for recordings, and others.
+    const LARGEST: [f64; CHANNELS] = [98.0665, 98.0665, 98.0665, 35.0, 35.0, 35.0, 1e4, 1e4, 1e4, 1e4];
+
+    /// The first reason for which the sample says nothing; none if all of it is finite and none of
+    /// it absurd.
+    pub fn implausible(&self) -> Option<Implausible> {
+        let finite = |mut values: std::slice::Iter<f64>| values.all(|value| value.is_finite());
+        let values = self.motion.0.iter().enumerate();
+        if let Some((place, _)) = values.clone().find(|(_, value)| !value.is_finite()) {
+            return Some(Implausible::NoNumber(Some(place)));
+        }
+        let is_whole = self.position.is_none_or(|position| finite(position.as_slice().iter()))
+            && self.time.is_none_or(f64::is_finite);
+        if !is_whole {
+            return Some(Implausible::NoNumber(None));
+        }
+        let mut large = values.filter(|(place, value)| value.abs() > Self::LARGEST[*place]);
+        large.next().map(|(place, value)| Implausible::TooLarge(place, *value))
+    }
+
     /// True if all of it is finite and none of it absurd.
     pub fn is_plausible(&self) -> bool {
-        // 10 g, and 2000 degrees a second, as for recordings.
-        const LARGEST_FORCE: f64 = 98.0665;
-        const LARGEST_RATE: f64 = 35.0;
-        const LARGEST: f64 = 1e4;
-        let finite = |mut values: std::slice::Iter<f64>| values.all(|value| value.is_finite());
-        finite(self.motion.0.as_slice().iter())
-            && self.motion.force().amax() <= LARGEST_FORCE
-            && self.motion.rates().amax() <= LARGEST_RATE
-            && self.motion.0.amax() <= LARGEST
-            && self.position.is_none_or(|position| finite(position.as_slice().iter()))
-            && self.time.is_none_or(f64::is_finite)
+        self.implausible().is_none()
     }
 }

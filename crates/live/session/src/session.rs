@@ -1,5 +1,7 @@
 //! The whole: telemetry and events in, commands to the actuators out.
 
+use std::fmt::{self, Display, Formatter};
+
 use moris_interface::{Group, Reader, slots_of};
 use moris_laps::Laps;
 use moris_washout::interface::{AngularVelocityFrame, Output};
@@ -14,6 +16,7 @@ use crate::motion::{Channels, Motion, Sample};
 use crate::resampler::{At, Resampler};
 use crate::road::Road;
 use crate::signs::{Check, Signs};
+use crate::sizes::{Mismatch, Sizes};
 use crate::source::{Health, Source};
 use crate::transitions::{Event, State};
 use crate::travel::Travel;
@@ -61,7 +64,7 @@ pub struct Settings {
     pub slow_speed: f64,
     /// Largest speed of a leg on the way to neutral and down \[m/s\].
     pub travel_speed: f64,
-    /// Engage although the telemetry's signs contradict each other.
+    /// Engage although the telemetry contradicts itself or its table.
     pub ignore_signs: bool,
 }
 
@@ -79,6 +82,24 @@ impl Default for Settings {
     }
 }
 
+/// Reason for which telemetry is not cued.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Objection {
+    /// The signs contradict each other.
+    Sign(Check),
+    /// A unit, an axis or the gravity of the table does not fit.
+    Size(Mismatch),
+}
+
+impl Display for Objection {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Objection::Sign(check) => write!(f, "expected: {}", check.text()),
+            Objection::Size(mismatch) => write!(f, "{mismatch}"),
+        }
+    }
+}
+
 /// Reason for which an event of a person is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
@@ -88,9 +109,9 @@ pub enum Refusal {
     /// The source does not run.
     #[error("engage needs telemetry of a running vehicle; the source is {}", .0.name())]
     Source(Health),
-    /// The signs contradict each other.
-    #[error("the telemetry contradicts itself, expected: {}", .0.text())]
-    Signs(Check),
+    /// The telemetry contradicts itself or its table.
+    #[error("the telemetry contradicts itself: {0}")]
+    Telemetry(Objection),
     /// The place of the legs is unknown.
     #[error(
         "{} needs the legs' place, which is unknown: let the controller report it, confirm that the platform is \
@@ -196,6 +217,7 @@ pub struct Session {
     source: Source,
     resampler: Resampler,
     signs: Signs,
+    sizes: Sizes,
     /// Delay of the telemetry \[s\].
     delay: f64,
     /// Time from which on the last step's telemetry was held \[s\].
@@ -260,9 +282,10 @@ impl Session {
             state: State::Off,
             steps: 0,
             since: 0,
-            source: Source::default(),
+            source: Source::new(settings.is_inside),
             resampler: Resampler::default(),
             signs: Signs::default(),
+            sizes: Sizes::default(),
             delay: settings.delay.unwrap_or_default(),
             held_from: None,
             last: None,
@@ -326,6 +349,25 @@ impl Session {
     /// The test of the signs.
     pub fn signs(&self) -> &Signs {
         &self.signs
+    }
+
+    /// The reason for which the telemetry is not cued, whether or not the settings ignore it.
+    pub fn objection(&self) -> Option<Objection> {
+        let pace = self.source.wrong_pace().map(Mismatch::Time);
+        let size = pace.or_else(|| self.sizes.mismatch()).map(Objection::Size);
+        size.or_else(|| self.signs.contradiction().map(Objection::Sign))
+    }
+
+    /// The reason for which the telemetry lets nobody engage now.
+    pub fn telemetry_refusal(&self) -> Option<Refusal> {
+        let objection = self.objection().filter(|_| !self.settings.ignore_signs).map(Refusal::Telemetry);
+        let health = self.source.health();
+        objection.or_else(|| (health != Health::Running).then_some(Refusal::Source(health)))
+    }
+
+    /// The parameters in force, or those to which they glide.
+    pub fn target_parameters(&self) -> Parameters {
+        Parameters::read(&mut Reader::new(self.tuning.target()))
     }
 
     /// The delay of the telemetry \[s\].
@@ -418,12 +460,7 @@ impl Session {
             return Err(Refusal::Unknown(event));
         }
         if event == Event::Engage {
-            if self.source.health() != Health::Running {
-                return Err(Refusal::Source(self.source.health()));
-            }
-            if let Some(check) = self.signs.contradiction().filter(|_| !self.settings.ignore_signs) {
-                return Err(Refusal::Signs(check));
-            }
+            self.telemetry_refusal().map_or(Ok(()), Err)?;
         }
         self.enter(next, event);
         Ok(())
@@ -512,6 +549,7 @@ impl Session {
                 } else {
                     self.resampler.push(arrival, *time, sample.motion, sample.position);
                     self.signs.take(*time, sample);
+                    self.sizes.take(*time, sample);
                 }
             }
         }
@@ -541,7 +579,7 @@ impl Session {
         if let Some(event) = self.source.listen(now) {
             self.follow(event);
         }
-        if !self.settings.ignore_signs && self.state.is_engaged() && self.signs.contradiction().is_some() {
+        if !self.settings.ignore_signs && self.state.is_engaged() && self.objection().is_some() {
             self.follow(Event::Disengage);
         }
         self.adjust_delay();

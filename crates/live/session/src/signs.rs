@@ -8,6 +8,7 @@
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::motion::Sample;
+use crate::relation::{Relation, Sums};
 
 /// Time for which samples are taken \[s\].
 pub const TIME: f64 = 60.0;
@@ -15,8 +16,12 @@ pub const TIME: f64 = 60.0;
 const INTERVAL: [f64; 2] = [1e-3, 0.2];
 /// Correlation from which on a check decides.
 const DECIDES: f64 = 0.5;
-/// Samples from which on it decides.
+/// Samples from which on it decides, and the time of motion after which signs may agree \[s\].
+/// Within less, two channels that have nothing to do with each other may go together.
 const ENOUGH: f64 = 40.0;
+const AGREEING_TIME: f64 = 2.0;
+/// Largest factor between the sizes of two channels that agree.
+const AGREEING_FACTOR: f64 = 3.0;
 /// Part of a turn's acceleration that gravity makes up for in a vehicle that leans into it.
 const LEANING: f64 = 0.5;
 /// Angles up to which a body's rates are those of its angles, about \[rad\].
@@ -110,29 +115,6 @@ struct Window {
     has_attitude: bool,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Sums {
-    count: f64,
-    xx: f64,
-    yy: f64,
-    xy: f64,
-}
-
-impl Sums {
-    fn add(&mut self, x: f64, y: f64) {
-        self.count += 1.0;
-        self.xx += x * x;
-        self.yy += y * y;
-        self.xy += x * y;
-    }
-
-    /// Correlation, if there are values enough.
-    fn correlation(&self, enough: f64, [x, y]: [f64; 2]) -> Option<f64> {
-        let Sums { count, xx, yy, xy } = *self;
-        (count >= enough && xx >= x * count && yy >= y * count).then(|| xy / (xx * yy).sqrt())
-    }
-}
-
 impl Signs {
     /// Takes a sample of this time.
     pub fn take(&mut self, time: f64, sample: &Sample) {
@@ -210,9 +192,17 @@ impl Signs {
         let [all, apart, slow] = [&self.all, &self.apart, &self.slow].map(|sums| sums[check as usize]);
         let least = check.least();
         let enough = if check == Check::Braking { ENOUGH * BRAKING } else { ENOUGH };
-        let agrees = |sums: &Sums| sums.correlation(enough, least).is_some_and(|found| found > DECIDES);
+        let known = |sums: &Sums, enough: f64| {
+            let relation = sums.relation();
+            let is_known = relation.count >= enough && (0..2).all(|k| relation.sizes[k].powi(2) >= least[k]);
+            is_known.then_some(relation)
+        };
+        let agrees = |sums: &Sums| {
+            let is_near = |relation: Relation| relation.is_near(1.0, AGREEING_FACTOR, DECIDES);
+            self.time >= AGREEING_TIME && known(sums, enough).is_some_and(is_near)
+        };
         let contradicts =
-            |sums: &Sums, enough: f64| sums.correlation(enough, least).is_some_and(|found| found < -DECIDES);
+            |sums: &Sums, enough: f64| known(sums, enough).is_some_and(|found| found.correlation < -DECIDES);
         if agrees(&all) || agrees(&slow) && !contradicts(&all, enough) {
             Verdict::Agrees
         } else if contradicts(&all, enough) && contradicts(&apart, enough) {

@@ -1,9 +1,13 @@
 //! Health of the telemetry: which samples count, and what their absence means.
 
+use std::fmt::{self, Display, Formatter};
+
 use crate::attitude::angle_between;
 use crate::clock::{Clock, Stamp};
-use crate::motion::Sample;
+use crate::clock_pace::ClockPace;
+use crate::motion::{Implausible, Sample};
 use crate::spikes::{Judgement, Spikes};
+use crate::standing::Standing;
 use crate::transitions::Event;
 
 /// Time without a good sample after which the source is silent \[s\].
@@ -15,6 +19,8 @@ const JUMP: f64 = 10.0;
 /// An attitude that turns by more within a sample than its rates say is that of another place
 /// \[rad\].
 const TURN: f64 = 0.7;
+/// Samples that follow from each other with which a vehicle runs: random bytes do not.
+const CONFIRMING_SAMPLES: u32 = 5;
 
 /// Health of the source.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,6 +66,36 @@ pub struct Counts {
     pub spikes: u64,
 }
 
+impl Counts {
+    /// All that were dropped.
+    pub fn dropped(&self) -> u64 {
+        self.bad + self.repeated
+    }
+}
+
+/// Reason for which a sample was dropped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DropReason {
+    /// No number, or absurd.
+    Implausible(Implausible),
+    /// Far from the samples around it.
+    Spike,
+    /// The packet's clock stands at this time \[s\], or goes back a little.
+    Repeated(f64),
+}
+
+impl Display for DropReason {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            DropReason::Implausible(reason) => write!(f, "{reason}"),
+            DropReason::Spike => write!(f, "a spike that no vehicle causes"),
+            DropReason::Repeated(clock) => {
+                write!(f, "the packets' clock does not advance: repeated time {clock:.3} s; check the line of time")
+            }
+        }
+    }
+}
+
 /// Effect of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accepted {
@@ -78,17 +114,31 @@ pub struct Accepted {
 /// The source of telemetry.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Source {
+    /// It runs inside the program: it neither pauses without saying so nor sends random bytes.
+    is_inside: bool,
     clock: Clock,
+    pace: ClockPace,
+    standing: Standing,
     health: Health,
     counts: Counts,
+    dropped: Option<DropReason>,
     last_good: f64,
     last: Option<Sample>,
     /// Time of the last sample \[s\].
     stamp: f64,
+    /// Samples that follow from each other while the vehicle does not run yet, and whether the
+    /// first of them is of another place.
+    confirming: u32,
+    is_elsewhere: bool,
     spikes: Spikes,
 }
 
 impl Source {
+    /// A source inside the program, or outside of it.
+    pub fn new(is_inside: bool) -> Self {
+        Source { is_inside, ..Source::default() }
+    }
+
     /// Health of the telemetry now.
     pub fn health(&self) -> Health {
         self.health
@@ -99,24 +149,40 @@ impl Source {
         self.counts
     }
 
+    /// The reason for which a sample was dropped last.
+    pub fn dropped(&self) -> Option<DropReason> {
+        self.dropped
+    }
+
+    /// Seconds by which the packets' clock advances in a second, if it must be in another unit.
+    pub fn wrong_pace(&self) -> Option<f64> {
+        self.pace.wrong()
+    }
+
     /// Judges a sample that arrived then.
     pub fn receive(&mut self, arrival: f64, sample: &Sample) -> Accepted {
         let mut accepted = Accepted { time: None, instead: false, confirmed: None, events: [None; 2], is_new: false };
         self.counts.received += 1;
         // In a menu a program's clock stands still, and its numbers may be anything.
         if sample.paused && arrival.is_finite() {
-            self.last_good = arrival;
-            let before = std::mem::replace(&mut self.health, Health::Paused);
-            accepted.events[0] = (before != Health::Paused).then_some(Event::Pause);
+            accepted.events[0] = self.pause(arrival);
             return accepted;
         }
-        if !sample.is_plausible() || !arrival.is_finite() {
+        let implausible = sample.implausible();
+        if implausible.is_some() || !arrival.is_finite() {
             self.counts.bad += 1;
+            self.dropped = implausible.map(DropReason::Implausible);
+            self.confirming = 0;
+            return accepted;
+        }
+        if !self.is_inside && self.standing.is_paused(arrival, sample) {
+            accepted.events[0] = self.pause(arrival);
             return accepted;
         }
         let (time, restarted) = match self.clock.stamp(arrival, sample.time) {
             Stamp::Repeated => {
                 self.counts.repeated += 1;
+                self.dropped = sample.time.map(DropReason::Repeated);
                 return accepted;
             }
             Stamp::Instead => {
@@ -126,21 +192,30 @@ impl Source {
             Stamp::At(time) => (time, false),
             Stamp::Restarted(time) => (time, true),
         };
+        self.pace.take(arrival, sample.time, restarted);
         let elsewhere = restarted || self.last.is_some_and(|last| is_elsewhere(&last, sample, time - self.stamp));
-        let before = std::mem::replace(&mut self.health, Health::Running);
-        (self.last_good, self.stamp, self.last) = (arrival, time, Some(*sample));
-        accepted.is_new = elsewhere || before != Health::Running;
+        (self.stamp, self.last) = (time, Some(*sample));
+        let was_running = self.health == Health::Running;
+        if !was_running && !self.confirms(elsewhere) {
+            return accepted;
+        }
+        let elsewhere = if was_running { elsewhere } else { std::mem::take(&mut self.is_elsewhere) };
+        (self.health, self.last_good, self.confirming) = (Health::Running, arrival, 0);
+        accepted.is_new = elsewhere || !was_running;
         if accepted.is_new {
             self.spikes.clear();
         }
         let (judgement, was_spike) = self.spikes.judge(time, sample);
-        self.counts.spikes += u64::from(was_spike);
-        self.counts.bad += u64::from(was_spike);
+        if was_spike {
+            self.counts.spikes += 1;
+            self.counts.bad += 1;
+            self.dropped = Some(DropReason::Spike);
+        }
         if let Judgement::Used(confirmed) = judgement {
             accepted.confirmed = confirmed;
             accepted.time = Some(time);
         }
-        if before != Health::Running {
+        if !was_running {
             accepted.events[0] = Some(Event::Resume);
         }
         if elsewhere {
@@ -150,9 +225,29 @@ impl Source {
         accepted
     }
 
+    /// A sample of a paused vehicle. The event, if it is the first one.
+    fn pause(&mut self, arrival: f64) -> Option<Event> {
+        (self.last_good, self.confirming) = (arrival, 0);
+        let before = std::mem::replace(&mut self.health, Health::Paused);
+        (before != Health::Paused).then_some(Event::Pause)
+    }
+
+    /// True once enough samples follow from each other.
+    fn confirms(&mut self, elsewhere: bool) -> bool {
+        if self.confirming == 0 {
+            self.is_elsewhere = elsewhere;
+        } else if elsewhere {
+            (self.confirming, self.is_elsewhere) = (0, true);
+        }
+        self.confirming += 1;
+        self.is_inside || self.confirming >= CONFIRMING_SAMPLES
+    }
+
     /// All times until now are earlier by this time \[s\].
     pub fn slip(&mut self, time: f64) {
         self.clock.slip(time);
+        self.pace.slip(time);
+        self.standing.slip(time);
         self.spikes.slip(time);
         self.last_good -= time;
         self.stamp -= time;
@@ -245,6 +340,60 @@ mod tests {
         };
         assert_eq!(events(&mut source, 1.0, 5.0, paused), [Event::Pause]);
         assert_eq!(events(&mut source, 5.0, 6.0, |t| Some(at(t))), [Event::Resume, Event::Teleport]);
+    }
+
+    /// A replay that stands, with a car at 20 m/s in it, then goes on.
+    #[test]
+    fn packets_that_stay_the_same_are_a_pause_and_other_ones_its_end() {
+        let mut source = Source::default();
+        let car = |t: f64| {
+            let mut sample = Sample { time: Some(t), ..Sample::default() };
+            (sample.motion.0[0], sample.motion.0[9]) = (t.sin(), 20.0);
+            Some(sample)
+        };
+        assert_eq!(events(&mut source, 0.0, 1.0, car), [Event::Resume]);
+        let stands = |t: f64| Some(Sample { time: Some(t), ..car(1.0)? });
+        assert_eq!(events(&mut source, 1.0, 1.5, stands), []);
+        assert_eq!(events(&mut source, 1.5, 9.0, stands), [Event::Pause]);
+        assert_eq!(source.health(), Health::Paused);
+        assert_eq!(events(&mut source, 9.0, 10.0, car), [Event::Resume]);
+        // Inside the program a recording waits with its first sample.
+        let mut source = Source::new(true);
+        assert_eq!(events(&mut source, 0.0, 9.0, stands), [Event::Resume]);
+    }
+
+    /// Random 32-bit floats in each field: plausible ones follow each other now and then.
+    #[test]
+    fn random_numbers_are_no_running_vehicle() {
+        for has_clock in [true, false] {
+            let mut source = Source::default();
+            let mut state = 7_u32;
+            let mut next = move || {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                f64::from(f32::from_bits(state ^ state >> 16))
+            };
+            let found = (0..60_000).filter(|k| {
+                let mut sample = Sample { time: Some(next()).filter(|_| has_clock), ..Sample::default() };
+                sample.motion.0.iter_mut().for_each(|value| *value = next());
+                source.receive(0.01 * f64::from(*k), &sample).events[0] == Some(Event::Resume)
+            });
+            assert_eq!(found.count(), 0);
+        }
+    }
+
+    #[test]
+    fn a_sample_that_is_dropped_has_a_reason() {
+        let mut source = Source::default();
+        events(&mut source, 0.0, 1.0, |t| Some(at(t)));
+        let mut sample = at(2.0);
+        sample.motion.0[2] = 980.665;
+        source.receive(2.0, &sample);
+        let reason = source.dropped().unwrap().to_string();
+        assert_eq!(reason, "az is 981, more than 98 in the washout's unit: check its unit in the table");
+        source.receive(2.0, &at(0.9));
+        let reason = source.dropped().unwrap().to_string();
+        assert!(reason.starts_with("the packets' clock does not advance: repeated time 0.900 s"), "{reason}");
+        assert_eq!(source.counts().dropped(), 2);
     }
 
     #[test]

@@ -3,5 +3,6 @@
 mod feed;
 mod legs;
 mod signs;
+mod sizes;
 mod times;
 mod tuning;

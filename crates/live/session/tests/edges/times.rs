@@ -179,7 +179,8 @@ fn a_loop_through_the_verticals_is_no_teleport() {
         let rate = if t > 12.0 { 0.6 } else { 0.0 };
         let half = if angle.cos() < 0.0 { PI } else { 0.0 };
         let angles = RollPitchYaw::new(half, -angle.sin().asin(), half);
-        let force = Vector3::new(0.0, 0.0, 9.80665 * angle.cos() + 60.0 * rate);
+        // Numbers that stay the same at 60 m/s would be a pause.
+        let force = Vector3::new(0.0, 0.0, 9.80665 * angle.cos() + 60.0 * rate + 0.01 * (31.0 * t).sin());
         let motion = Motion::new(force, Vector3::new(0.0, -rate, 0.0), angles, 60.0);
         Some(Packet { arrival: t, sample: Sample { time: Some(t), motion, has_angles: true, ..Sample::default() } })
     });

@@ -1,0 +1,431 @@
+//! Test of the telemetry's sizes over the first minute: units, axes and gravity.
+//!
+//! Recordings are tested by the same facts. Rates are the derivatives of angles, the force along x
+//! changes the speed, the force along y is that of bends, and gravity is along z. What a unit, an
+//! exchanged axis or the gravity of the table explains is a [`Mismatch`], with the line to change.
+
+use std::f64::consts::PI;
+use std::fmt::{self, Display, Formatter};
+
+use moris_washout::interface::STANDARD_GRAVITY;
+use nalgebra::Vector3;
+
+use crate::motion::{Channels, Sample};
+use crate::relation::{Relation, Sums};
+
+/// Time for which samples are compared \[s\].
+pub const COMPARED_TIME: f64 = 60.0;
+/// Time over which samples are averaged before they are compared \[s\].
+const WINDOW_TIME: f64 = 0.25;
+/// Shortest and longest time between samples that are compared \[s\].
+const SAMPLE_INTERVAL: [f64; 2] = [1e-3, 0.2];
+/// Windows with which two channels are judged, and those for a force that is missing.
+const ENOUGH_WINDOWS: f64 = 12.0;
+const ENOUGH_BENDS: f64 = 20.0;
+/// Correlation of two channels that are the same quantity, in any unit.
+const SAME_CORRELATION: f64 = 0.8;
+/// The same where the factors of units are near to each other.
+const STRICT_CORRELATION: f64 = 0.9;
+/// Largest factor between a ratio and that of a unit that explains it: far apart, and near to
+/// others.
+const UNIT_FACTOR: f64 = 1.4;
+const NEAR_UNIT_FACTOR: f64 = 1.2;
+/// Least rates \[rad/s\] and forces \[m/s2\] that say something, as root mean squares.
+const LEAST_RATE: f64 = 0.005;
+const LEAST_EXCHANGED_RATE: f64 = 0.02;
+const LEAST_FORCE: f64 = 0.3;
+/// Least lateral force of bends, by speed and yaw rate, beside which a force is missing \[m/s2\],
+/// and the part of it below which it is.
+const LEAST_BENDS: f64 = 0.7;
+const MISSING_PART: f64 = 0.25;
+/// Correlation below which two channels are not the same quantity, and the factor between them
+/// beyond which they are not.
+const OTHER_CORRELATION: f64 = 0.5;
+const OTHER_FACTOR: f64 = 2.0;
+/// Angles up to which a body's rates are those of its angles, about: in radians that are read as
+/// degrees, too \[rad\].
+const LEVEL: f64 = 0.3;
+const LEVEL_IN_DEGREES: f64 = LEVEL * 180.0 / PI;
+/// Roll and pitch beyond which angles are no radians \[rad\].
+const LARGEST_ANGLE: f64 = 1.6;
+/// A change of an angle within a window that may be a whole turn \[rad\].
+const TURN: f64 = 3.0;
+/// Part of a turn's force that gravity may make up for: a vehicle that leans more is left out.
+const LEANING: f64 = 0.25;
+/// Speed below which a vehicle may be reversing, or hardly moves \[m/s\].
+const SLOW: f64 = 1.5;
+/// Speed below which the source has none \[m/s\].
+const NO_SPEED: f64 = 0.1;
+/// Radius below which no vehicle turns \[m\], and angular velocity that no head keeps \[rad/s\],
+/// with the part of the windows for it.
+const TIGHTEST_RADIUS: f64 = 1.0;
+const FASTEST_RATE: f64 = 10.0;
+const FAST_PART: f64 = 0.1;
+/// Radians in a degree.
+const DEGREE: f64 = PI / 180.0;
+
+/// Time constant of the mean force, and the times for which it must be of one kind, to contradict
+/// and to agree \[s\].
+const GRAVITY_TIME: f64 = 1.0;
+const GRAVITY_HELD: f64 = 1.5;
+/// Largest distance of the mean vertical force from gravity \[m/s2\]: bumps,
+/// slopes and hard driving.
+const GRAVITY_TOLERANCE: f64 = 4.0;
+
+/// A table that contradicts its telemetry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mismatch {
+    /// The clock advances by so many seconds in a second.
+    Time(f64),
+    /// Rates so many times the derivatives of the angles, or those of bends.
+    Rates(f64),
+    /// Rates that no head has.
+    FastRates,
+    /// Roll or pitch reach so many radians.
+    Angles(f64),
+    /// A mean vertical force \[m/s2\] of this kind.
+    Gravity(GravityFault, f64),
+    /// The force along x or y is so many times that of the speed.
+    Force(Horizontal, f64),
+    /// The rate about the first axis is that of the second one.
+    Exchanged(usize, usize),
+    /// The force along y is this part of that of bends.
+    Bends(f64),
+}
+
+/// Axis of a horizontal force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Horizontal {
+    /// Forward, by the change of speed.
+    Forward,
+    /// To the left, by speed and yaw rate.
+    Left,
+}
+
+/// A vertical force that is not gravity's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GravityFault {
+    /// It is one of g.
+    InG,
+    /// There is none.
+    Missing,
+    /// It is there twice.
+    Twice,
+    /// It points down.
+    Down,
+    /// It is along x, 0, or y, 1.
+    Along(usize),
+    /// It is much larger.
+    Large,
+}
+
+const RATE_NAMES: [&str; 3] = ["wx", "wy", "wz"];
+const ANGLE_NAMES: [&str; 3] = ["roll", "pitch", "yaw"];
+
+impl Display for Mismatch {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match *self {
+            Mismatch::Time(pace) => {
+                write!(f, "the packets' clock advances by {pace:.3} s in a second: in the line of time set ")?;
+                match pace {
+                    300.0..3000.0 => write!(f, "unit = \"ms\""),
+                    3e-4..3e-3 => write!(f, "unit = \"s\""),
+                    _ => write!(f, "scale = {:.1e}, or leave it out", 1.0 / pace),
+                }
+            }
+            Mismatch::Rates(ratio) if ratio > 1.0 => write!(
+                f,
+                "wx, wy and wz are {ratio:.0} times as large as angles, or bends, say: in their lines set unit = \
+                 \"deg/s\" (or unit = \"rad\" in those of roll, pitch and yaw)"
+            ),
+            Mismatch::Rates(ratio) => write!(
+                f,
+                "wx, wy and wz are {:.0} times as small as the angles say: in their lines set unit = \"rad/s\"",
+                1.0 / ratio
+            ),
+            Mismatch::FastRates => write!(
+                f,
+                "wx, wy and wz are beyond {FASTEST_RATE:.0} rad/s for much of the time: in their lines set unit = \"deg/s\""
+            ),
+            Mismatch::Angles(angle) => {
+                write!(f, "roll or pitch reach {angle:.0} rad: in the lines of roll, pitch and yaw set unit = \"deg\"")
+            }
+            Mismatch::Gravity(fault, force) => {
+                write!(f, "the vertical force is {force:.1} m/s2 in the mean and not 9.8: ")?;
+                match fault {
+                    GravityFault::InG => write!(f, "in the lines of ax, ay and az set unit = \"g\""),
+                    GravityFault::Missing => write!(f, "if az has no gravity, set gravity = \"removed\""),
+                    GravityFault::Twice => write!(f, "az has gravity already, set gravity = \"included\""),
+                    GravityFault::Down => write!(
+                        f,
+                        "z points down: turn the scale in the line of az, and in those of ay, wy, wz, pitch and yaw if y \
+                         points to the right"
+                    ),
+                    GravityFault::Along(axis) => {
+                        let name = ["ax", "ay"][axis];
+                        write!(f, "gravity is in {name}: exchange `at` of {name} and az")
+                    }
+                    GravityFault::Large => {
+                        let scale = STANDARD_GRAVITY / force;
+                        write!(f, "in the lines of ax, ay and az set their unit, or multiply scale by {scale:.4}")
+                    }
+                }
+            }
+            Mismatch::Force(axis, ratio) => {
+                let (name, of) = match axis {
+                    Horizontal::Forward => ("ax", "the change of speed"),
+                    Horizontal::Left => ("ay", "speed times wz"),
+                };
+                write!(f, "{name} is {ratio:.2} times {of}: ")?;
+                match unit_of_force(ratio) {
+                    Some(remedy) => write!(f, "{remedy}"),
+                    None => write!(f, "check the units of ax, ay and speed"),
+                }
+            }
+            Mismatch::Exchanged(rate, angle) => write!(
+                f,
+                "{} is the rate of {}, and {} is not: exchange `at` of {} and {}",
+                RATE_NAMES[rate], ANGLE_NAMES[angle], RATE_NAMES[angle], RATE_NAMES[rate], RATE_NAMES[angle]
+            ),
+            Mismatch::Bends(part) => write!(
+                f,
+                "the lateral force of bends is missing: ay is {part:.2} times speed times wz. In the line of ay name the \
+                 accelerometer's column, not the change of a velocity in the vehicle's axes"
+            ),
+        }
+    }
+}
+
+/// The line to change for a force so many times that of the speed.
+fn unit_of_force(ratio: f64) -> Option<&'static str> {
+    const UNITS: [(f64, &str); 6] = [
+        (1.0 / STANDARD_GRAVITY, "in the lines of ax, ay and az set unit = \"g\""),
+        (STANDARD_GRAVITY, "in the lines of ax, ay and az set unit = \"m/s2\""),
+        (1.0 / 3.6, "in the line of speed set unit = \"km/h\""),
+        (3.6, "in the line of speed set unit = \"m/s\""),
+        (0.44704, "in the line of speed set unit = \"mph\""),
+        (1.0 / 0.44704, "in the line of speed set unit = \"m/s\""),
+    ];
+    let is_near = |unit: f64| (1.0 / NEAR_UNIT_FACTOR..NEAR_UNIT_FACTOR).contains(&(ratio / unit));
+    UNITS.into_iter().find(|(unit, _)| is_near(*unit)).map(|(_, remedy)| remedy)
+}
+
+/// The comparison of sizes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sizes {
+    last: Option<(f64, Sample)>,
+    window: Window,
+    time: f64,
+    windows: f64,
+    fast_windows: f64,
+    largest_angle: f64,
+    fastest: f64,
+    has_attitude: bool,
+    /// Derivatives of the angles, by column, and rates, by row.
+    rates: [[Sums; 3]; 3],
+    /// The change of speed with gravity's part, and the force along x.
+    surge: Sums,
+    /// Speed times each rate, and the force along y without gravity's part.
+    bends: [Sums; 3],
+    /// The yaw rate and the force along y.
+    yaw: Sums,
+    gravity: MeanForce,
+    found: Option<Mismatch>,
+}
+
+/// Integrals over a window.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Window {
+    time: f64,
+    sum: Channels,
+    begin: Channels,
+}
+
+impl Sizes {
+    /// Takes a sample of this time \[s\].
+    pub fn take(&mut self, time: f64, sample: &Sample) {
+        let before = self.last.replace((time, *sample));
+        let Some((earlier, before)) = before else { return };
+        let interval = time - earlier;
+        if !(SAMPLE_INTERVAL[0]..=SAMPLE_INTERVAL[1]).contains(&interval) {
+            self.window = Window::default();
+            return;
+        }
+        self.gravity.take(interval, sample);
+        if self.time >= COMPARED_TIME {
+            return;
+        }
+        self.time += interval;
+        let window = &mut self.window;
+        if window.time == 0.0 {
+            window.begin = before.motion.0;
+        }
+        window.time += interval;
+        window.sum += 0.5 * interval * (before.motion.0 + sample.motion.0);
+        if window.time >= WINDOW_TIME {
+            let Window { time, sum, begin } = std::mem::take(window);
+            self.compare(&(sum / time), &((sample.motion.0 - begin) / time), time, sample);
+            self.found = self.judge();
+        }
+    }
+
+    /// Compares the means and slopes of a window.
+    fn compare(&mut self, mean: &Channels, slope: &Channels, time: f64, sample: &Sample) {
+        let [roll, pitch, speed] = [mean[6], mean[7], mean[9]];
+        self.windows += 1.0;
+        self.fast_windows += f64::from((3..6).any(|k| mean[k].abs() > FASTEST_RATE));
+        self.fastest = self.fastest.max(speed.abs());
+        // Columns of zeros are no attitude.
+        let has_attitude = sample.has_angles && (roll != 0.0 || pitch != 0.0);
+        self.has_attitude |= has_attitude;
+        let is_level = |most: f64| roll.abs() < most && pitch.abs() < most;
+        if has_attitude && is_level(LEVEL_IN_DEGREES) {
+            self.largest_angle = self.largest_angle.max(roll.abs()).max(pitch.abs());
+            for angle in (0..3).filter(|angle| (slope[6 + angle] * time).abs() < TURN) {
+                (0..3).for_each(|rate| self.rates[rate][angle].add(slope[6 + angle], mean[3 + rate]));
+            }
+        }
+        let gravity = if has_attitude && is_level(LARGEST_ANGLE) { STANDARD_GRAVITY } else { 0.0 };
+        self.yaw.add(mean[5], mean[1]);
+        if speed.abs() < SLOW {
+            return;
+        }
+        // Nose up, gravity's reaction is forward; with the left side up, to the left.
+        self.surge.add(slope[9] - gravity * libm::sin(pitch), mean[0]);
+        let banked = gravity * libm::sin(roll) * libm::cos(pitch);
+        if banked.abs() <= LEANING * (speed * mean[5]).abs().max(speed * mean[3].abs()) {
+            (0..3).for_each(|rate| self.bends[rate].add(speed * mean[3 + rate], mean[1] - banked));
+        }
+    }
+
+    /// The first mismatch so far.
+    pub fn mismatch(&self) -> Option<Mismatch> {
+        self.found.or_else(|| self.gravity.fault())
+    }
+
+    fn judge(&self) -> Option<Mismatch> {
+        self.units_of_rates()
+            .or_else(|| self.gravity.fault())
+            .or_else(|| self.exchanged_rates())
+            .or_else(|| self.units_of_forces())
+            .or_else(|| self.missing_bends())
+    }
+
+    fn units_of_rates(&self) -> Option<Mismatch> {
+        let is_enough = |relation: &Relation| relation.count >= ENOUGH_WINDOWS;
+        let by_angles = (0..3).map(|axis| self.rates[axis][axis].relation()).filter(is_enough).find_map(|relation| {
+            let is_near = |ratio: f64| relation.is_near(ratio, UNIT_FACTOR, SAME_CORRELATION);
+            let is_angle = self.largest_angle > LARGEST_ANGLE;
+            let is_large = relation.sizes[usize::from(is_angle)] >= LEAST_RATE;
+            if is_large && is_near(DEGREE) && is_angle {
+                Some(Mismatch::Angles(self.largest_angle))
+            } else {
+                (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then_some(Mismatch::Rates(relation.ratio))
+            }
+        });
+        let is_lateral = |relation: &Relation| is_enough(relation) && relation.sizes[1] >= LEAST_FORCE;
+        let by_bends = || {
+            let bends = Some(self.bends[2].relation()).filter(is_lateral)?;
+            bends.is_near(DEGREE, UNIT_FACTOR, SAME_CORRELATION).then_some(Mismatch::Rates(1.0 / bends.ratio))
+        };
+        let by_radius = || {
+            let yaw = Some(self.yaw.relation()).filter(is_lateral)?;
+            let is_tight = yaw.correlation > SAME_CORRELATION && yaw.ratio < TIGHTEST_RADIUS * yaw.sizes[0];
+            (self.fastest < NO_SPEED && is_tight).then_some(Mismatch::Rates(1.0 / DEGREE))
+        };
+        let is_fast = self.windows >= ENOUGH_WINDOWS && self.fast_windows > FAST_PART * self.windows;
+        by_angles.or_else(by_bends).or_else(by_radius).or_else(|| is_fast.then_some(Mismatch::FastRates))
+    }
+
+    /// A rate that is that of another angle, or of bends, while the right one is neither.
+    fn exchanged_rates(&self) -> Option<Mismatch> {
+        let is_same = |relation: &Relation| {
+            let is_known = relation.count >= ENOUGH_WINDOWS && relation.sizes[0] >= LEAST_EXCHANGED_RATE;
+            is_known && relation.is_near(1.0, UNIT_FACTOR, SAME_CORRELATION)
+        };
+        let is_other = |relation: &Relation| !relation.is_near(1.0, OTHER_FACTOR, OTHER_CORRELATION);
+        let of_angles = |rate: usize, angle: usize| {
+            let relation = |rate: usize, angle: usize| self.rates[rate][angle].relation();
+            rate != angle
+                && is_same(&relation(rate, angle))
+                && is_other(&relation(rate, rate))
+                && is_other(&relation(angle, angle))
+        };
+        let mut pairs = (0..3).flat_map(|rate| (0..3).map(move |angle| (rate, angle)));
+        let by_angles = pairs.find(|(rate, angle)| of_angles(*rate, *angle));
+        let bends = self.bends.map(|sums| sums.relation());
+        let is_bend = |rate: usize| {
+            let strict = bends[rate].is_near(1.0, UNIT_FACTOR, STRICT_CORRELATION);
+            strict && bends[rate].count >= ENOUGH_WINDOWS && bends[rate].sizes[1] >= LEAST_FORCE
+        };
+        let by_bends = || (0..2).find(|rate| is_bend(*rate) && is_other(&bends[2])).map(|rate| (rate, 2));
+        by_angles.or_else(by_bends).map(|(rate, angle)| Mismatch::Exchanged(rate, angle))
+    }
+
+    fn units_of_forces(&self) -> Option<Mismatch> {
+        let all = [(Horizontal::Forward, self.surge), (Horizontal::Left, self.bends[2])];
+        all.into_iter().map(|(axis, sums)| (axis, sums.relation())).find_map(|(axis, relation)| {
+            let is_known = relation.count >= ENOUGH_WINDOWS
+                && relation.sizes[0].max(relation.sizes[1]) >= LEAST_FORCE
+                && relation.correlation > STRICT_CORRELATION;
+            (is_known && unit_of_force(relation.ratio).is_some()).then_some(Mismatch::Force(axis, relation.ratio))
+        })
+    }
+
+    fn missing_bends(&self) -> Option<Mismatch> {
+        let relation = self.bends[2].relation();
+        // A vehicle without an attitude may lean.
+        let is_missing = self.has_attitude
+            && relation.count >= ENOUGH_BENDS
+            && relation.sizes[0] >= LEAST_BENDS
+            && relation.sizes[1] < MISSING_PART * relation.sizes[0];
+        is_missing.then_some(Mismatch::Bends(relation.ratio))
+    }
+}
+
+/// The mean force of the last moments. Once it is gravity's, it stays so: a vehicle may fall later.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct MeanForce {
+    force: Vector3<f64>,
+    time: f64,
+    kind: Option<GravityFault>,
+    held: f64,
+    agrees: bool,
+}
+
+impl MeanForce {
+    fn take(&mut self, interval: f64, sample: &Sample) {
+        let angles = sample.motion.angles();
+        if self.agrees {
+            return;
+        }
+        if sample.has_angles && angles.roll.abs().max(angles.pitch.abs()) > LEVEL {
+            *self = MeanForce::default();
+            return;
+        }
+        self.time += interval;
+        self.force += (sample.motion.force() - self.force) * (interval / self.time.min(GRAVITY_TIME));
+        let kind = kind_of_gravity(&self.force);
+        self.held = if kind == self.kind { self.held + interval } else { 0.0 };
+        self.kind = kind;
+        self.agrees = self.held >= GRAVITY_HELD && (self.force.z - STANDARD_GRAVITY).abs() < GRAVITY_TOLERANCE;
+    }
+
+    fn fault(&self) -> Option<Mismatch> {
+        let fault = self.kind.filter(|_| self.held >= GRAVITY_HELD)?;
+        Some(Mismatch::Gravity(fault, self.force.z))
+    }
+}
+
+/// The fault of a mean force; none that is about gravity's, or of no kind.
+fn kind_of_gravity(force: &Vector3<f64>) -> Option<GravityFault> {
+    let is_gravity = |value: f64| (0.87..1.13).contains(&(value.abs() / STANDARD_GRAVITY));
+    match force.z {
+        z if (0.5..1.5).contains(&z) && force.norm() < 1.7 => Some(GravityFault::InG),
+        -3.0..3.0 => Some((0..2).find(|k| is_gravity(force[*k])).map_or(GravityFault::Missing, GravityFault::Along)),
+        16.0..25.0 => Some(GravityFault::Twice),
+        25.0.. => Some(GravityFault::Large),
+        ..-6.0 => Some(GravityFault::Down),
+        _ => None,
+    }
+}
