@@ -143,6 +143,7 @@ pub fn shape(format: &Format) -> Option<Shape> {
 
 fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
     let mut packet = vec![0; LARGEST];
+    let mut decoded = Vec::new();
     let mut quiet = 0;
     let requests = format.subscriptions();
     let port = socket.local_addr().map_or(0, |address| address.port());
@@ -161,10 +162,18 @@ fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>,
         };
         let arrival = pace::now();
         quiet = 0;
-        match format.decode(&packet[..length]).map(|sample| (sample, followed.accepts(from, arrival))) {
-            // A loop that is so late that the ring is full has no use for it.
-            Ok((sample, Ok(()))) => drop(samples.push(Received { arrival, sample })),
-            Ok((_, Err(another))) => drop(another.inspect(|line| say(line, page))),
+        decoded.clear();
+        match format.decode_all(&packet[..length], |sample| decoded.push(sample)) {
+            Ok(()) if decoded.is_empty() => (),
+            Ok(()) => match followed.accepts(from, arrival) {
+                Ok(()) => {
+                    for sample in decoded.drain(..) {
+                        // A loop that is so late that the ring is full has no use for it.
+                        let _ = samples.push(Received { arrival, sample });
+                    }
+                }
+                Err(another) => drop(another.inspect(|line| say(line, page))),
+            },
             Err(_) => {
                 shared.dropped.fetch_add(1, Ordering::Relaxed);
                 if let Some(count) = dropped.take(arrival) {

@@ -69,6 +69,105 @@ fn ours() {
     assert_eq!((sample.position, placed.position), (None, Some(Vector3::from(place))));
 }
 
+/// All samples of a packet.
+fn all(format: &Format, packet: &[u8]) -> Vec<Sample> {
+    let mut samples = Vec::new();
+    format.decode_all(packet, |sample| samples.push(sample)).unwrap();
+    samples
+}
+
+#[test]
+fn text_with_other_separators_titles_and_keys() {
+    let expected = decoded("csv", b"1.5,-2,0.5,9.7,0.01,0.02,0.1,0.3,0.2,0.1,12,0");
+    for text in [
+        "1.5;-2;0.5;9.7;0.01;0.02;0.1;0.3;0.2;0.1;12;0",
+        "1,5;-2,0;0,5;9,7;0,01;0,02;0,1;0,3;0,2;0,1;12;0",
+        "1.5\t-2\t0.5\t9.7\t0.01\t0.02\t0.1\t0.3\t0.2\t0.1\t12\t0\r\n",
+        "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed,paused\n1.5,-2,0.5,9.7,0.01,0.02,0.1,0.3,0.2,0.1,12,0",
+        "time=1.5\r\nax=-2\r\nay=0.5\r\naz=9.7\r\nrollrate=0.01\r\npitchrate=0.02\r\nyawrate=0.1\r\n\
+         bank=0.3\r\npitch=0.2\r\nyaw=0.1\r\nairspeed=12\r\n",
+    ] {
+        assert_eq!(decoded("csv", text.as_bytes()), expected, "{text}");
+    }
+    // Titles alone are no sample.
+    assert!(format("csv").decode(b"time,ax,ay\n").is_err() && all(&format("csv"), b"time,ax,ay\n").is_empty());
+    let own: Format = "name = \"own\"\nabout = \"own\"\nnote = \"own\"\nlayout = \"csv\"\ngravity = \"included\"\n\
+        [fields]\nax = { at = \"Surge\", unit = \"g\" }\nay = { at = \"Sway\", unit = \"g\" }"
+        .parse()
+        .unwrap();
+    for text in ["Sway;Heave;Surge\n0,25;1;0,5", "Surge=0.5&Sway=0.25"] {
+        assert_motion(&own.decode(text.as_bytes()).unwrap().motion, [0.5 * G, 0.25 * G, G], [0.0; 3], [0.0; 3], 0.0);
+    }
+}
+
+#[test]
+fn several_samples_in_a_packet() {
+    let times = |samples: Vec<Sample>| samples.iter().map(|sample| sample.time.unwrap()).collect::<Vec<_>>();
+    assert_eq!(times(all(&format("csv"), b"1,0,0\n1.1,0,0\n\n1.2,0,0\n")), [1.0, 1.1, 1.2]);
+    let objects = br#"{"time":1,"ax":0,"ay":0} {"time":2,"ax":0,"ay":0}"#;
+    assert_eq!(times(all(&format("json"), objects)), [1.0, 2.0]);
+    let packet =
+        |time: f64| [time, 0.0, 0.0, G].into_iter().chain([0.0; 8]).flat_map(f64::to_le_bytes).collect::<Vec<u8>>();
+    assert_eq!(times(all(&format("packed"), &[packet(1.0), packet(2.0)].concat())), [1.0, 2.0]);
+    // Five short ones are four long ones: neither is known.
+    assert!(format("packed").decode(&[0; 480]).is_err() && format("packed").decode(&[0; 100]).is_err());
+}
+
+#[test]
+fn an_attitude_as_a_quaternion() {
+    let table = "name = \"own\"\nabout = \"own\"\nnote = \"own\"\nlayout = \"json\"\ngravity = \"removed\"\n[fields]\n\
+        ax = { at = \"a.0\" }\nay = { at = \"a.1\" }\nqw = { at = \"q.0\" }\nqx = { at = \"q.1\" }\n\
+        qy = { at = \"q.2\" }\nqz = { at = \"q.3\" }";
+    let own: Format = table.parse().unwrap();
+    // Turned to the left by 90 degrees, then the nose down by 30: products of two quaternions by hand,
+    // as numbers of 16 bits.
+    let [half, quarter] = [30_f64, 90.0].map(|degrees| (0.5 * degrees).to_radians());
+    let q = [
+        quarter.cos() * half.cos(),
+        -quarter.sin() * half.sin(),
+        quarter.cos() * half.sin(),
+        quarter.sin() * half.cos(),
+    ]
+    .map(|part| 32767.0 * part);
+    let sample = own.decode(format!("{{\"a\":[1,2],\"q\":{q:?}}}").as_bytes()).unwrap();
+    assert!(sample.has_angles);
+    let angles = [0.0, 30_f64.to_radians(), 90_f64.to_radians()];
+    // Nose down, gravity's reaction is backward.
+    let force = [1.0 - G * 0.5, 2.0, G * 30_f64.to_radians().cos()];
+    assert_motion(&sample.motion, force, [0.0; 3], angles, 0.0);
+    assert!(!own.decode(br#"{"a":[1,2],"q":[0,0,0,0]}"#).unwrap().is_plausible());
+    let lacking = table.replace("\nqz = { at = \"q.3\" }", "");
+    assert!(lacking.parse::<Format>().unwrap_err().to_string().contains("qw, qx, qy and qz"));
+}
+
+#[test]
+fn the_player_in_a_list_of_cars() {
+    let head = "name = \"own\"\nabout = \"own\"\nnote = \"own\"\ngravity = \"included\"\n";
+    let binary: Format = format!(
+        "{head}layout = \"binary\"\nplayer = {{ at = 1, stride = 8 }}\n[fields]\ntime = {{ at = 0, type = \"u8\" }}\n\
+         ax = {{ at = 2, of-player = true }}\nay = {{ at = 6, of-player = true }}"
+    )
+    .parse()
+    .unwrap();
+    let cars: Vec<u8> = [1.0_f32, 2.0, 3.0, 4.0, 5.0, 6.0].into_iter().flat_map(f32::to_le_bytes).collect();
+    for (player, force) in [(0, [1.0, 2.0, G]), (2, [5.0, 6.0, G])] {
+        let sample = binary.decode(&[&[7, player][..], &cars].concat()).unwrap();
+        assert_eq!((sample.time, sample.motion.force()), (Some(7.0), Vector3::from(force)));
+    }
+    assert!(binary.decode(&[&[7, 3][..], &cars].concat()).is_err());
+    let json: Format = format!(
+        "{head}layout = \"json\"\nplayer = {{ at = \"me\" }}\n[fields]\n\
+         ax = {{ at = \"cars.{{player}}.a\", of-player = true }}\nay = {{ at = \"cars.{{player}}.b\", of-player = true }}"
+    )
+    .parse()
+    .unwrap();
+    let packet = br#"{"me":1,"cars":[{"a":1,"b":2},{"a":3,"b":4}]}"#;
+    assert_eq!(json.decode(packet).unwrap().motion.force(), Vector3::new(3.0, 4.0, G));
+    assert!(json.decode(br#"{"cars":[{"a":1,"b":2}]}"#).is_err());
+    let without = format!("{head}layout = \"csv\"\n[fields]\nax = {{ at = 0, of-player = true }}\nay = {{ at = 1 }}");
+    assert!(without.parse::<Format>().unwrap_err().to_string().contains("needs a line `player`"));
+}
+
 #[test]
 fn outsim() {
     // Heading north (+Y), level; 8 m/s forward, braking with 4 m/s2, turning left with 0.5 rad/s.

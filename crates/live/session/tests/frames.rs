@@ -183,3 +183,48 @@ proptest! {
         let _ = format!("{TEMPLATE}frame = \"{text}\"").parse::<Frames>();
     }
 }
+
+/// Bytes of a frame of these tokens, with the default range of numbers.
+fn of_tokens(tokens: &str, values: &Values) -> Vec<u8> {
+    let text = format!("name = \"own\"\nabout = \"own\"\nnote = \"own\"\nframe = \"{tokens}\"");
+    let mut out = Vec::new();
+    Encoder::new(&text.parse().unwrap(), [1.0, 1.6]).unwrap().frame(values, &mut out);
+    out
+}
+
+#[test]
+fn signed_and_scaled_numbers() {
+    // A quarter of the stroke from -32768 to 32767 is -16384 (of -16384.25).
+    let values = Values {
+        length: LENGTH,
+        own: [0.0123, -0.0456, 0.0],
+        pose: [0.0, 0.0, 0.0, 0.5, 0.0, 0.0],
+        heave: 40.0,
+        ..Values::default()
+    };
+    assert_eq!(of_tokens("leg1:i16 leg2:i16 leg5:i16le", &values), [0x80, 0x00, 0xC0, 0x00, 0xFF, 0x7F]);
+    // 12.3, -45.6 and 40,000 mm: rounded, and the nearest number at the end.
+    assert_eq!(
+        of_tokens("own_x:i16le*1000 own_y:i16*1000 heave:i16*1000 heave:u16*1000 own_y:u8*1000", &values),
+        [12, 0, 0xFF, 0xD2, 0x7F, 0xFF, 0x9C, 0x40, 0]
+    );
+    assert_eq!(of_tokens("'P' own_x:1*1000 ',' own_y:1*1000 ',' roll:2*57.29578 0A", &values), b"P12.3,-45.6,28.65\n");
+    let ranged =
+        "name = \"own\"\nabout = \"own\"\nnote = \"own\"\nrange = [-1000, 1000]\nframe = \"leg1:i16 leg5:i16\"";
+    assert_eq!(frame(ranged), [0xFC, 0x18, 0x03, 0xE8]);
+}
+
+#[test]
+fn counters_and_checksums() {
+    let values = |count| Values { length: LENGTH, count, ..Values::default() };
+    assert_eq!(of_tokens("FF count:u8 count:u16le", &values(0x1234)), [0xFF, 0x34, 0x34, 0x12]);
+    // 0xFF + 1 + 0x40 + 0 = 0x140, and 0xFF ^ 1 ^ 0x40 = 0xBE; from the third byte on, of 0x40 and 0.
+    assert_eq!(of_tokens("FF 01 leg2:u16 sum:u8", &values(0)), [0xFF, 0x01, 0x40, 0x00, 0x40]);
+    assert_eq!(of_tokens("FF 01 leg2:u16 sum:u16", &values(0)), [0xFF, 0x01, 0x40, 0x00, 0x01, 0x40]);
+    assert_eq!(of_tokens("FF 01 leg2:u16 xor:u8", &values(0)), [0xFF, 0x01, 0x40, 0x00, 0xBE]);
+    assert_eq!(of_tokens("FF 01 leg2:u16 xor@2:u8", &values(0)), [0xFF, 0x01, 0x40, 0x00, 0x40]);
+    for wrong in ["count:i8", "sum:dec", "sum@x:u8", "leg1:i12", "x:i16*nan", "count@1:u8", "leg7:i16"] {
+        let text = format!("name = \"own\"\nabout = \"own\"\nnote = \"own\"\nframe = \"{wrong}\"");
+        assert!(text.parse::<Frames>().is_err(), "{wrong}");
+    }
+}

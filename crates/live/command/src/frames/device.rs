@@ -10,22 +10,27 @@ use super::Message;
 /// Bytes to the device for a message.
 #[derive(Clone, Debug)]
 pub enum Device {
-    /// A template, filled in.
-    Template(Box<Encoder>),
+    /// A template, filled in, and the number of the next frame.
+    Template(Box<Encoder>, u32),
     /// Packets of a motion base that answers.
-    Moog { moog: Moog, is_up: bool },
+    Moog { moog: Box<Moog>, is_up: bool },
 }
 
 impl Device {
+    /// A device that a template describes.
+    pub fn of_template(encoder: Encoder) -> Self {
+        Device::Template(Box::new(encoder), 0)
+    }
+
     /// The motion base, with the geometry of this rig.
     pub fn moog(rig: &Rig) -> Self {
-        Device::Moog { moog: Moog::new(rig), is_up: false }
+        Device::Moog { moog: Box::new(Moog::new(rig)), is_up: false }
     }
 
     /// The values that the device is to follow, before the limits of the legs' frames.
     pub fn followed(&self, values: &Values) -> Values {
         match self {
-            Device::Template(_) => *values,
+            Device::Template(..) => *values,
             Device::Moog { moog, .. } => moog.faded(values),
         }
     }
@@ -39,10 +44,14 @@ impl Device {
     /// Replaces `out` by the bytes for a message. A fault, if the device is silent.
     pub fn bytes(&mut self, message: Message, values: &Values, out: &mut Vec<u8>) -> Option<Event> {
         match self {
-            Device::Template(encoder) => {
+            Device::Template(encoder, count) => {
+                let values = &Values { count: *count, ..*values };
                 match message {
                     Message::Start | Message::Begin => encoder.start(values, out),
-                    Message::Frame => encoder.frame(values, out),
+                    Message::Frame => {
+                        encoder.frame(values, out);
+                        *count = count.wrapping_add(1);
+                    }
                     Message::Park => encoder.park(values, out),
                     Message::Stop => encoder.stop(values, out),
                 }
@@ -68,13 +77,13 @@ impl Device {
 
     /// True if it can be asked for the legs' lengths.
     pub fn asks(&self) -> bool {
-        matches!(self, Device::Template(encoder) if encoder.asks())
+        matches!(self, Device::Template(encoder, _) if encoder.asks())
     }
 
     /// Replaces `out` by the question for the legs' lengths; nothing if it has none.
     pub fn ask(&self, out: &mut Vec<u8>) {
         out.clear();
-        if let Device::Template(encoder) = self {
+        if let Device::Template(encoder, _) = self {
             encoder.ask(out);
         }
     }
@@ -87,7 +96,7 @@ impl Device {
     /// Takes what the device has answered.
     pub fn receive(&mut self, answer: &[u8]) -> Option<Event> {
         match self {
-            Device::Template(_) => None,
+            Device::Template(..) => None,
             Device::Moog { moog, .. } => moog.receive(answer),
         }
     }

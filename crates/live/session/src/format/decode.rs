@@ -2,11 +2,13 @@
 
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
+use super::line::Line;
 use super::{
-    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, QUANTITIES, Quantity, SHIPPED, Unit,
+    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Player, QUANTITIES, QUATERNION, Quantity,
+    SHIPPED, Unit,
 };
 use crate::motion::{Motion, Sample};
 
@@ -19,46 +21,158 @@ pub enum Dropped {
     /// The packet's first bytes are not the format's.
     #[error("a packet with another head")]
     Head,
+    /// The packet has titles alone.
+    #[error("a packet of titles without numbers")]
+    Titles,
+    /// The packet lacks the player's number.
+    #[error("a packet without the player's number")]
+    Player,
     /// The packet lacks a field, or the field is no number.
     #[error("a packet without the field {0:?}")]
     Field(Quantity),
 }
 
+/// Most vehicles in a list.
+const MAX_PLAYERS: f64 = 1024.0;
+
+/// A packet, or a part of it with one sample, in the form of its layout.
+enum Record<'a> {
+    Binary(&'a [u8]),
+    Pairs(&'a [u8]),
+    Line(Line<'a>),
+    Json(Value),
+}
+
 impl Format {
-    /// The sample in a packet. Numbers in it may be infinite or no numbers.
+    /// The first sample in a packet. Numbers in it may be infinite or no numbers.
     ///
     /// # Errors
     /// The packet is not of this format.
     pub fn decode(&self, packet: &[u8]) -> Result<Sample, Dropped> {
+        let mut first = None;
+        self.decode_all(packet, |sample| first = first.or(Some(sample)))?;
+        first.ok_or(Dropped::Titles)
+    }
+
+    /// Gives the samples in a packet in their order: lines of text, objects in lines, and packets
+    /// of one length behind each other may hold several.
+    ///
+    /// # Errors
+    /// The packet is not of this format, from some sample on.
+    pub fn decode_all(&self, packet: &[u8], mut sample: impl FnMut(Sample)) -> Result<(), Dropped> {
+        match self.layout {
+            Layout::Binary | Layout::Pairs => {
+                let part = self.part_length(packet.len()).ok_or(Dropped::Length(packet.len()))?;
+                for part in packet.chunks(part.max(1)) {
+                    let body = part.strip_prefix(self.head.as_bytes()).ok_or(Dropped::Head)?;
+                    let is_binary = self.layout == Layout::Binary;
+                    let record = if is_binary { Record::Binary(part) } else { Record::Pairs(body) };
+                    sample(self.sample_of(&record, part.len())?);
+                }
+            }
+            Layout::Csv => {
+                let text = self.text(packet)?;
+                let is_pairs = text.contains('=');
+                let mut titles = None;
+                let lines = text.lines().filter(|line| !line.trim().is_empty());
+                for line in lines.take(if is_pairs { 0 } else { usize::MAX }) {
+                    let line = Line::Columns { text: line, titles };
+                    if line.is_titles() {
+                        titles = Some(line.text());
+                        continue;
+                    }
+                    sample(self.sample_of(&Record::Line(line), packet.len())?);
+                }
+                if is_pairs {
+                    sample(self.sample_of(&Record::Line(Line::Pairs(text)), packet.len())?);
+                }
+            }
+            Layout::Json => {
+                let text = self.text(packet)?;
+                let mut objects = serde_json::Deserializer::from_str(text).into_iter::<Value>();
+                let first = objects.next().and_then(Result::ok).unwrap_or_default();
+                sample(self.sample_of(&Record::Json(first), packet.len())?);
+                for object in objects.map_while(Result::ok) {
+                    sample(self.sample_of(&Record::Json(object), packet.len())?);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Length of the parts of a packet, of which each is a sample: one of the format's, or the only
+    /// one that divides the packet's. None for a packet of another format.
+    fn part_length(&self, length: usize) -> Option<usize> {
+        if self.lengths.is_empty() || self.lengths.contains(&length) {
+            return Some(length);
+        }
+        let mut parts =
+            self.lengths.iter().copied().filter(|part| *part > 0 && length > 0 && length.is_multiple_of(*part));
+        // Of two lengths that divide it, neither is known.
+        parts.next().filter(|_| parts.next().is_none())
+    }
+
+    /// A packet of text, behind its head.
+    fn text<'a>(&self, packet: &'a [u8]) -> Result<&'a str, Dropped> {
         if !self.lengths.is_empty() && !self.lengths.contains(&packet.len()) {
             return Err(Dropped::Length(packet.len()));
         }
         let body = packet.strip_prefix(self.head.as_bytes()).ok_or(Dropped::Head)?;
+        str::from_utf8(body).map_err(|_| Dropped::Field(Quantity::Ax))
+    }
+
+    fn sample_of(&self, record: &Record, length: usize) -> Result<Sample, Dropped> {
         let mut values = [None; QUANTITIES];
-        let text = || str::from_utf8(packet).ok();
-        let object = match self.layout {
-            Layout::Json => serde_json::from_slice::<Value>(packet).ok(),
-            _ => None,
+        let player = match &self.player {
+            Some(player) => Some(self.player_of(player, record).ok_or(Dropped::Player)?),
+            None => None,
         };
-        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&packet.len()));
+        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&length));
         for (quantity, field) in self.fields.iter().chain(further.flat_map(|of| &of.fields)) {
-            let read = match (&field.at, self.layout) {
-                (FieldAddress::Index(at), Layout::Binary) => number(packet, *at, field.kind, self.byte_order),
-                (FieldAddress::Index(at), Layout::Pairs) => paired(body, *at),
-                (FieldAddress::Index(at), Layout::Csv) => column(text(), *at),
-                (FieldAddress::Key(key), _) => object.as_ref().and_then(|object| value(at_path(object, key)?)),
-                _ => None,
-            };
             // Without these a packet of text says nothing.
             let is_needed = matches!(quantity, Quantity::Ax | Quantity::Ay);
             let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed;
-            match read {
+            match self.read(record, *quantity, field, player) {
                 Some(value) => values[*quantity as usize] = Some(value * factor(field, *quantity)),
                 None if optional => (),
                 None => return Err(Dropped::Field(*quantity)),
             }
         }
         Ok(self.sample(&values))
+    }
+
+    /// The player's number.
+    fn player_of(&self, player: &Player, record: &Record) -> Option<usize> {
+        let found = match (&player.at, record) {
+            (FieldAddress::Index(at), Record::Binary(bytes)) => number(bytes, *at, player.kind, self.byte_order),
+            (FieldAddress::Index(at), Record::Line(line)) => line.column(*at),
+            (FieldAddress::Key(key), Record::Json(object)) => value(at_path(object, key)?),
+            _ => None,
+        };
+        found.filter(|number| (0.0..MAX_PLAYERS).contains(number)).map(|number| number as usize)
+    }
+
+    fn read(&self, record: &Record, quantity: Quantity, field: &Field, player: Option<usize>) -> Option<f64> {
+        let further = match (player, &self.player) {
+            (Some(number), Some(player)) if field.of_player => number * player.stride,
+            _ => 0,
+        };
+        match (&field.at, record) {
+            (FieldAddress::Index(at), Record::Binary(bytes)) => {
+                number(bytes, at + further, field.kind, self.byte_order)
+            }
+            (FieldAddress::Index(at), Record::Pairs(body)) => paired(body, *at),
+            (FieldAddress::Index(at), Record::Line(line @ Line::Columns { .. })) => line.column(at + further),
+            (FieldAddress::Index(_), Record::Line(line)) => {
+                line.value(quantity.word()).or_else(|| field.keys.iter().find_map(|key| line.value(key)))
+            }
+            (FieldAddress::Key(key), Record::Line(line)) => line.value(key),
+            (FieldAddress::Key(key), Record::Json(object)) => match player.filter(|_| field.of_player) {
+                Some(number) => value(at_path(object, &key.replace("{player}", &number.to_string()))?),
+                None => value(at_path(object, key)?),
+            },
+            _ => None,
+        }
     }
 
     /// Description of a packet of another format: its length, those of this format, and the shipped
@@ -97,7 +211,13 @@ impl Format {
         let of = |quantity: Quantity| values[quantity as usize];
         let vector = |names: [Quantity; 3]| Vector3::from_fn(|k, _| of(names[k]).unwrap_or(0.0));
         let all = |names: [Quantity; 3]| names.into_iter().all(|name| of(name).is_some());
-        let angles = RollPitchYaw::from_vector(vector([Roll, Pitch, Yaw]));
+        let quaternion = QUATERNION.map(of);
+        let has_quaternion = quaternion.iter().all(Option::is_some);
+        let angles = if has_quaternion {
+            angles_of(quaternion.map(Option::unwrap_or_default))
+        } else {
+            RollPitchYaw::from_vector(vector([Roll, Pitch, Yaw]))
+        };
         let rotation = Orientation::new(angles).rotation;
         let to_body = |vector: Vector3<f64>, axes: Axes| match axes {
             Axes::Body => vector,
@@ -116,9 +236,18 @@ impl Format {
             motion: Motion::new(force, rates, angles, speed),
             position: (of(X).is_some() && of(Y).is_some()).then(|| vector([X, Y, Z])),
             paused: of(Paused).is_some_and(|paused| paused != 0.0) || of(Running).is_some_and(|running| running == 0.0),
-            has_angles: all([Roll, Pitch, Yaw]),
+            has_angles: has_quaternion || all([Roll, Pitch, Yaw]),
         }
     }
+}
+
+/// The angles of a quaternion of any size, as of 16-bit numbers; none of one that is zero.
+fn angles_of([w, x, y, z]: [f64; 4]) -> RollPitchYaw {
+    let Some(quaternion) = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), f64::MIN_POSITIVE) else {
+        return RollPitchYaw::new(f64::NAN, f64::NAN, f64::NAN);
+    };
+    let (roll, pitch, yaw) = quaternion.euler_angles();
+    RollPitchYaw::new(roll, pitch, yaw)
 }
 
 /// The value of a key, or of keys in keys and numbers in lists with dots between them.
@@ -161,19 +290,6 @@ fn paired(body: &[u8], index: usize) -> Option<f64> {
         let number = i32::from_le_bytes([*a, *b, *c, *d]);
         (usize::try_from(number) == Ok(index)).then(|| f64::from(f32::from_le_bytes(*value)))
     })
-}
-
-fn column(text: Option<&str>, at: usize) -> Option<f64> {
-    let line = text?.lines().next()?;
-    truth(line.split(',').nth(at)?.trim())
-}
-
-fn truth(text: &str) -> Option<f64> {
-    match text {
-        "true" => Some(1.0),
-        "false" => Some(0.0),
-        _ => text.parse().ok(),
-    }
 }
 
 fn value(value: &Value) -> Option<f64> {

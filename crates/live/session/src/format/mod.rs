@@ -24,11 +24,14 @@
 //! ```
 
 mod decode;
+mod line;
 
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use serde::Deserialize;
+
+pub use decode::Dropped;
 
 /// Most fields of a table, and largest offset.
 const MOST: usize = 4096;
@@ -67,6 +70,8 @@ pub struct Format {
     /// Axes of the angular velocity.
     #[serde(default)]
     pub rate_axes: Axes,
+    /// The player's place in a list of vehicles.
+    pub player: Option<Player>,
     /// Subscription that the program must receive first.
     pub subscribe: Option<Subscribe>,
     /// The fields.
@@ -94,10 +99,29 @@ pub enum Layout {
     Binary,
     /// A head, then pairs of an i32 and an f32; `at` is the i32.
     Pairs,
-    /// Text with commas; `at` is the column, from 0.
+    /// Lines of numbers with semicolons, tabs or commas between them, each a sample, or pairs like
+    /// `ax=1.5`. `at` is the column, from 0, its title, or the key.
     Csv,
     /// An object; `at` is the key.
     Json,
+}
+
+/// The player's number in a list of vehicles, and where each of them is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Player {
+    /// Place of the number, from 0: an offset, a column, or a key.
+    pub at: FieldAddress,
+    /// Type of a binary number.
+    #[serde(rename = "type", default = "byte")]
+    pub kind: Number,
+    /// Bytes or columns from a vehicle to the next one.
+    #[serde(default)]
+    pub stride: usize,
+}
+
+fn byte() -> Number {
+    Number::U8
 }
 
 /// Vehicle of a source.
@@ -155,7 +179,7 @@ pub struct Subscribe {
 
 /// A field of a packet.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Field {
     /// Offset \[bytes\], column, number or key.
     pub at: FieldAddress,
@@ -169,6 +193,12 @@ pub struct Field {
     pub scale: f64,
     /// Name by which X-Plane is asked for the value.
     pub dataref: Option<String>,
+    /// Keys of the value in text of pairs, beside the quantity's own name.
+    #[serde(default)]
+    pub keys: Vec<String>,
+    /// `at` is that of the first vehicle; the player's is as many strides further.
+    #[serde(default)]
+    pub of_player: bool,
 }
 
 fn one() -> f64 {
@@ -190,6 +220,13 @@ macro_rules! words {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
         pub enum $type { $( #[doc = $word] #[serde(rename = $word)] $(#[$item_attribute])* $item, )+ }
+
+        impl $type {
+            /// Its word in a table.
+            pub fn word(self) -> &'static str {
+                match self { $( $type::$item => $word, )+ }
+            }
+        }
     };
 }
 
@@ -198,11 +235,16 @@ words! {
     Quantity {
         Time "time", Ax "ax", Ay "ay", Az "az", Wx "wx", Wy "wy", Wz "wz", Roll "roll", Pitch "pitch", Yaw "yaw",
         X "x", Y "y", Z "z", Vx "vx", Vy "vy", Vz "vz", Speed "speed", Paused "paused", Running "running",
+        Qw "qw", Qx "qx", Qy "qy", Qz "qz",
     }
 }
 
 /// Number of quantities.
-const QUANTITIES: usize = Quantity::Running as usize + 1;
+const QUANTITIES: usize = Quantity::Qz as usize + 1;
+
+/// Quantities of an attitude as a quaternion of any size, which turns the body's axes to the
+/// world's.
+const QUATERNION: [Quantity; 4] = [Quantity::Qw, Quantity::Qx, Quantity::Qy, Quantity::Qz];
 
 words! {
     /// Type of a binary number.
@@ -246,10 +288,13 @@ impl FromStr for Format {
         for (quantity, field) in format.fields.iter().chain(further) {
             let refuse = |reason| Err(FormatError::Field(*quantity, reason));
             match (&field.at, format.layout) {
-                (FieldAddress::Key(_), Layout::Json) => (),
+                (FieldAddress::Key(_), Layout::Json | Layout::Csv) => (),
                 (FieldAddress::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MOST => (),
                 (_, Layout::Json) => return refuse("`at` must be a key"),
                 _ => return refuse("`at` must be a number below 4096"),
+            }
+            if field.of_player && format.player.is_none() {
+                return refuse("`of-player` needs a line `player` with the place of the player's number");
             }
             if !field.scale.is_finite() || field.scale == 0.0 {
                 return refuse("`scale` must be a number other than zero");
@@ -259,9 +304,18 @@ impl FromStr for Format {
         if !(has(Quantity::Ax) && has(Quantity::Ay)) {
             return Err(FormatError::Whole("fields ax and ay are needed"));
         }
+        if QUATERNION.into_iter().any(has) && !QUATERNION.into_iter().all(has) {
+            return Err(FormatError::Whole("a quaternion needs qw, qx, qy and qz"));
+        }
+        if let Some(Player { at: FieldAddress::Index(at), stride, .. }) = &format.player
+            && (*at >= MOST || !(1..MOST).contains(stride) || format.layout == Layout::Json)
+        {
+            return Err(FormatError::Whole("player needs `at` and `stride` below 4096; in JSON `at` is a key"));
+        }
         let turned = format.force_axes == Axes::World || format.rate_axes == Axes::World;
-        if turned && ![Quantity::Roll, Quantity::Pitch, Quantity::Yaw].into_iter().all(has) {
-            return Err(FormatError::Whole("vectors in the world's axes need roll, pitch and yaw"));
+        let angles = [Quantity::Roll, Quantity::Pitch, Quantity::Yaw];
+        if turned && !angles.into_iter().all(has) && !QUATERNION.into_iter().all(has) {
+            return Err(FormatError::Whole("vectors in the world's axes need roll, pitch and yaw, or a quaternion"));
         }
         Ok(format)
     }

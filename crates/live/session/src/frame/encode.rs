@@ -15,6 +15,8 @@ pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 lengt
 const LENGTHS: Range<usize> = 1..13;
 /// Most bytes of a template.
 const MOST: usize = 4096;
+/// Ends of the numbers of actuators where a template has none, but for signed ones.
+const SIXTEEN_BITS: [i64; 2] = [0, 65_535];
 /// Most decimals of a quantity.
 const DECIMALS: usize = 15;
 
@@ -38,6 +40,8 @@ pub struct Values {
     pub heave_above: f64,
     /// Displacement of the platform from neutral in its own turned axes \[m\].
     pub own: [f64; 3],
+    /// Number of the frame, from 0.
+    pub count: u32,
 }
 
 impl From<&Commands> for Values {
@@ -53,6 +57,7 @@ impl From<&Commands> for Values {
             heave: *heave,
             heave_above: heave - (p.z - washout.position.z),
             own: pose.orientation.rotation.tr_mul(&Vector3::new(p.x, p.y, *heave)).into(),
+            count: 0,
         }
     }
 }
@@ -69,18 +74,32 @@ impl Values {
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
     Bytes(Vec<u8>),
-    /// These bytes of an actuator's number of so many bytes, the most significant first.
+    /// These bytes of an actuator's number, the most significant first.
     Binary {
         leg: usize,
-        width: usize,
+        whole: Whole,
         sent: Range<usize>,
-        little: bool,
+    },
+    /// A quantity times a factor as a whole number.
+    Scaled {
+        place: usize,
+        factor: f64,
+        whole: Whole,
+    },
+    /// The number of the frame.
+    Count(Whole),
+    /// A checksum of the frame's bytes before it, from this one on.
+    Checksum {
+        kind: Checksum,
+        from: usize,
+        whole: Whole,
     },
     Decimal {
         leg: usize,
     },
     Quantity {
         place: usize,
+        factor: f64,
         decimals: usize,
     },
     /// A quantity times a factor, as a number of 32 or 64 bits.
@@ -92,6 +111,65 @@ enum Token {
     },
 }
 
+/// Form of a whole number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Whole {
+    /// Number of its bytes.
+    width: usize,
+    is_signed: bool,
+    little: bool,
+}
+
+impl Whole {
+    /// The form of a word such as `u16`, `i16le`.
+    fn of(word: &str) -> Option<Whole> {
+        let (kind, little) = word.strip_suffix("le").map_or((word, false), |kind| (kind, true));
+        let (kind, is_signed) = match kind.strip_prefix('i') {
+            Some(bits) => (bits, true),
+            None => (kind.strip_prefix('u')?, false),
+        };
+        let width = match kind {
+            "8" => 1,
+            "16" => 2,
+            "24" => 3,
+            "32" => 4,
+            _ => return None,
+        };
+        Some(Whole { width, is_signed, little })
+    }
+
+    /// Its smallest and largest number.
+    fn ends(self) -> [i64; 2] {
+        let bits = 8 * self.width;
+        if self.is_signed { [-(1 << (bits - 1)), (1 << (bits - 1)) - 1] } else { [0, (1 << bits) - 1] }
+    }
+
+    /// Adds the number, or the nearest one that it has, and of its bytes these, the
+    /// most significant first.
+    fn push(self, number: i64, sent: Range<usize>, out: &mut Vec<u8>) {
+        let [least, most] = self.ends();
+        let digits = number.clamp(least, most).to_be_bytes();
+        let digits = &digits[digits.len() - self.width..][sent];
+        if self.little { out.extend(digits.iter().rev()) } else { out.extend(digits) }
+    }
+}
+
+/// Kind of a checksum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Checksum {
+    Sum,
+    ExclusiveOr,
+}
+
+impl Checksum {
+    fn of(self, bytes: &[u8]) -> i64 {
+        match self {
+            Checksum::Sum => bytes.iter().map(|byte| i64::from(*byte)).sum(),
+            Checksum::ExclusiveOr => i64::from(bytes.iter().fold(0, |all, byte| all ^ byte)),
+        }
+    }
+}
+
 /// A template, ready to be filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoder {
@@ -100,7 +178,8 @@ pub struct Encoder {
     frame: Vec<Token>,
     park: Vec<Token>,
     stop: Vec<Token>,
-    range: [f64; 2],
+    /// Numbers for the shortest and the longest actuator; none: all that a whole number has.
+    range: Option<[f64; 2]>,
     reversed: [bool; 6],
     stroke: [f64; 2],
 }
@@ -117,7 +196,7 @@ impl Encoder {
             frame: tokens(&frames.frame)?,
             park: tokens(&frames.park)?,
             stop: tokens(&frames.stop)?,
-            range: frames.range.map(|end| end as f64),
+            range: frames.range.map(|range| range.map(|end| end as f64)),
             reversed: std::array::from_fn(|leg| frames.reversed.contains(&(leg + 1))),
             stroke,
         })
@@ -127,8 +206,10 @@ impl Encoder {
     pub fn moves_actuators(&self) -> bool {
         self.frame.iter().any(|token| match token {
             Token::Binary { .. } | Token::Decimal { .. } => true,
-            Token::Quantity { place, .. } | Token::Float { place, .. } => LENGTHS.contains(place),
-            Token::Bytes(_) => false,
+            Token::Quantity { place, .. } | Token::Float { place, .. } | Token::Scaled { place, .. } => {
+                LENGTHS.contains(place)
+            }
+            Token::Bytes(_) | Token::Count(_) | Token::Checksum { .. } => false,
         })
     }
 
@@ -167,14 +248,20 @@ impl Encoder {
         for token in tokens {
             match token {
                 Token::Bytes(bytes) => out.extend(bytes),
-                Token::Binary { leg, width, sent, little } => {
-                    let number = self.number(*leg, values).clamp(0, (1 << (8 * width)) - 1);
-                    let digits = number.to_be_bytes();
-                    let digits = &digits[digits.len() - width..][sent.clone()];
-                    if *little { out.extend(digits.iter().rev()) } else { out.extend(digits) }
+                Token::Binary { leg, whole, sent } => {
+                    let ends = if whole.is_signed { whole.ends() } else { SIXTEEN_BITS };
+                    whole.push(self.number(*leg, values, ends), sent.clone(), out);
+                }
+                Token::Scaled { place, factor, whole } => {
+                    whole.push((factor * values.quantity(*place)).round() as i64, 0..whole.width, out);
+                }
+                Token::Count(whole) => whole.push(wrapped(values.count.into(), *whole), 0..whole.width, out),
+                Token::Checksum { kind, from, whole } => {
+                    let sum = kind.of(out.get(*from..).unwrap_or_default());
+                    whole.push(wrapped(sum, *whole), 0..whole.width, out);
                 }
                 // Writing to a vector cannot fail.
-                Token::Decimal { leg } => drop(write!(out, "{}", self.number(*leg, values))),
+                Token::Decimal { leg } => drop(write!(out, "{}", self.number(*leg, values, SIXTEEN_BITS))),
                 Token::Float { place, factor, is_double, little } => {
                     let value = factor * values.quantity(*place);
                     let from = out.len();
@@ -187,21 +274,27 @@ impl Encoder {
                         out[from..].reverse();
                     }
                 }
-                Token::Quantity { place, decimals } => {
-                    drop(write!(out, "{:.decimals$}", values.quantity(*place)));
+                Token::Quantity { place, factor, decimals } => {
+                    drop(write!(out, "{:.decimals$}", factor * values.quantity(*place)));
                 }
             }
         }
     }
 
-    /// The number for an actuator's length.
-    fn number(&self, leg: usize, values: &Values) -> i64 {
+    /// The number for an actuator's length, between these ends where the template has none.
+    fn number(&self, leg: usize, values: &Values, ends: [i64; 2]) -> i64 {
+        let [first, last] = self.range.unwrap_or(ends.map(|end| end as f64));
         let [shortest, longest] = self.stroke;
         let part = ((values.length[leg] - shortest) / (longest - shortest)).clamp(0.0, 1.0);
         let part = if self.reversed[leg] { 1.0 - part } else { part };
         // A length that is not a number counts as the shortest.
-        (self.range[0] + part * (self.range[1] - self.range[0])).round() as i64
+        (first + part * (last - first)).round() as i64
     }
+}
+
+/// A number that begins at 0 again beyond the last one of its form.
+fn wrapped(number: i64, whole: Whole) -> i64 {
+    number.rem_euclid(1 << (8 * whole.width))
 }
 
 /// The tokens of a template.
@@ -234,12 +327,15 @@ fn token(word: &str) -> Option<Token> {
         let byte = u8::from_str_radix(word, 16).ok().filter(|_| word.len() == 2)?;
         return Some(Token::Bytes(vec![byte]));
     };
+    if let Some(token) = of_frame(name, form) {
+        return Some(token);
+    }
     let Some(leg) = name.strip_prefix("leg") else {
         let place = QUANTITIES.split(' ').position(|quantity| quantity == name)?;
         let (kind, factor) = form.split_once('*').unwrap_or((form, "1"));
+        let factor = factor.parse().ok().filter(|factor: &f64| factor.is_finite())?;
         if let Some(bits) = kind.strip_prefix('f') {
             let (bits, little) = bits.strip_suffix("le").map_or((bits, false), |bits| (bits, true));
-            let factor = factor.parse().ok().filter(|factor: &f64| factor.is_finite())?;
             let is_double = match bits {
                 "64" => true,
                 "32" => false,
@@ -247,19 +343,32 @@ fn token(word: &str) -> Option<Token> {
             };
             return Some(Token::Float { place, factor, is_double, little });
         }
-        return Some(Token::Quantity { place, decimals: form.parse().ok().filter(|count| *count <= DECIMALS)? });
+        if let Some(whole) = Whole::of(kind) {
+            return Some(Token::Scaled { place, factor, whole });
+        }
+        let decimals = kind.parse().ok().filter(|count| *count <= DECIMALS)?;
+        return Some(Token::Quantity { place, factor, decimals });
     };
     let leg = leg.parse::<usize>().ok().filter(|leg| (1..=6).contains(leg))? - 1;
-    let (kind, little) = form.strip_suffix("le").map_or((form, false), |kind| (kind, true));
-    let (width, sent) = match kind {
-        "dec" if !little => return Some(Token::Decimal { leg }),
-        "hi" if !little => (2, 0..1),
-        "lo" if !little => (2, 1..2),
-        "u8" => (1, 0..1),
-        "u16" => (2, 0..2),
-        "u24" => (3, 0..3),
-        "u32" => (4, 0..4),
+    let half = |sent| Token::Binary { leg, whole: Whole { width: 2, is_signed: false, little: false }, sent };
+    match form {
+        "dec" => Some(Token::Decimal { leg }),
+        "hi" => Some(half(0..1)),
+        "lo" => Some(half(1..2)),
+        _ => Whole::of(form).map(|whole| Token::Binary { leg, whole, sent: 0..whole.width }),
+    }
+}
+
+/// A counter, or a checksum from a byte on: `count:u8`, `sum:u8`, `xor@2:u8`.
+fn of_frame(name: &str, form: &str) -> Option<Token> {
+    let unsigned = || Whole::of(form).filter(|whole| !whole.is_signed);
+    let (name, from) = name.split_once('@').unwrap_or((name, "0"));
+    let from = from.parse().ok()?;
+    let kind = match name {
+        "count" if from == 0 => return unsigned().map(Token::Count),
+        "sum" => Checksum::Sum,
+        "xor" => Checksum::ExclusiveOr,
         _ => return None,
     };
-    Some(Token::Binary { leg, width, sent, little })
+    unsigned().map(|whole| Token::Checksum { kind, from, whole })
 }

@@ -8,8 +8,12 @@
 //! | `'text'` | its characters |
 //! | `leg1:u16` | position of the first actuator, 0 to 1 spread over `range`: u8, u16, u24 or u32, big-endian; `u16le` and so on little-endian |
 //! | `leg1:hi`, `leg1:lo` | the high and the low byte of `leg1:u16` |
+//! | `leg1:i16` | the same as a signed number, spread over all of its range without `range`: i8 to i32 |
 //! | `leg1:dec` | the same in decimal digits |
-//! | `length1:6` | a quantity with so many decimals: see [`QUANTITIES`] |
+//! | `length1:6`, `x:1*1000` | a quantity, times a factor, with so many decimals: see [`QUANTITIES`] |
+//! | `x:i16*1000` | a quantity times a factor as a whole number, signed or not; the nearest one at its ends |
+//! | `count:u8` | the number of the frame, which begins at 0 again |
+//! | `sum:u8`, `xor:u8` | sum or exclusive or of the bytes before it; `sum@2:u8`: from the third one on |
 //! | `x:f64le*1000` | a quantity times a factor as a number: `f32` or `f64` big-endian, `f32le` or `f64le` little-endian |
 //!
 //! ```
@@ -51,9 +55,9 @@ pub struct Frames {
     pub about: String,
     /// Sources of the template, and what no device has verified.
     pub note: String,
-    /// Numbers for the shortest and the longest actuator.
-    #[serde(default = "sixteen_bits")]
-    pub range: [i64; 2],
+    /// Numbers for the shortest and the longest actuator: 0 and 65,535 by default, or the ends of
+    /// signed numbers.
+    pub range: Option<[i64; 2]>,
     /// Actuators, from 1, whose numbers fall with their length.
     #[serde(default)]
     pub reversed: Vec<usize>,
@@ -79,10 +83,6 @@ pub struct Frames {
     /// Sent at the end.
     #[serde(default)]
     pub stop: String,
-}
-
-fn sixteen_bits() -> [i64; 2] {
-    [0, 65_535]
 }
 
 fn millisecond() -> f64 {
@@ -120,7 +120,7 @@ impl FromStr for Frames {
         if frames.reversed.iter().any(|leg| !(1..=6).contains(leg)) {
             return Err(FramesError::Range("reversed has actuators from 1 to 6"));
         }
-        if frames.range.iter().any(|end| !(-(1 << 40)..=1 << 40).contains(end)) {
+        if frames.range.iter().flatten().any(|end| !(-(1 << 40)..=1 << 40).contains(end)) {
             return Err(FramesError::Range("range has numbers of at most 40 bits"));
         }
         Encoder::new(&frames, [0.0, 1.0])?;

@@ -28,7 +28,7 @@ fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     let (mut ring, messages) = RingBuffer::new(8);
     let (orders, _) = RingBuffer::new(4);
     let sender = std::thread::spawn(move || {
-        let device = Device::Template(Box::new(encoder));
+        let device = Device::of_template(encoder);
         Sender::new(
             messages,
             device,
@@ -130,7 +130,7 @@ fn a_flood_of_answers_delays_no_frame() {
     let (orders, mut reported) = RingBuffer::new(64);
     let shared = Shared::default();
     let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
-    let device_of = Device::Template(Box::new(encoder));
+    let device_of = Device::of_template(encoder);
     let mut sender = Sender::new(RingBuffer::new(1).1, device_of, sink, orders, (0.01, actuators), &shared);
     let mut packet = [0; 256];
     sender.ask(&mut packet);
@@ -175,7 +175,7 @@ fn sent_to(sink: Sink, device: Device, frames: u32, shared: &Shared) -> (Sent, V
 }
 
 fn csv() -> Device {
-    Device::Template(Box::new(Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap()))
+    Device::of_template(Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap())
 }
 
 #[test]
@@ -279,4 +279,33 @@ fn the_controller_is_asked_where_the_legs_are_while_that_is_unknown() {
         drop(ring);
         sender.join().unwrap();
     });
+}
+
+/// As after the computer's sleep: the legs may be anywhere, and no frame follows by itself.
+#[test]
+fn after_a_gap_of_two_seconds_no_frame_leaves_before_a_start() {
+    let device = UdpSocket::bind("127.0.0.1:0").unwrap();
+    device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
+    let (orders, mut reported) = RingBuffer::new(8);
+    let shared = Shared::default();
+    let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
+    let mut sender = Sender::new(RingBuffer::new(1).1, csv(), sink, orders, (0.01, actuators), &shared);
+    let at = |length: f64| Values { length: [length; 6], ..Values::default() };
+    sender.take(Message::Start, &at(1.2));
+    sender.take(Message::Frame, &at(1.2));
+    std::thread::sleep(Duration::from_millis(2_050));
+    sender.take(Message::Frame, &at(1.5));
+    sender.take(Message::Frame, &at(1.5));
+    assert!(matches!(reported.pop(), Ok(Order::Lost(Loss::Gap(gap))) if gap >= 2.0));
+    assert!(reported.pop().is_err(), "a loss is reported once");
+    // A person starts again: from the last frame on, slowly.
+    sender.take(Message::Start, &at(1.5));
+    sender.take(Message::Frame, &at(1.5));
+    sender.take(Message::Stop, &at(1.5));
+    let received = until_stop(&device);
+    let words: Vec<&str> = received.iter().map(|line| line.split([',', '\n']).next().unwrap()).collect();
+    assert_eq!(words, ["start", "0.000", "start", "0.000", "stop"], "{received:?}");
+    let length = |line: &String| line.split(',').nth(1).unwrap().parse::<f64>().unwrap();
+    assert!((length(&received[3]) - 1.2).abs() < 1e-3, "{received:?}");
 }
