@@ -11,6 +11,9 @@ use zip::result::ZipError;
 use super::read::refused;
 use super::size::shown;
 
+/// Most files of an archive.
+const MOST_FILES: usize = 20_000;
+
 /// Errors of unpacking an archive.
 #[derive(Debug, thiserror::Error)]
 pub enum ArchiveError {
@@ -23,6 +26,9 @@ pub enum ArchiveError {
     /// Small files can unpack to more than a disk holds.
     #[error("it has {}, which unpack to {} or more, but at most {} are unpacked", shown(*.packed), shown(*.unpacked), shown(*.largest))]
     TooLarge { packed: u64, unpacked: u64, largest: u64 },
+    /// Each file costs time, however small it is.
+    #[error("it has {0} files, but at most {MOST_FILES} are unpacked")]
+    TooMany(usize),
 }
 
 /// Opens the archive in a file of at most `largest` bytes.
@@ -37,12 +43,15 @@ pub fn open_archive(file: &Path, largest: u64) -> Result<ZipArchive<File>, Archi
     Ok(ZipArchive::new(file)?)
 }
 
-/// Checks that an archive unpacks to at most `largest` bytes. The sizes that it declares are
-/// checked first, then the true ones, which can differ.
+/// Checks that an archive has no more files than are unpacked, and at most `largest` bytes. The
+/// sizes that it declares are checked first, then the true ones, which can differ.
 ///
 /// # Errors
 /// It unpacks to more, or is damaged.
 pub fn check_unpacked<R: Read + Seek>(archive: &mut ZipArchive<R>, largest: u64) -> Result<(), ArchiveError> {
+    if archive.len() > MOST_FILES {
+        return Err(ArchiveError::TooMany(archive.len()));
+    }
     let (mut packed, mut declared) = (0_u64, 0_u64);
     for index in 0..archive.len() {
         let file = archive.by_index_raw(index)?;
@@ -107,6 +116,14 @@ mod tests {
         assert!(refused.ends_with("which unpack to 1 MB or more, but at most 1 MB are unpacked"), "{refused}");
         assert!(refused.starts_with("it has 1"), "{refused}");
         assert!(unpack(b"no archive", 1_000_000).is_err());
+    }
+
+    #[test]
+    fn an_archive_of_very_many_files_is_refused() {
+        let most = vec![0; MOST_FILES];
+        assert_eq!(unpack(&zeros(&most), 1_000).unwrap().len(), MOST_FILES);
+        let refused = unpack(&zeros(&vec![0; MOST_FILES + 1]), 1_000).unwrap_err().to_string();
+        assert_eq!(refused, "it has 20001 files, but at most 20000 are unpacked");
     }
 
     /// The size stands twice, before the file and in the list at the end.

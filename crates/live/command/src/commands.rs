@@ -16,6 +16,18 @@ pub const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
 /// Longest line that may be a command \[bytes\].
 const LONGEST: usize = 256;
 
+/// Standard input, which never stops this program.
+#[cfg(unix)]
+pub fn input() -> impl Read {
+    super::terminal::Foreground::new(std::io::stdin())
+}
+
+/// Standard input.
+#[cfg(not(unix))]
+pub fn input() -> impl Read {
+    std::io::stdin()
+}
+
 /// Passes lines on as commands until the input ends.
 pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
     let mut bytes = [0; 4096];

@@ -86,4 +86,39 @@ mod tests {
         assert_eq!(lost(10, |frame| frame == 7 || frame == 9), None);
         assert_eq!(lost(10, |frame| frame % 150 == 0), None);
     }
+
+    /// The failure with which the controller is lost, of failures at these times \[ms\].
+    fn lost_with(contact: &mut Contact, times: &[u64]) -> Option<usize> {
+        let refused = Err(ErrorKind::ConnectionRefused.into());
+        let at = |time: &u64| Duration::from_millis(10_000 + time);
+        times.iter().position(|time| contact.take(&refused, at(time)) == Some(ErrorKind::ConnectionRefused))
+    }
+
+    #[test]
+    fn failures_within_a_second_of_each_other_are_a_row() {
+        let lost = |times: &[u64]| lost_with(&mut Contact::new(0.01), times);
+        assert_eq!(lost(&[0, 1000, 2000]), Some(2));
+        assert_eq!(lost(&[0, 1000, 2001, 3002, 4003]), None);
+        // Rare frames: each one counts from an interval of more than 50 ms on.
+        assert_eq!(lost_with(&mut Contact::new(0.05), &[0, 1, 2]), Some(2));
+        assert_eq!(lost_with(&mut Contact::new(0.051), &[0, 1, 2]), Some(0));
+    }
+
+    #[test]
+    fn a_loss_is_said_once_until_a_person_renews_the_contact() {
+        let mut contact = Contact::new(0.01);
+        assert!(!contact.is_lost());
+        assert_eq!(lost_with(&mut contact, &[0, 1, 2, 3, 4]), Some(2));
+        assert!(contact.is_lost() && lost_with(&mut contact, &[5, 6, 7, 8]).is_none());
+        contact.renew();
+        assert!(!contact.is_lost());
+        assert_eq!(lost_with(&mut contact, &[9, 10, 11]), Some(2));
+        let mut contact = Contact::new(0.01);
+        contact.lose();
+        assert!(contact.is_lost() && lost_with(&mut contact, &[0, 1, 2, 3]).is_none());
+        // What is sent says nothing of the failures before it.
+        let mut contact = Contact::new(0.01);
+        assert_eq!(contact.take(&Ok(()), Duration::from_secs(1)), None);
+        assert!(!contact.is_lost());
+    }
 }

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use moris_live::log::Entry;
 use moris_live::signs::{Check, Verdict};
-use moris_live::source::Health;
+use moris_live::sizes::Mismatch;
+use moris_live::source::{DropReason, Health};
 use moris_live::{Legs, Refusal, State};
 use rtrb::Consumer;
 
@@ -28,6 +29,10 @@ pub enum Note {
     Refused(f64, Refusal),
     /// A check of the signs has decided.
     Sign(f64, Check, Verdict),
+    /// The telemetry does not fit its table.
+    Mismatch(f64, Mismatch),
+    /// Of so many samples so many were dropped, the last one for this reason.
+    SamplesDropped(f64, [u64; 2], DropReason),
     /// Parameters were chosen; true if they are in force.
     Retuned(f64, bool),
     /// The computer was late: the session's clock has slipped by this time \[s\].
@@ -61,6 +66,10 @@ fn line(note: &Note) -> Option<String> {
             format!("{time:9.3} s  WRONG SIGN, expected: {}", check.text())
         }
         Note::Sign(time, check, _) => format!("{time:9.3} s  sign agrees: {}", check.text()),
+        Note::Mismatch(time, mismatch) => format!("{time:9.3} s  WRONG TABLE: {mismatch}"),
+        Note::SamplesDropped(time, [received, dropped], reason) => {
+            format!("{time:9.3} s  {dropped} of {received} samples dropped: {reason}")
+        }
         Note::Retuned(_, true) => return None,
         Note::Retuned(time, false) => format!("{time:9.3} s  refused: these parameters cannot change now"),
         Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),

@@ -7,6 +7,7 @@
 //!   system.
 //! - `commands` reads lines; `parking` says how long it takes.
 //! - `place` has where the legs are at a start.
+//! - `telemetry_watch` tells what is wrong with it; `terminal` knows whose the terminal is.
 //! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU or a motorcycle.
 //! - `controls` has what the page holds of a vehicle's controls.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
@@ -40,12 +41,15 @@ mod signals;
 mod steps;
 mod tables;
 mod telemetry;
+mod telemetry_watch;
+#[cfg(unix)]
+mod terminal;
 mod vehicle;
 mod watch;
 mod wire;
 
 use std::fs::File;
-use std::io::{Write, stdin};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -286,7 +290,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         if encoder.asks() {
             sink.listen_if_it_can()?;
         }
-        (Device::Template(Box::new(encoder)), template.interval, template.time_out, place)
+        (Device::of_template(encoder), template.interval, template.time_out, place)
     };
     let doubts = options.settled && was_left && !place.starts_settled();
     if doubts {
@@ -334,6 +338,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
     let server = options.page.map(open).transpose()?;
     let (shown, showing) = RingBuffer::new(256);
+    let (refused, refusals) = RingBuffer::new(8);
     let (from_device, reported) = RingBuffer::new(16);
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
@@ -347,7 +352,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     // It waits for a line for ever: nobody joins it.
     let listening = Arc::clone(&shared);
-    thread::spawn(move || watch(&listening.failed, Part::Commands, || commands::read(stdin(), commands)));
+    thread::spawn(move || watch(&listening.failed, Part::Commands, || commands::read(commands::input(), commands)));
     let interval = frames::whole_steps(if options.dry { interval.max(0.1) } else { interval });
     let rig = &setup.parameters.rig;
     let actuators = Actuators {
@@ -369,7 +374,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             scope.spawn(move || watch(&shared.failed, Part::Journal, || journal::keep(journal, record, page)));
         if let Some(server) = &server {
             scope.spawn(|| watch(&shared.failed, Part::Page, || server.run(shared)));
-            scope.spawn(|| watch(&shared.failed, Part::Page, || desk.show(showing, shared)));
+            scope.spawn(|| watch(&shared.failed, Part::Page, || desk.show(showing, refusals, shared)));
         }
         scope.spawn(move || watch(&shared.failed, Part::Page, || parking::forecast(parking, page, shared)));
         let controls = controls.as_deref();
@@ -390,6 +395,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             frames: frames::Frames::new(to_device, sender.thread().clone(), interval, options.pose_ahead),
             journal: to_journal,
             shown: server.as_ref().map(|_| shown),
+            refused,
             starts: options.engage,
             engages: options.engage,
             ends_at: options.duration,

@@ -232,6 +232,26 @@ mod tests {
         assert_eq!([place.take(0.0), place.take(9.0)], [Legs::Settled, Legs::Slow]);
     }
 
+    /// Reports of before a loss say nothing of where the legs are after it.
+    #[test]
+    fn a_loss_begins_the_reports_anew() {
+        let mut place = of("csv", false, None);
+        for now in [0.0, 0.3] {
+            place.report(now, [1.2; 6]);
+        }
+        assert_eq!(place.take(0.3), Legs::Reported([1.2; 6]));
+        place.forget();
+        place.report(0.4, [1.2; 6]);
+        assert_eq!(place.take(0.4), Legs::Unknown);
+        place.report(0.7, [1.2; 6]);
+        assert_eq!(place.take(0.7), Legs::Reported([1.2; 6]));
+        // A second after the last one a report goes on, later it begins anew.
+        place.report(1.7, [1.2; 6]);
+        assert_eq!(place.take(1.7), Legs::Reported([1.2; 6]));
+        place.report(2.8, [1.2; 6]);
+        assert_eq!(place.take(2.8), Legs::Unknown);
+    }
+
     #[test]
     fn legs_far_from_the_lowest_pose_are_settled_if_a_person_says_so_twice() {
         let mut place = of("simtools", false, None);

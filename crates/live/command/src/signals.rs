@@ -12,6 +12,12 @@ use anyhow::{Context, Result};
 /// Time after a signal in which another one is the same wish: a supervisor sends two.
 const SAME: Duration = Duration::from_millis(500);
 
+/// Numbers of Linux's signals of real time.
+#[cfg(target_os = "linux")]
+const FIRST_REAL_TIME: i32 = 34;
+#[cfg(target_os = "linux")]
+const LAST_REAL_TIME: i32 = 64;
+
 /// Flags of signals that have come.
 #[derive(Clone, Debug, Default)]
 pub struct Signals {
@@ -37,15 +43,35 @@ impl Signals {
         use signal_hook::consts::signal::*;
         use signal_hook::flag::register;
         register(SIGINT, Arc::clone(&self.interrupt))?;
-        // Ctrl-Z would stop the frames in mid-motion, too.
-        for signal in [SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGIO]
-        {
+        // Ctrl-Z would stop the frames in mid-motion, too. A supervisor's watchdog sends SIGABRT.
+        for signal in [
+            SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGIO, SIGABRT,
+            SIGTRAP, SIGSYS,
+        ] {
             register(signal, Arc::clone(&self.termination))?;
         }
-        // A recording that exceeds the limit of a file is an error of its writing.
-        register(SIGXFSZ, Arc::default())?;
+        // A recording that exceeds the limit of a file is an error of its writing. A program in the
+        // background that reads or writes the terminal goes on without it: see `terminal`.
+        for signal in [SIGXFSZ, SIGTTIN, SIGTTOU] {
+            register(signal, Arc::default())?;
+        }
+        self.register_of_linux();
         Ok(())
     }
+
+    /// Signals of Linux alone: the power supply's, the coprocessor's, and those of real time, of
+    /// which a C library keeps some for itself.
+    #[cfg(target_os = "linux")]
+    fn register_of_linux(&self) {
+        use rustix::process::Signal;
+        let named = [Signal::POWER, Signal::STKFLT].map(Signal::as_raw);
+        for signal in named.into_iter().chain(FIRST_REAL_TIME..=LAST_REAL_TIME) {
+            let _ = signal_hook::flag::register(signal, Arc::clone(&self.termination));
+        }
+    }
+
+    #[cfg(all(unix, not(target_os = "linux")))]
+    fn register_of_linux(&self) {}
 
     #[cfg(not(unix))]
     fn register(&self) -> Result<(), ctrlc::Error> {
@@ -130,10 +156,14 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn signals_of_the_system_are_caught() {
-        use signal_hook::consts::signal::{SIGHUP, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGXCPU, SIGXFSZ};
+        use signal_hook::consts::signal::*;
         let signals = Signals::listen().unwrap();
-        signal_hook::low_level::raise(SIGXFSZ).unwrap();
-        for signal in [SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGUSR1, SIGXCPU] {
+        for signal in [SIGXFSZ, SIGTTIN, SIGTTOU] {
+            signal_hook::low_level::raise(signal).unwrap();
+        }
+        let of_linux = if cfg!(target_os = "linux") { &[16, 30, 34, 35, 50, 64][..] } else { &[] };
+        let all = [SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGUSR1, SIGXCPU, SIGABRT, SIGTRAP, SIGSYS];
+        for signal in all.iter().chain(of_linux).copied() {
             assert!(!signals.termination.load(Ordering::Relaxed));
             signal_hook::low_level::raise(signal).unwrap();
             assert!(signals.termination.swap(false, Ordering::Relaxed), "signal {signal}");

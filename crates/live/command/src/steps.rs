@@ -5,9 +5,8 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use moris_live::log::{Digest, Entry, Happening};
-use moris_live::signs::{Check, Verdict};
-use moris_live::source::Health;
 use moris_live::{Event, Legs, Refusal, STEP, Session, State};
+use moris_washout::Parameters;
 use rtrb::{Consumer, Producer};
 
 use super::Shared;
@@ -19,12 +18,13 @@ use super::page::{EVERY, Order, Shown};
 use super::place::LegPlace;
 use super::signals::Interrupts;
 use super::telemetry::Received;
+use super::telemetry_watch::TelemetryWatch;
 use super::watch::Part;
 
 /// Lateness from which on steps are not made up for: their motion would come at once \[s\].
 const LATEST: f64 = 0.02;
-/// Steps between looks at the signs.
-const LOOK: u64 = 1000;
+/// Steps between looks at the telemetry's signs, sizes, losses and delay.
+const TELEMETRY_CHECK_STEPS: u64 = 1000;
 
 /// The loop of a live session.
 pub struct Steps<'a> {
@@ -45,6 +45,8 @@ pub struct Steps<'a> {
     pub journal: Producer<Note>,
     /// For the page; what it does not take is dropped.
     pub shown: Option<Producer<Shown>>,
+    /// For the page: the parameters in force, where what it has asked for was refused.
+    pub refused: Producer<Parameters>,
     /// Starts by itself, once.
     pub starts: bool,
     /// True for a session that engages by itself.
@@ -96,11 +98,10 @@ impl Steps<'_> {
         let mut digest = Digest::default();
         let mut state = self.session.state();
         let mut health = self.session.source().health();
-        let mut signs = [Verdict::Unknown; Check::ALL.len()];
         // The time of the clock at the session's time 0.
         let mut zero = pace::now();
         let mut ending = false;
-        let mut warned = None;
+        let mut watch = TelemetryWatch::default();
         loop {
             let deadline = zero + Duration::from_secs_f64((summary.steps + 1) as f64 * STEP);
             pace::wait_until(deadline);
@@ -157,9 +158,9 @@ impl Steps<'_> {
                 health = self.session.source().health();
                 self.note(Note::Source(commands.time, health), &mut summary);
             }
-            if summary.steps.is_multiple_of(LOOK) {
-                self.look_at_signs(&mut signs, &mut summary);
-                self.look_at_delay(&mut warned, &mut summary);
+            if summary.steps.is_multiple_of(TELEMETRY_CHECK_STEPS) {
+                let Steps { session, journal, .. } = &mut *self;
+                watch.check(session, |note| summary.lost_notes += u64::from(journal.push(note).is_err()));
             }
             if let Some(shown) = &mut self.shown
                 && summary.steps.is_multiple_of(EVERY)
@@ -185,9 +186,7 @@ impl Steps<'_> {
 
     /// Engages if the vehicle runs.
     fn engage(&mut self, summary: &mut Summary) {
-        let session = &self.session;
-        let ready = session.state() == State::Neutral && session.source().health() == Health::Running;
-        if ready && session.signs().contradiction().is_none() {
+        if self.session.state() == State::Neutral && self.session.telemetry_refusal().is_none() {
             self.ask(Event::Engage, summary);
         }
     }
@@ -245,6 +244,10 @@ impl Steps<'_> {
             Order::Retune => {
                 self.record(Happening::Retune, summary);
                 let is_in_force = self.session.retune().is_ok();
+                if !is_in_force {
+                    // A page that does not take it has others to take before.
+                    let _ = self.refused.push(self.session.target_parameters());
+                }
                 self.note(Note::Retuned(self.session.time(), is_in_force), summary);
             }
         }
@@ -304,25 +307,6 @@ impl Steps<'_> {
         self.note(note, summary);
     }
 
-    /// Warns of a delay that a person notices, and again if it has grown by half.
-    fn look_at_delay(&mut self, warned: &mut Option<f64>, summary: &mut Summary) {
-        let delay = self.session.delay();
-        if self.session.is_delay_long() && warned.is_none_or(|warned| delay > 1.5 * warned) {
-            *warned = Some(delay);
-            self.note(Note::Delayed(self.session.time(), delay), summary);
-        }
-    }
-
-    fn look_at_signs(&mut self, known: &mut [Verdict; Check::ALL.len()], summary: &mut Summary) {
-        for (check, known) in Check::ALL.into_iter().zip(known) {
-            let verdict = self.session.signs().verdict(check);
-            if verdict != *known && verdict != Verdict::Unknown {
-                *known = verdict;
-                self.note(Note::Sign(self.session.time(), check, verdict), summary);
-            }
-        }
-    }
-
     fn record(&mut self, happening: Happening, summary: &mut Summary) {
         self.note(Note::Entry(Entry { step: summary.steps, happening }), summary);
     }
@@ -337,7 +321,6 @@ mod tests {
     use moris_live::frame::{Encoder, shipped};
     use moris_live::log::{header, replay};
     use moris_live::{Motion, Sample, Settings};
-    use moris_washout::Parameters;
     use rtrb::RingBuffer;
 
     use super::*;
@@ -381,6 +364,7 @@ mod tests {
             frames: Frames::new(to_device, std::thread::current(), 0.01, 0.0),
             journal,
             shown: None,
+            refused: RingBuffer::new(1).0,
             starts: false,
             engages: false,
             ends_at: None,
@@ -657,26 +641,46 @@ mod tests {
         });
     }
 
+    /// A fault from which a person wants no more frames.
     #[test]
-    fn a_delay_that_a_person_notices_is_said_once_and_again_when_it_has_grown() {
-        with_place(LegPlace::own(), |live| {
-            let mut warned = None;
-            let mut said = Vec::new();
-            for gap in [10_u64, 80, 80, 160, 160] {
-                for k in 0..10_000 {
-                    let now = live.steps.session.time();
-                    if k % gap == 0 {
-                        live.steps.session.receive(now, &Sample { time: Some(now), ..Sample::default() });
-                    }
-                    live.steps.session.step();
-                    if k % 1000 == 999 {
-                        live.steps.look_at_delay(&mut warned, &mut live.summary);
-                    }
-                }
-                let notes = std::iter::from_fn(|| live.notes.pop().ok());
-                said.push(notes.filter(|note| matches!(note, Note::Delayed(..))).count());
-            }
-            assert_eq!(said, [0, 1, 0, 1, 0]);
+    fn stop_ends_a_fault_at_once() {
+        with_place(place("csv", true), |live| {
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            live.obey(Order::Lost(Loss::Gap(0.2)));
+            assert_eq!(live.state(), State::Fault);
+            live.ask(Event::Stop);
+            assert_eq!((live.state(), live.said.len()), (State::Off, 1), "{:?}", live.said);
+            // A session that ends, in a fault after which the legs' place is unknown, stops as well.
+            live.obey(Order::Legs(Legs::Settled));
+            live.obey(Order::Legs(Legs::Settled));
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            live.obey(Order::Lost(Loss::Device));
+            assert!(live.state() == State::Fault && !live.steps.session.is_located());
+            live.steps.is_lost = false;
+            live.steps.end(&mut live.summary);
+            assert_eq!(live.state(), State::Off);
+        });
+    }
+
+    /// The page has seen a settled platform, which is on its way up when its order comes.
+    #[test]
+    fn the_page_is_told_the_parameters_in_force_where_its_order_is_refused() {
+        with_place(place("csv", true), |live| {
+            let (refused, mut told) = RingBuffer::new(2);
+            live.steps.refused = refused;
+            let strategy = moris_live::log::slot_of("strategy").unwrap() as u16;
+            let before = live.steps.session.washout().parameters().structure.strategy;
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            live.obey(Order::Choose(strategy, 2.0));
+            live.obey(Order::Retune);
+            assert_eq!(told.pop().unwrap().structure.strategy, before);
+            let scale = moris_live::log::slot_of("scale.specificForce.x").unwrap() as u16;
+            live.obey(Order::Choose(scale, 0.5));
+            live.obey(Order::Retune);
+            assert!(told.pop().is_err());
         });
     }
 }

@@ -74,6 +74,9 @@ pub fn load(file: &Path) -> Result<Laps> {
 /// # Errors
 /// It cannot be written. The file is as before then.
 pub fn save(file: &Path, laps: &Laps) -> Result<()> {
+    // What a link points to is replaced, not the link.
+    let target = file.canonicalize();
+    let file = target.as_deref().unwrap_or(file);
     let part = beside(file);
     let written = write(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file));
     written
@@ -121,6 +124,14 @@ mod tests {
         let again = load(&file).unwrap();
         assert!(again.text() == laps.text() && again.points().count() > 450);
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        #[cfg(unix)]
+        {
+            let [link, before] = ["link.laps", "kart.laps"].map(|name| folder.path().join(name));
+            std::os::unix::fs::symlink(&before, &link).unwrap();
+            save(&link, &Laps::new()).unwrap();
+            assert!(link.is_symlink() && load(&before).unwrap().points().count() == 0);
+            std::fs::remove_file(&link).unwrap();
+        }
         let nowhere = folder.path().join("none").join("kart.laps");
         assert!(save(&nowhere, &laps).unwrap_err().to_string().starts_with("cannot keep the road in "));
         // Nobody creates a file there, not even root.

@@ -109,7 +109,7 @@ mod tests {
     use moris_live::moog::INTERVAL;
 
     use super::*;
-    use crate::live::wire::{Actuators, Wire};
+    use crate::wire::{Actuators, Wire};
 
     /// Commands that jump by 0.3 m, as by an error somewhere before: what the base is sent.
     #[test]

@@ -174,8 +174,9 @@ impl Desk {
         }
     }
 
-    /// Makes messages of what the loop shows, until it has ended.
-    pub fn show(&self, mut moments: Consumer<Shown>, shared: &Shared) {
+    /// Makes messages of what the loop shows, until it has ended. `refusals`: the parameters in
+    /// force where the loop has refused others.
+    pub fn show(&self, mut moments: Consumer<Shown>, mut refusals: Consumer<Parameters>, shared: &Shared) {
         loop {
             let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
             let taken: Vec<Shown> = std::iter::from_fn(|| moments.pop().ok()).collect();
@@ -184,6 +185,9 @@ impl Desk {
             let place = self.controls.as_ref().and_then(|controls| controls.place());
             let place = serde_json::to_string(&place).unwrap_or_default();
             let mut inner = self.lock();
+            while let Ok(parameters) = refusals.pop() {
+                inner.return_to(&parameters);
+            }
             let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
             let status =
                 format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}", inner.status);
@@ -312,8 +316,22 @@ impl Inner {
         Ok(())
     }
 
+    /// The loop has refused what was chosen: these parameters are in force.
+    fn return_to(&mut self, parameters: &Parameters) {
+        let mut parameters = *parameters;
+        // The session's own, whatever was given.
+        parameters.conditioning.angular_velocity_frame = self.trial.parameters().conditioning.angular_velocity_frame;
+        if let Ok(trial) = Washout::new(&parameters) {
+            self.trial = trial;
+            self.renew_status();
+        }
+    }
+
     /// Puts values of slots in force if they can be used now.
     fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), Refusal> {
+        for (slot, value) in values {
+            log::check_value(*slot, *value).map_err(|error| Refusal::unprocessable(error.to_string()))?;
+        }
         let mut slots = slots_of(self.trial.parameters());
         values.iter().for_each(|(slot, value)| slots[*slot] = *value);
         let mut tried = self.trial.clone();
@@ -435,6 +453,10 @@ mod tests {
         for (wrong, status) in [
             ("{\"tilt.angleLimit\":1e300}", Status::Unprocessable),
             ("{\"actuator.maxLength\":3}", Status::Unprocessable),
+            // No item of an enumeration is between two others or behind the last.
+            ("{\"strategy\":2.5}", Status::Unprocessable),
+            ("{\"strategy\":1e300}", Status::Unprocessable),
+            ("{\"strategy\":0}", Status::Unprocessable),
             ("{\"nothing\":3}", Status::Unprocessable),
             ("{\"tilt.angleLimit\":NaN}", Status::BadRequest),
             ("{\"tilt.angleLimit\":\"../../etc/passwd\"}", Status::BadRequest),
@@ -470,6 +492,17 @@ mod tests {
         assert!(taken(&mut orders).is_empty());
         desk.lock().state = State::Settled;
         set("{\"strategy\":2}").unwrap();
+    }
+
+    #[test]
+    fn a_strategy_that_the_loop_has_refused_is_not_shown() {
+        let (desk, _asked) = desk(true);
+        let before = *desk.lock().trial.parameters();
+        desk.lock().state = State::Settled;
+        desk.ask(b"{\"client\":\"\",\"ask\":{\"set\":{\"strategy\":2}}}").unwrap();
+        assert!(desk.lock().status.contains("\"strategy\":2"));
+        desk.lock().return_to(&before);
+        assert_eq!(desk.lock().status, "\"changed\":{}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Requests of a browser: bounded, and from the own page only.
 
-use std::io::{Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::net::{IpAddr, TcpStream};
 use std::time::{Duration, Instant};
 
@@ -10,7 +10,7 @@ use super::refusal::{Refusal, Status};
 const MOST_HEAD: usize = 16_384;
 const MOST_BODY: usize = 16_384;
 /// Time in which a request must be complete.
-const PATIENCE: Duration = Duration::from_secs(1);
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(1);
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 
@@ -30,32 +30,47 @@ pub struct Request {
     pub body: Vec<u8>,
 }
 
-/// Reads a request.
-///
-/// # Errors
-/// It is none, too large, or too slow.
-pub fn read(stream: &mut TcpStream) -> Result<Request, Refusal> {
-    let begin = Instant::now();
-    let mut bytes = Vec::new();
-    let mut fill = |bytes: &mut Vec<u8>| {
-        let left = PATIENCE.saturating_sub(begin.elapsed());
+/// A connection whose request has not come whole yet.
+#[derive(Debug)]
+pub struct Incoming {
+    pub stream: TcpStream,
+    begin: Instant,
+    bytes: Vec<u8>,
+}
+
+impl Incoming {
+    /// A new connection, which is read without waiting.
+    ///
+    /// # Errors
+    /// The system does not permit that.
+    pub fn new(stream: TcpStream) -> io::Result<Self> {
+        stream.set_nonblocking(true)?;
+        Ok(Incoming { stream, begin: Instant::now(), bytes: Vec::new() })
+    }
+
+    /// Takes what has come. The request, once it is whole; its refusal, if it is none,
+    /// too large, or too slow.
+    pub fn request(&mut self) -> Option<Result<Request, Refusal>> {
         let mut part = [0; 4096];
-        let mut taken = || {
-            stream.set_read_timeout(Some(left.max(Duration::from_millis(1)))).ok()?;
-            stream.read(&mut part).ok().filter(|count| *count > 0 && !left.is_zero())
-        };
-        let Some(count) = taken() else { return refused(Status::Timeout, "the request is not complete") };
-        bytes.extend(&part[..count]);
-        Ok(())
-    };
-    loop {
-        fill(&mut bytes)?;
-        let Some((mut request, head, length)) = parsed(&bytes)? else { continue };
-        while bytes.len() < head + length {
-            fill(&mut bytes)?;
+        loop {
+            match self.stream.read(&mut part) {
+                Ok(0) => return Some(refused(Status::Timeout, "the request is not complete")),
+                Ok(count) => self.bytes.extend(&part[..count]),
+                Err(error) if error.kind() == ErrorKind::Interrupted => (),
+                Err(error) if error.kind() == ErrorKind::WouldBlock && self.begin.elapsed() < REQUEST_TIMEOUT => {
+                    return None;
+                }
+                Err(_) => return Some(refused(Status::Timeout, "the request is not complete")),
+            }
+            match parsed(&self.bytes) {
+                Ok(Some((mut request, head, length))) if self.bytes.len() >= head + length => {
+                    request.body = self.bytes[head..head + length].to_vec();
+                    return Some(Ok(request));
+                }
+                Ok(_) => (),
+                Err(refusal) => return Some(Err(refusal)),
+            }
         }
-        request.body = bytes[head..head + length].to_vec();
-        return Ok(request);
     }
 }
 

@@ -1,9 +1,10 @@
-//! The server of the page: a thread for each connection, of which there are few.
+//! The server of the page. One thread takes connections and reads their requests, which may never
+//! come. Each request is answered on a thread of its own, of which there are few.
 
 use std::collections::VecDeque;
-use std::net::{IpAddr, Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -15,7 +16,7 @@ use moris_setup::Setup;
 use serde::Serialize;
 
 use super::desk::Desk;
-use super::http::{self, Access, Request};
+use super::http::{self, Access, Incoming, Request};
 use super::refusal::{Refusal, Status};
 use super::track::Track;
 use crate::Shared;
@@ -25,13 +26,19 @@ use crate::watch::{Part, watch};
 use moris_analysis::page::simulator::parameters;
 use moris_analysis::page::vehicle::of_parameters;
 
-/// Most connections at once that have not shown the token yet: a new one closes the oldest.
-const MOST_STRANGERS: usize = 16;
+/// Most connections at once whose request has not come yet: a new one closes the oldest.
+const MAX_STRANGERS: usize = 128;
+/// Connections that are taken before those that are there are read again.
+const ACCEPTED_AT_ONCE: usize = 16;
+/// Connections that the system keeps until they are taken: more than a flood makes meanwhile.
+#[cfg(unix)]
+const WAITING_CONNECTIONS: i32 = 4096;
 /// Most pages, and most of their other requests at once.
 const MOST_PAGES: usize = 12;
 const MOST_REQUESTS: usize = 24;
-/// Time between looks for a new connection.
-const LOOK: Duration = Duration::from_millis(20);
+/// Time between looks for a new connection, and for the rest of a request.
+const CONNECTION_CHECK_INTERVAL: Duration = Duration::from_millis(20);
+const REQUEST_CHECK_INTERVAL: Duration = Duration::from_millis(1);
 
 /// Data of the page from its start on.
 #[derive(Clone, Debug, Serialize)]
@@ -76,7 +83,6 @@ struct Site {
     page: String,
     access: Access,
     desk: Arc<Desk>,
-    strangers: Mutex<Strangers>,
     pages: AtomicUsize,
     requests: AtomicUsize,
     shared: Arc<Shared>,
@@ -92,10 +98,11 @@ impl Server {
         let listener = TcpListener::bind(SocketAddr::new(IpAddr::V4(address), port))
             .with_context(|| format!("cannot serve the page at {address}:{port}"))?;
         listener.set_nonblocking(true)?;
+        #[cfg(unix)]
+        rustix::net::listen(&listener, WAITING_CONNECTIONS)?;
         let access = Access { token: secret()?, port: listener.local_addr()?.port() };
         let [pages, requests] = [0, 0].map(AtomicUsize::new);
-        let strangers = Mutex::default();
-        let site = Site { page: start.html(), access, desk, strangers, pages, requests, shared };
+        let site = Site { page: start.html(), access, desk, pages, requests, shared };
         Ok(Server { listener, site: Arc::new(site) })
     }
 
@@ -107,45 +114,40 @@ impl Server {
 
     /// Answers until the loop has ended. Threads of connections may live a little longer.
     pub fn run(&self, shared: &Shared) {
+        let mut strangers = VecDeque::new();
         while !shared.done.load(Ordering::Relaxed) {
-            let Ok((stream, _)) = self.listener.accept() else {
-                thread::sleep(LOOK);
-                continue;
-            };
-            let site = Arc::clone(&self.site);
-            let Some(number) = site.strangers().take(&stream) else { continue };
-            // Without a thread the connection is closed.
-            let _ = thread::Builder::new()
-                .name("page".to_owned())
-                .spawn(move || watch(&site.shared.failed, Part::Page, || site.serve(stream, number)));
+            self.accept(&mut strangers);
+            let before = strangers.len();
+            strangers.retain_mut(|stranger: &mut Incoming| !self.serve_if_complete(stranger));
+            if before == strangers.len() {
+                let is_quiet = strangers.is_empty();
+                thread::sleep(if is_quiet { CONNECTION_CHECK_INTERVAL } else { REQUEST_CHECK_INTERVAL });
+            }
         }
     }
-}
 
-/// Connections that have not shown the token yet, the oldest first.
-#[derive(Debug, Default)]
-struct Strangers {
-    count: u64,
-    streams: VecDeque<(u64, TcpStream)>,
-}
-
-impl Strangers {
-    /// Takes a new connection, and closes the oldest if there are too many.
-    fn take(&mut self, stream: &TcpStream) -> Option<u64> {
-        let copy = stream.try_clone().ok()?;
-        if self.streams.len() >= MOST_STRANGERS
-            && let Some((_, oldest)) = self.streams.pop_front()
-        {
-            let _ = oldest.shutdown(Shutdown::Both);
+    /// Takes new connections. Before one closes the oldest, that has been read once at least.
+    fn accept(&self, strangers: &mut VecDeque<Incoming>) {
+        for _ in 0..ACCEPTED_AT_ONCE {
+            let Ok((stream, _)) = self.listener.accept() else { return };
+            let Ok(stranger) = Incoming::new(stream) else { continue };
+            strangers.push_back(stranger);
+            if strangers.len() > MAX_STRANGERS {
+                strangers.pop_front();
+            }
         }
-        self.count += 1;
-        self.streams.push_back((self.count, copy));
-        Some(self.count)
     }
 
-    /// A connection is none of them any more.
-    fn forget(&mut self, number: u64) {
-        self.streams.retain(|(of, _)| *of != number);
+    /// Answers a request that has come whole, on a thread of its own. True if it has.
+    fn serve_if_complete(&self, stranger: &mut Incoming) -> bool {
+        let Some(request) = stranger.request() else { return false };
+        let Ok(stream) = stranger.stream.try_clone() else { return true };
+        let site = Arc::clone(&self.site);
+        // Without a thread the connection is closed.
+        let _ = thread::Builder::new()
+            .name("page".to_owned())
+            .spawn(move || watch(&site.shared.failed, Part::Page, || site.serve(stream, request)));
+        true
     }
 }
 
@@ -171,17 +173,11 @@ impl Drop for ConnectionSlot<'_> {
 }
 
 impl Site {
-    fn strangers(&self) -> MutexGuard<'_, Strangers> {
-        self.strangers.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn serve(&self, mut stream: TcpStream, number: u64) {
+    fn serve(&self, mut stream: TcpStream, request: Result<Request, Refusal>) {
         let is_ready = stream.set_nonblocking(false).is_ok()
             && stream.set_nodelay(true).is_ok()
             && stream.set_write_timeout(Some(http::WRITE_TIME)).is_ok();
-        let request = if is_ready { http::read(&mut stream) } else { Err(Refusal::new(Status::Internal, "")) };
-        // From here on the token decides.
-        self.strangers().forget(number);
+        let request = if is_ready { request } else { Err(Refusal::new(Status::Internal, "")) };
         let answered = request.and_then(|request| self.answer(&request, &mut stream));
         if let Err(refusal) = answered {
             http::answer(&mut stream, refusal.number(), "text/plain", &refusal.reason);

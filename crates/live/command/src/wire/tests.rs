@@ -219,3 +219,74 @@ fn actuators_without_a_loop_come_to_rest_within_the_stroke() {
         assert!(before.velocity[0].abs() < 2e-3);
     }
 }
+
+/// The first frame after a gap \[s\], from where the last one was \[m\].
+fn first_after(interval: f64, gap: f64) -> f64 {
+    let mut wire = Wire::new(interval, ACTUATORS);
+    let last = 500.0 * interval;
+    (0..=500).for_each(|k| _ = pass(&mut wire, f64::from(k) * interval));
+    let before = wire.last.unwrap().1.length[0];
+    pass(&mut wire, last + gap) - before
+}
+
+/// The length that leaves at a time \[s\].
+fn pass(wire: &mut Wire, time: f64) -> f64 {
+    wire.pass(Duration::from_secs_f64(time), &commanded(time)).length[0]
+}
+
+/// 50 ms, or three intervals: up to there they go on at their own speed.
+#[test]
+fn actuators_stand_after_a_gap_and_go_on_after_a_shorter_one() {
+    for (interval, longest) in [(0.01, 0.05), (0.002, 0.05), (0.02, 0.06), (0.05, 0.15)] {
+        for (gap, stands) in [(0.95 * longest, false), (1.05 * longest, true)] {
+            let found = first_after(interval, gap);
+            assert_eq!(found == 0.0, stands, "{interval} s, gap of {gap} s: {found} m");
+        }
+    }
+}
+
+/// Largest speed \[m/s\] on the way to a place that is 0.4 m away, after a gap.
+fn glide_speed(gap: f64, is_lost: bool) -> f64 {
+    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
+    wire.pass(Duration::ZERO, &at(0.0, 1.1));
+    if is_lost {
+        wire.lose();
+    }
+    let (mut before, mut fastest) = (1.1, 0.0_f64);
+    for k in 0..3000 {
+        let time = gap + f64::from(k) * INTERVAL;
+        let now = wire.pass(Duration::from_secs_f64(time), &at(time, 1.5)).length[0];
+        fastest = fastest.max((now - before) / INTERVAL);
+        before = now;
+    }
+    assert!((before - 1.5).abs() < 1e-3, "{before} m");
+    fastest
+}
+
+/// A tenth of the actuators' speed; 0.05 m/s to a controller that was lost, or without frames for
+/// half a second.
+#[test]
+fn a_glide_has_its_speed() {
+    for (gap, is_lost, expected) in
+        [(0.01, false, 0.1), (0.1, false, 0.1), (0.49, false, 0.1), (0.51, false, 0.05), (0.01, true, 0.05)]
+    {
+        let found = glide_speed(gap, is_lost);
+        assert!((0.9 * expected..1.01 * expected).contains(&found), "{gap} s, {is_lost}: {found} m/s");
+    }
+}
+
+/// Frames come as ever: only the controller was away.
+#[test]
+fn a_loss_holds_for_one_frame() {
+    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    let mut before = 0.0;
+    for k in 0..100 {
+        if k == 50 {
+            wire.lose();
+        }
+        let now = pass(&mut wire, f64::from(k) * INTERVAL);
+        assert_eq!(now == before, k == 50, "{k}");
+        before = now;
+    }
+}

@@ -14,7 +14,7 @@ const MOVING: u32 = 40;
 /// A packet: its command and its six numbers.
 type Packet = (u32, [f32; 6]);
 
-/// What a test and the base tell each other.
+/// Flags between a test and the base.
 #[derive(Default)]
 struct Told {
     fails: AtomicBool,

@@ -203,3 +203,32 @@ fn hostile_connections_do_no_harm() {
     live.wait_for("parking");
     end(live);
 }
+
+/// Connections without end from the same machine, which ask for nothing: an order is answered.
+#[test]
+fn a_flood_of_connections_loses_no_stop() {
+    let directory = tempfile::tempdir().unwrap();
+    let (mut live, page) = start(directory.path(), &[]);
+    let ends = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let mut held = std::collections::VecDeque::new();
+                while !ends.load(std::sync::atomic::Ordering::Relaxed) {
+                    held.extend(TcpStream::connect(page.address));
+                    if held.len() > 50 {
+                        held.pop_front();
+                    }
+                }
+            });
+        }
+        live.command("start");
+        live.wait_for("homing");
+        let answers = [(); 20].map(|()| page.ask("", "{\"event\":\"stop\"}"));
+        assert_eq!(answers, [200; 20]);
+        live.wait_for("off");
+        ends.store(true, std::sync::atomic::Ordering::Relaxed);
+    });
+    live.interrupt();
+    assert!(live.end().0.success());
+}

@@ -9,14 +9,23 @@ const COMMAND_KEYS = { s: "start", e: "engage", d: "disengage", p: "park", c: "c
 const FIRST = ["Strategy", "Scales"];
 export const token = new URLSearchParams(location.search).get("token");
 
-/** Sends what is asked for; the reason why it is refused, or nothing. */
+/** Time in which an order is answered, and times that a command is sent that is not. */
+const ANSWER_TIMEOUT_MS = 700;
+const COMMAND_ATTEMPTS = 5;
+
+/** Sends what is asked for; the reason why it is refused, or nothing. A command without an answer is repeated. */
 export async function ask(client, what) {
-  try {
-    const answer = await fetch("/ask", { method: "POST", headers: { "X-Token": token }, body: JSON.stringify({ client, ask: what }) });
-    return answer.ok ? "" : await answer.text();
-  } catch {
-    return "moris-live does not answer";
+  const attempts = what.event ? COMMAND_ATTEMPTS : 1;
+  for (let attempt = 0; attempt < attempts; attempt++) {
+    try {
+      const signal = what.event ? AbortSignal.timeout(ANSWER_TIMEOUT_MS) : undefined;
+      const answer = await fetch("/ask", { method: "POST", headers: { "X-Token": token }, body: JSON.stringify({ client, ask: what }), signal });
+      return answer.ok ? "" : await answer.text();
+    } catch {
+      // The next attempt, if there is one.
+    }
   }
+  return "moris-live does not answer";
 }
 
 /** Buttons and keys that call with the name of a command. */

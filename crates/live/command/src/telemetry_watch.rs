@@ -1,0 +1,184 @@
+//! Lines about the telemetry while it comes: signs, sizes, samples that are dropped, and its delay.
+
+use moris_live::Session;
+use moris_live::session::Objection;
+use moris_live::signs::{Check, Verdict};
+
+use super::journal::Note;
+
+/// Part of the samples from which on those that are dropped are told, and the least number of them.
+const DROPPED_PART: f64 = 0.1;
+const LEAST_DROPPED: u64 = 5;
+/// Time between lines about dropped samples \[s\].
+const DROPPED_SAMPLE_INTERVAL: f64 = 5.0;
+/// Growth of a delay with which it is told again.
+const DELAY_GROWTH: f64 = 1.5;
+
+/// The lines that have been told.
+#[derive(Clone, Copy, Debug)]
+pub struct TelemetryWatch {
+    signs: [Verdict; Check::ALL.len()],
+    objection: Option<Objection>,
+    /// Samples, and dropped ones of them, at the last line, and its time \[s\].
+    counts: [u64; 2],
+    dropped_at: f64,
+    delay: Option<f64>,
+}
+
+impl Default for TelemetryWatch {
+    fn default() -> Self {
+        TelemetryWatch {
+            signs: [Verdict::Unknown; Check::ALL.len()],
+            objection: None,
+            counts: [0; 2],
+            dropped_at: f64::NEG_INFINITY,
+            delay: None,
+        }
+    }
+}
+
+impl TelemetryWatch {
+    /// Tells what is new.
+    pub fn check(&mut self, session: &Session, mut note: impl FnMut(Note)) {
+        let now = session.time();
+        for (check, known) in Check::ALL.into_iter().zip(&mut self.signs) {
+            let verdict = session.signs().verdict(check);
+            if verdict != *known && verdict != Verdict::Unknown {
+                *known = verdict;
+                note(Note::Sign(now, check, verdict));
+            }
+        }
+        let objection = session.objection();
+        if let Some(Objection::Size(mismatch)) = objection
+            && !self.objection.is_some_and(|known| is_of_kind(&known, &Objection::Size(mismatch)))
+        {
+            note(Note::Mismatch(now, mismatch));
+        }
+        self.objection = objection;
+        self.check_dropped(session, now, &mut note);
+        let delay = session.delay();
+        if session.is_delay_long() && self.delay.is_none_or(|known| delay > DELAY_GROWTH * known) {
+            self.delay = Some(delay);
+            note(Note::Delayed(now, delay));
+        }
+    }
+
+    fn check_dropped(&mut self, session: &Session, now: f64, note: &mut impl FnMut(Note)) {
+        let counts = session.source().counts();
+        let [received, dropped] = [counts.received - self.counts[0], counts.dropped() - self.counts[1]];
+        if now - self.dropped_at < DROPPED_SAMPLE_INTERVAL {
+            return;
+        }
+        if let Some(reason) = session.source().dropped()
+            && dropped >= LEAST_DROPPED
+            && dropped as f64 >= DROPPED_PART * received as f64
+        {
+            self.dropped_at = now;
+            note(Note::SamplesDropped(now, [received, dropped], reason));
+        }
+        self.counts = [counts.received, counts.dropped()];
+    }
+}
+
+/// True for two objections of one kind, whatever their numbers.
+fn is_of_kind(one: &Objection, other: &Objection) -> bool {
+    match (one, other) {
+        (Objection::Size(one), Objection::Size(other)) => std::mem::discriminant(one) == std::mem::discriminant(other),
+        (Objection::Sign(one), Objection::Sign(other)) => one == other,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_live::{Sample, Settings};
+    use moris_washout::Parameters;
+
+    use super::*;
+
+    /// Lines in so many seconds of a source at 100 Hz.
+    fn told(seconds: u32, sample: impl Fn(f64) -> Sample) -> Vec<Note> {
+        let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+        let mut watch = TelemetryWatch::default();
+        let mut notes = Vec::new();
+        for step in 1..=1000 * seconds {
+            if step % 10 == 0 {
+                session.receive(session.time(), &sample(session.time()));
+            }
+            session.step();
+            if step % 1000 == 0 {
+                watch.check(&session, |note| notes.push(note));
+            }
+        }
+        notes
+    }
+
+    fn moving(t: f64) -> Sample {
+        let mut sample = Sample { time: Some(t), ..Sample::default() };
+        sample.motion.0[0] = t.sin();
+        sample
+    }
+
+    #[test]
+    fn dropped_samples_are_told_while_they_happen() {
+        let times = |notes: &[Note]| {
+            let time = |note: &Note| match note {
+                Note::SamplesDropped(time, [received, dropped], _) => Some((*time, *received, *dropped)),
+                _ => None,
+            };
+            notes.iter().filter_map(time).collect::<Vec<_>>()
+        };
+        assert_eq!(times(&told(10, moving)), []);
+        // A clock that stands, and forces in cm/s2: at once, then every 5 s.
+        let stands = told(12, |t| Sample { time: Some(1.0), ..moving(t) });
+        assert_eq!(times(&stands), [(1.0, 100, 99), (6.0, 500, 500), (11.0, 500, 500)]);
+        let large = told(3, |t| {
+            let mut sample = moving(t);
+            sample.motion.0[2] *= 100.0;
+            sample
+        });
+        assert_eq!(times(&large), [(1.0, 100, 100)]);
+        // One in twenty is no line.
+        let few = told(10, |t| {
+            if ((100.0 * t).round() as u32).is_multiple_of(20) {
+                Sample { time: Some(0.0), ..moving(t) }
+            } else {
+                moving(t)
+            }
+        });
+        assert_eq!(times(&few), []);
+    }
+
+    #[test]
+    fn a_mismatch_is_told_once() {
+        let notes = told(20, |t| {
+            let mut sample = moving(t);
+            sample.motion.0[2] = 1.0 + 0.1 * (3.0 * t).sin();
+            sample
+        });
+        let found: Vec<&Note> = notes.iter().filter(|note| matches!(note, Note::Mismatch(..))).collect();
+        assert!(matches!(found[..], [Note::Mismatch(time, _)] if *time <= 3.0), "{notes:?}");
+    }
+
+    #[test]
+    fn a_delay_that_a_person_notices_is_told_once_and_again_when_it_has_grown() {
+        let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+        let mut watch = TelemetryWatch::default();
+        let mut told = Vec::new();
+        for gap in [10_u64, 80, 80, 160, 160] {
+            let mut count = 0;
+            for k in 0..10_000 {
+                let now = session.time();
+                if k % gap == 0 {
+                    session.receive(now, &Sample { time: Some(now), ..Sample::default() });
+                }
+                session.step();
+                if k % 1000 == 999 {
+                    watch.check(&session, |note| count += usize::from(matches!(note, Note::Delayed(..))));
+                }
+            }
+            told.push(count);
+        }
+        assert_eq!(told, [0, 1, 0, 1, 0]);
+    }
+}
