@@ -49,7 +49,7 @@ print(latest)
 
 class Ride:
     def __init__(self, seconds, directory):
-        self.hold = seconds / 18 if seconds else SHORT
+        self.hold = seconds / 19 if seconds else SHORT
         self.pipe = directory / "recording"
         os.mkfifo(self.pipe)
         self.disk = threading.Event()
@@ -115,6 +115,16 @@ class Ride:
             self.vehicle.broken = None
 
         return act
+
+    def repeated(self, seconds):
+        """The vehicle sends its last line on and on."""
+        last = []
+
+        def spoil(text):
+            last.append(text)
+            return last[0]
+
+        return self.broken(spoil, seconds)
 
     def silent(self, seconds):
         def act():
@@ -201,6 +211,7 @@ def ride(seconds, picture):
         if seconds:
             time.sleep(one.hold)
         one.pull("the vehicle is paused", one.broken(lambda text: text + ",1", 0.5), "telemetry: paused", " s  frozen", "telemetry: running")
+        one.pull("the source repeats its last packet", one.repeated(1.0), "telemetry: paused", " s  frozen", "telemetry: running")
         one.pull("the source falls silent for 1 s", one.silent(1.0), "telemetry: silent", " s  frozen", " s  engaging")
         one.pull("NaN for 0.7 s", one.broken(fields(1, "nan"), 0.7), "telemetry: silent", " s  frozen", " s  engaging")
         one.pull("the source's clock stands for 0.7 s", one.broken(fields(0, "1"), 0.7), " s  engaging")
@@ -326,9 +337,12 @@ def two_sessions():
     controller = Controller()
     live = Live(controller)
     live.wait_for("commands: ")
-    second = Live(controller)
-    status, _ = second.end()
-    assert status != 0 and any("another session" in text for text in second.said), second.said
+    with tempfile.TemporaryDirectory() as other:
+        # Of another user, or of a service with a folder of its own.
+        for locks in (LOCKS.name, other):
+            second = Live(controller, locks=locks)
+            status, _ = second.end()
+            assert status != 0 and any("another session" in text for text in second.said), second.said
     live.interrupt()
     live.end()
     controller.ended.set()
@@ -367,7 +381,8 @@ def killed():
 
 def run_all(seconds, picture):
     ride(seconds, picture)
-    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+    of_linux = [signal.SIGPWR, signal.SIGRTMIN] if hasattr(signal, "SIGPWR") else []
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTRAP, *of_linux):
         ended_by(number)
     deaf()
     alone()

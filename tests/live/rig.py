@@ -137,14 +137,14 @@ class Vehicle:
 class Live:
     """The command. Lines that it says are in `said`."""
 
-    def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE, settled=True):
+    def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE, settled=True, locks=LOCKS.name):
         self.port = free_port()
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
         command = [*LIVE, *source, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
         self.process = subprocess.Popen(
             command,
             cwd=ROOT,
-            env=os.environ | {"TMPDIR": LOCKS.name},
+            env=os.environ | {"TMPDIR": locks},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=stderr,

@@ -15,4 +15,4 @@ def test_every_plug_can_be_pulled():
     if out.returncode == NO_REAL_TIME:
         pytest.skip(out.stdout.splitlines()[-1])
     assert out.returncode == 0, out.stdout + out.stderr
-    assert out.stdout.count(" frames; last ") == 18 and "kill -9: " in out.stdout, out.stdout
+    assert out.stdout.count(" frames; last ") == 19 and "kill -9: " in out.stdout, out.stdout
