@@ -147,7 +147,7 @@ const LARGEST_DIAMETER: f64 = 1.0;
 /// # Errors
 /// Text that is not TOML; a key that is not one, is missing or has a value that it cannot have.
 pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
-    let toml_error = |error| Error::toml(source_name, &error, "a rig file is TOML; moris rig new writes one");
+    let toml_error = |error| Error::toml(source_name, &error, "a rig file is TOML; copy examples/rigs/default.toml");
     let table: toml::Table = text.parse().map_err(toml_error)?;
     // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
     if let Some(name) = keys(&table).find(|key| !RIG_FILE_KEYS.split(' ').any(|known| known == *key)) {

@@ -196,7 +196,7 @@ fn a_number_that_is_not_finite_is_named_with_its_field() {
 fn a_recording_in_place_of_a_rig_file_gets_the_remedy() {
     let message = read("time,ax,ay,az\n0,0,0,9.81\n", "ride.csv").unwrap_err().to_string();
     assert!(message.starts_with("ride.csv: TOML parse error at line 1"), "{message}");
-    assert!(message.ends_with("a rig file is TOML; moris rig new writes one"), "{message}");
+    assert!(message.ends_with("a rig file is TOML; copy examples/rigs/default.toml"), "{message}");
 }
 
 #[test]

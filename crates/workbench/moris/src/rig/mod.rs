@@ -1,9 +1,7 @@
-//! `moris rig`: looks at a platform, by [`moris_analysis::rig`]; [`new`] writes a rig file.
-
-pub mod new;
+//! `moris rig`: looks at a platform, by [`moris_analysis::rig`].
 
 use std::fs;
-use std::io::{Write, stdin};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -13,14 +11,9 @@ use moris_setup::load_rig;
 
 use survey::Survey;
 
-/// Check a rig, or write a new one
+/// Check a rig
 #[derive(Clone, Debug, clap::Subcommand)]
 pub enum Command {
-    /// Ask for a platform's geometry and write a rig file that has been checked
-    ///
-    /// An empty answer takes the value in brackets. The file is written only if the washout takes
-    /// the rig: its legs reach neutral, and there is no singularity inside their stroke.
-    New(new::NewOptions),
     /// Reach and singularities of a rig
     ///
     /// Prints reach, speed and acceleration along each axis alone, the size of the workspace, the
@@ -32,7 +25,7 @@ pub enum Command {
 /// The rig to check.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckOptions {
-    /// Rig file; examples/rigs has examples
+    /// Rig file; examples/rigs has examples, of which default.toml explains each value
     rig: PathBuf,
 
     /// Directory for the picture
@@ -49,10 +42,8 @@ pub struct CheckOptions {
 /// # Errors
 /// The rig file cannot be used, or the picture cannot be written.
 pub fn main(command: &Command, out: &mut dyn Write) -> Result<ExitCode> {
-    match command {
-        Command::New(options) => new::main(options, &mut stdin().lock(), out),
-        Command::Check(options) => check(options, out),
-    }
+    let Command::Check(options) = command;
+    check(options, out)
 }
 
 /// Surveys a rig, prints the result and draws it.

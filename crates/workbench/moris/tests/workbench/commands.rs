@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::io::Write as _;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, Parameters, Washout};
@@ -568,46 +567,6 @@ fn completions_and_man_pages_name_every_command() {
     for page in ["moris.1", "moris-simulate.1", "moris-rig-check.1"] {
         let text = fs::read_to_string(directory.path().join("man1").join(page)).unwrap();
         assert!(text.contains(".TH"), "{page}");
-    }
-}
-
-#[test]
-fn a_new_rig_is_asked_for_checked_and_written() {
-    let directory = tempfile::tempdir().unwrap();
-    let ask = |file: &str, answers: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_moris"));
-        command.args(["rig", "new", file]).current_dir(directory.path());
-        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        // A command that refuses early does not read all answers.
-        let _ = child.stdin.take().unwrap().write_all(answers.as_bytes());
-        child.wait_with_output().unwrap()
-    };
-    // Empty answers make the default rig, with the legs in the middle of their stroke at neutral.
-    let output = ask("mine.toml", &"\n".repeat(20));
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let written = fs::read_to_string(directory.path().join("mine.toml")).unwrap();
-    assert!(written.contains("neutralHeight = 1.091"), "{written}");
-    let check = moris(directory.path(), &["rig", "check", "mine.toml", "--samples", "2000"]);
-    assert!(check.status.success() && text(&check.stdout).contains("1.300 m at neutral"), "{}", text(&check.stdout));
-    // Answers that cannot be are asked for again.
-    let answers = "long\n-1\nwide\n1.1\n-8 8 112 128 232\n".to_owned() + &"\n".repeat(20);
-    let output = ask("long.toml", &answers);
-    let printed = text(&output.stdout);
-    for reason in ["-1: it must be above 0", "wide: it must be a number", "six numbers are needed"] {
-        assert!(output.status.success() && printed.contains(reason), "{printed}");
-    }
-    assert!(fs::read_to_string(directory.path().join("long.toml")).unwrap().contains("radius = 1.1"));
-    // Nothing is written over, of a singular rig, of one out of reach, or of half a dialog.
-    assert!(text(&ask("mine.toml", "").stderr).contains("mine.toml exists"));
-    let similar = "similar\n\n\n\n-8 8 112 128 232 248\n".to_owned() + &"\n".repeat(20);
-    for (file, answers, reason) in [
-        ("singular.toml", similar.as_str(), "is not written"),
-        ("wide.toml", &("wide\n9\n".to_owned() + &"\n".repeat(20)), "choose longer legs"),
-        ("half.toml", "half\n1\n", "the answers end at"),
-    ] {
-        let output = ask(file, answers);
-        assert!(!output.status.success() && text(&output.stderr).contains(reason), "{}", text(&output.stderr));
-        assert!(!directory.path().join(file).exists());
     }
 }
 
