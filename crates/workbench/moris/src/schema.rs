@@ -8,6 +8,7 @@ use anyhow::Result;
 use moris_interface::{Causality, Group, Kind, Row};
 use moris_setup::rig_file::RigFile;
 use moris_washout::Parameters;
+use schemars::generate::SchemaSettings;
 use schemars::schema_for;
 use serde_json::{Map, Value, json};
 
@@ -34,7 +35,7 @@ pub enum FileKind {
     Parameters,
     /// Conventions of recordings
     Conventions,
-    /// The JSON of `simulate --json`: every measure with its unit and definition
+    /// The JSON of `simulate --json`
     Simulation,
 }
 
@@ -56,7 +57,10 @@ pub fn schema(kind: FileKind) -> Result<Value> {
         FileKind::Rig => serde_json::to_value(schema_for!(RigFile))?,
         FileKind::Conventions => serde_json::to_value(schema_for!(ConventionOptions))?,
         FileKind::Parameters => parameters(),
-        FileKind::Simulation => serde_json::to_value(schema_for!(Vec<SimulatedRecording>))?,
+        FileKind::Simulation => {
+            let settings = SchemaSettings::draft2020_12().for_serialize();
+            serde_json::to_value(settings.into_generator().into_root_schema_for::<Vec<SimulatedRecording>>())?
+        }
     })
 }
 

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use moris_simulation::measures::Row;
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use super::{Outcome, fit, is_better_than_rest};
 use crate::recording::Recording;
@@ -40,7 +40,6 @@ struct SetResult {
     parameters: String,
     /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
     /// the time; null for another washout's motion without poses and legs.
-    #[schemars(required, schema_with = "fits_schema")]
     fits: Option<bool>,
     /// False if a channel has a larger error than a platform at rest.
     better_than_rest: bool,
@@ -52,32 +51,21 @@ struct SetResult {
     /// m/s²; null without a desired signal, and with --no-bound.
     force_bounds: [Option<f64>; 3],
     /// Measures; those of axes on which nothing is desired and nothing felt are left out.
-    #[schemars(schema_with = "measures_schema")]
-    measures: Vec<Value>,
+    measures: Vec<Measure>,
 }
 
-/// True, false or null.
-fn fits_schema(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "type": ["boolean", "null"] })
-}
-
-/// Each measure with its unit and definition.
-fn measures_schema(_: &mut SchemaGenerator) -> Schema {
-    let measure = |row: moris_simulation::measures::Row| {
-        json!({
-            "description": row.definition,
-            "properties": {
-                "subject": { "const": row.subject },
-                "name": { "const": row.name },
-                "value": { "type": ["number", "null"] },
-                "unit": { "const": row.unit },
-            },
-            "required": ["subject", "name", "value", "unit"],
-            "additionalProperties": false,
-        })
-    };
-    let measures: Vec<Value> = moris_simulation::measures::all_rows().into_iter().map(measure).collect();
-    json_schema!({ "type": "array", "items": { "type": "object", "oneOf": measures } })
+/// A measure; docs/measures.md defines each.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+struct Measure {
+    /// What is measured: a channel, or a part of the platform.
+    subject: String,
+    /// Name of the measure.
+    name: &'static str,
+    /// Value; null where it is not defined.
+    value: Option<f64>,
+    /// Unit of the value; empty without one.
+    unit: &'static str,
 }
 
 /// A recording with one or several parameter sets, and the files written.
@@ -97,7 +85,7 @@ pub fn recording(recording: &Recording, outcomes: &[Outcome], files: &[PathBuf])
 
 fn result(outcome: &Outcome) -> SetResult {
     let measures = outcome.evaluated().measured_rows().into_iter();
-    let measure = |row: moris_simulation::measures::Row| json!({ "subject": row.subject, "name": row.name, "value": row.value, "unit": row.unit });
+    let measure = |Row { subject, name, value, unit, .. }: Row| Measure { subject, name, value, unit };
     SetResult {
         rig: outcome.setup.rig_name.clone(),
         parameters: outcome.setup.parameters_name.clone(),

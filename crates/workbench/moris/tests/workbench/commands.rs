@@ -613,24 +613,14 @@ fn schemas_describe_the_files() {
         assert_eq!(keys(&definition(name)["properties"]), keys(object));
         assert_eq!(definition(name)["required"].as_array().unwrap().len(), keys(object).len(), "{name}");
     }
-    let known = definition("SetResult")["properties"]["measures"]["items"]["oneOf"].as_array().unwrap();
     let measures = simulated[0]["results"][0]["measures"].as_array().unwrap();
     for measure in measures {
-        let fits = |known: &&serde_json::Value| {
-            ["subject", "name", "unit"].iter().all(|key| known["properties"][key]["const"] == measure[key])
-        };
-        assert_eq!(known.iter().filter(fits).count(), 1, "{measure}");
+        assert_eq!(keys(&definition("Measure")["properties"]), keys(measure));
     }
     for name in ["shake", "jolt", "peak"] {
-        let described = known.iter().filter(|known| known["properties"]["name"]["const"] == name);
-        let units = described.map(|known| known["properties"]["unit"]["const"].as_str().unwrap());
-        assert_eq!(units.collect::<Vec<_>>(), ["m/s²"; 3], "{name}");
-        assert!(measures.iter().any(|measure| measure["name"] == name), "{name}");
+        let units = measures.iter().filter(|measure| measure["name"] == name).map(|measure| &measure["unit"]);
+        assert!(units.clone().count() > 0 && units.into_iter().all(|unit| unit == "m/s²"), "{name}");
     }
-    let jolt = known.iter().find(|known| known["properties"]["name"]["const"] == "jolt").unwrap();
-    assert!(
-        jolt["description"].as_str().unwrap().contains("difference between two values of the felt force within 20 ms")
-    );
 
     let conventions = schema("conventions");
     for key in ["format", "columns", "force-unit", "mounting", "empty-fields", "resample", "fade-in"] {
