@@ -7,8 +7,8 @@
 //! - [`washout_fmu`] steps another washout's FMU through a recording.
 //! - [`tune`] finds better parameters.
 //! - [`rig`] surveys a platform and draws it.
-//! - [`fit`] finds the scale at which the cues have the right sign, [`measure`] the figures of each
-//!   channel, and [`worst_case`] those on machines that differ from the nominal one.
+//! - [`fit`] finds the scale at which the cues have the right sign, and [`measure`] the figures of
+//!   each channel.
 //! - [`bench`](mod@bench) compares washouts on fixed drives and rigs.
 //! - [`frequency_response`] measures the whole washout's.
 //! - [`page`] makes the report's page.
@@ -38,4 +38,3 @@ pub mod rig;
 pub mod text_table;
 pub mod tune;
 pub mod washout_fmu;
-pub mod worst_case;

@@ -7,7 +7,6 @@
 //! - [`measure`] prints a table of the measures of several recordings.
 //! - [`fit`](mod@fit) finds the scale at which the cues have the right sign and proportion.
 //! - [`bench`](mod@bench) compares washouts on fixed drives and rigs.
-//! - [`worst_case`] measures the strategies on platforms that differ from the nominal one.
 //! - [`tune`] searches for better parameters.
 //! - [`ride`] writes a page in which the motorcycle is ridden.
 //! - [`frequency_response`] measures a frequency response.
@@ -36,7 +35,6 @@ pub mod sibling;
 pub mod simulate;
 mod status;
 pub mod tune;
-pub mod worst_case;
 
 use moris_analysis::{learned_road, option_values};
 pub use moris_analysis::{recording, text_table, washout_fmu};

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use moris::{
     bench, build_fmu, fit, frequency_response, help, measure, parameters, ride, rig, schema, sibling, simulate, tune,
-    worst_case,
 };
 use moris_command_line::exit_status;
 
@@ -35,7 +34,6 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGUMENT")]
         arguments: Vec<OsString>,
     },
-    WorstCase(worst_case::Options),
     Tune(tune::Options),
     #[command(alias = "respond")]
     FrequencyResponse(frequency_response::Options),
@@ -56,7 +54,6 @@ fn main() -> ExitCode {
         Command::Bench(options) => bench::main(&options, out),
         Command::Ride(options) => ride::main(&options, out),
         Command::Live { arguments } => sibling::run("moris-live", &arguments),
-        Command::WorstCase(options) => worst_case::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
         Command::FrequencyResponse(options) => frequency_response::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),

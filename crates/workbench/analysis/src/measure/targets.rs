@@ -50,14 +50,11 @@ pub fn counts(channel: &ChannelFigures) -> bool {
     matches!(channel.axis, Axis::Surge | Axis::Sway) && channel.at_rest >= LEAST_FORCE
 }
 
-/// Geometric mean of the RMS errors of surge and sway, and how many they are.
+/// Geometric mean of the RMS errors of surge and sway, each at least [`LEAST_FORCE`], and their
+/// number.
 pub fn geometric_mean(recordings: &[MeasuredRecording]) -> (f64, usize) {
     let channels = recordings.iter().flat_map(|recording| &recording.channels);
-    geometric_mean_of(channels.filter(|channel| counts(channel)).map(|channel| channel.felt.rms_error))
-}
-
-/// Geometric mean of errors, each at least [`LEAST_FORCE`], and how many they are.
-pub fn geometric_mean_of(errors: impl Iterator<Item = f64>) -> (f64, usize) {
+    let errors = channels.filter(|channel| counts(channel)).map(|channel| channel.felt.rms_error);
     let logarithms: Vec<f64> = errors.map(|error| error.max(LEAST_FORCE).ln()).collect();
     ((logarithms.iter().sum::<f64>() / logarithms.len().max(1) as f64).exp(), logarithms.len())
 }

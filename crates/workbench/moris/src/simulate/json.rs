@@ -58,7 +58,7 @@ struct SetResult {
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 struct Measure {
-    /// What is measured: a channel, or a part of the platform.
+    /// A channel, or a part of the platform.
     subject: String,
     /// Name of the measure.
     name: &'static str,

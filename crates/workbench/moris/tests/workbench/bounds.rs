@@ -29,7 +29,6 @@ fn commands(file: &str) -> Vec<Vec<&str>> {
         vec!["simulate", "ride.csv", "--rig", file],
         vec!["simulate", "ride.csv", "--parameters", file],
         vec!["simulate", "ride.csv", "--conventions", file],
-        vec!["worst-case", "ride.csv", "--platform", file],
     ]
 }
 

@@ -291,11 +291,11 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
 fn every_command_has_the_same_exit_statuses() {
     let directory = tempfile::tempdir().unwrap();
     let status = |arguments: &[&str]| moris(directory.path(), arguments).status.code();
-    for command in ["simulate", "measure", "worst-case", "tune", "frequency-response", "parameters", "schema", "man"] {
+    for command in ["simulate", "measure", "tune", "frequency-response", "parameters", "schema", "man"] {
         assert_eq!(status(&[command, "--no-such-option"]), Some(2), "{command}");
         assert_eq!(status(&[command, "--help"]), Some(0), "{command}");
     }
-    for command in ["simulate", "measure", "worst-case", "tune"] {
+    for command in ["simulate", "measure", "tune"] {
         assert_eq!(status(&[command, "missing.csv"]), Some(1), "{command}");
     }
     for arguments in [&["rig", "check", "missing.toml"][..], &["frequency-response", "--rig", "missing.toml"]] {

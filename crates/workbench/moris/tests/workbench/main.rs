@@ -20,4 +20,3 @@ mod recordings;
 mod silent;
 mod tune;
 mod ways_in;
-mod worst_case;
