@@ -3,7 +3,7 @@
 use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig};
-use crate::platform::reach::{Axis, single_axis_range};
+use crate::platform::reach::{Axis, single_axis_range, stroke_margin};
 use crate::platform::{Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
@@ -26,9 +26,12 @@ pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     check_rig(rig, structure.max_step)
 }
 
-/// Limits that never act, in sentences: those of the safety units that are farther from neutral
-/// than the rig reaches along their axis alone. There the legs come to the ends of their stroke
-/// before. Such parameters can be used; [`check`] accepts them.
+/// What is unusual about parameters that can be used, in sentences; [`check`] accepts them.
+///
+/// - Limits of the safety units farther from neutral than the rig reaches along their axis alone.
+///   The legs come to the ends of their stroke before.
+/// - A leg that is near an end of its stroke at neutral.
+/// - Actuators too weak to brake from their speed at the pace of the soft limits.
 ///
 /// ```
 /// use moris_washout::{Parameters, warnings};
@@ -52,7 +55,36 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
             )
         })
     };
-    [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate().filter_map(beyond).collect()
+    let beyond = [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate().filter_map(beyond);
+    beyond.chain(near_an_end(&parameters.rig)).chain(weak(parameters)).collect()
+}
+
+/// Room of a leg at neutral, relative to the stroke, below which a rig is warned of. In the middle
+/// of the stroke it is a half.
+const LEAST_ROOM: f64 = 0.1;
+
+fn near_an_end(rig: &Rig) -> Option<String> {
+    let (room, stroke) = (stroke_margin(rig, &Pose::neutral(rig)), rig.max_length - rig.min_length);
+    (room < LEAST_ROOM * stroke).then(|| {
+        format!(
+            "rig.neutralHeight is {} m, where a leg is only {room:.4} m from an end of its stroke of {stroke:.3} m: the \
+             platform can hardly move; choose a height at which the legs are near the middle of their stroke",
+            rig.neutral_height
+        )
+    })
+}
+
+fn weak(Parameters { rig, soft_limit, .. }: &Parameters) -> Option<String> {
+    let Rig { velocity_limit, acceleration_limit, .. } = *rig;
+    let (needed, fastest) = (soft_limit.pace * velocity_limit, acceleration_limit / soft_limit.pace);
+    (acceleration_limit < needed * (1.0 - 1e-9)).then(|| {
+        format!(
+            "actuator.accelerationLimit is {acceleration_limit} m/s2, but braking from {velocity_limit} m/s at the \
+             softLimit.pace of {} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; reduce softLimit.pace \
+             for more",
+            soft_limit.pace
+        )
+    })
 }
 
 /// Doubts about the first input, in sentences: hosts that set every input to zero neither engage

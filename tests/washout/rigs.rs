@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use moris_washout::platform::survey;
-use moris_washout::{Parameters, check};
+use moris_washout::{Parameters, check, warnings};
 use moris_washout::{Rig, Washout};
 use nalgebra::Vector3;
 
@@ -139,4 +139,18 @@ fn a_rig_of_one_s_own_is_surveyed_once() {
     let first = made();
     let again = (0..20).map(|_| made()).min().expect("some");
     assert!(4 * again < first, "{first:?} at first, then {again:?}");
+}
+
+#[test]
+fn a_rig_near_an_end_or_with_weak_actuators_is_warned_of() {
+    let default = Parameters::default();
+    let warned = |rig: Rig| warnings(&Parameters { rig, ..default }).into_iter().next_back().unwrap_or_default();
+    assert_eq!(warned(default.rig), "");
+    // The legs are 1.29996 m long at neutral.
+    let low = Rig { min_length: 1.297, max_length: 1.42, ..default.rig };
+    let warning = warned(low);
+    assert!(warning.starts_with("rig.neutralHeight is 1.091 m, where a leg is only 0.0030 m from an end"), "{warning}");
+    let warning = warned(Rig { acceleration_limit: 0.8, ..default.rig });
+    assert!(warning.starts_with("actuator.accelerationLimit is 0.8 m/s2, but braking from 1 m/s at"), "{warning}");
+    assert!(warning.contains("takes 5.0 m/s2: only 0.16 m/s are used"), "{warning}");
 }
