@@ -66,6 +66,13 @@ pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
     lengths.iter().map(|length| (length - rig.min_length).min(rig.max_length - length)).fold(f64::INFINITY, f64::min)
 }
 
+/// Lengths of the shortest and of the longest leg at neutral \[m\].
+pub fn neutral_lengths(geometry: &Geometry, neutral_height: f64) -> [f64; 2] {
+    let position = Vector3::new(0.0, 0.0, neutral_height);
+    let lengths = leg_lengths(geometry, &Pose { position, orientation: Orientation::new(RollPitchYaw::default()) });
+    [f64::min, f64::max].map(|pick| lengths.iter().copied().fold(lengths[0], pick))
+}
+
 /// Reach of the platform along this axis alone, all other coordinates neutral, up to the pose at
 /// which the first leg is at an end of its stroke. Rotations end at a quarter turn.
 pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {

@@ -1,8 +1,13 @@
 //! The promise to the person: a smooth input is felt smoothly, and the hard limits are not needed.
 
-use moris_washout::{Input, Output, Parameters, Washout, presets};
+use std::f64::consts::{PI, TAU};
+
+use moris_washout::interface::StrategyKind;
+use moris_washout::platform::reach::{Axis, horizontal_reach, single_axis_range};
+use moris_washout::{Input, Output, Parameters, Rig, Washout, presets};
 use nalgebra::Vector3;
 
+use crate::common::random::Random;
 use crate::common::{G, accelerating, ride_between};
 
 /// The sets.
@@ -189,4 +194,102 @@ fn after_soft_limits_the_platform_comes_back_to_neutral() {
         let angles = output.orientation.to_vector().amax();
         assert!(away < 5e-3 && angles < 2e-3, "{set}: {away} m, {angles} rad");
     }
+}
+
+/// A smooth ride with all axes at once: sines that fade in over 5 s.
+#[derive(Clone, Copy, Debug)]
+struct Swell {
+    size: f64,
+    /// Frequencies of surge, of sway, and of heave, which surge shares \[Hz\].
+    frequencies: [f64; 3],
+    phase: f64,
+}
+
+impl Swell {
+    /// Of 2 to 6 m/s2 and 0.05 to 1.2 Hz.
+    fn random(random: &mut Random) -> Self {
+        let frequencies = [random.between(0.05, 1.0), random.between(0.05, 0.6), random.between(0.3, 1.2)];
+        Swell { size: random.between(2.0, 6.0), frequencies, phase: random.between(0.0, TAU) }
+    }
+
+    fn input(&self, t: f64) -> Input {
+        let fade = if t < 5.0 { 0.5 - 0.5 * (PI * t / 5.0).cos() } else { 1.0 };
+        let [surge, sway, heave] = self.frequencies;
+        let size = fade * self.size;
+        let swing = (TAU * heave * t).sin();
+        let force = [(TAU * surge * t + self.phase).sin() + 0.3 * swing, 0.8 * (TAU * sway * t).sin(), 0.3 * swing];
+        Input {
+            angular_velocity: fade * Vector3::new(0.1 * (2.0 * t).sin(), 0.1 * t.cos(), 0.2 * (0.7 * t).sin()),
+            ..accelerating(size * force[0], size * force[1], size * force[2])
+        }
+    }
+
+    /// Largest change of felt surge or sway within 20 ms, less the largest one of the input's.
+    fn jolt(&self, parameters: &Parameters) -> f64 {
+        let mut washout = Washout::new(parameters).unwrap().starting_with(&self.input(0.0));
+        let mut forces = Vec::new();
+        ride_between(
+            &mut washout,
+            30.0,
+            0.001,
+            |t| self.input(t),
+            |t, output| {
+                forces.push([output.felt_specific_force, self.input(t).specific_force]);
+            },
+        );
+        let largest = |which: usize, axis: usize| {
+            let changes = forces.iter().zip(&forces[20..]).map(|(a, b)| (b[which][axis] - a[which][axis]).abs());
+            changes.fold(0.0, f64::max)
+        };
+        [0, 1].map(|axis| largest(0, axis) - largest(1, axis)).into_iter().fold(f64::MIN, f64::max)
+    }
+}
+
+/// Parameters on the default rig with this stroke: all of it in proportion, or the legs alone where
+/// they become shorter. Speed is in proportion to the stroke.
+fn on_stroke(stroke: f64, in_proportion: bool, strategy: StrategyKind) -> Parameters {
+    let mut parameters = Parameters::default();
+    let default = parameters.rig;
+    let factor = stroke / (default.max_length - default.min_length);
+    let size = if in_proportion || factor > 1.0 { factor } else { 1.0 };
+    let middle = 1.3 * size;
+    let rig = Rig {
+        base: default.base.map(|joint| size * joint),
+        platform: default.platform.map(|joint| size * joint),
+        neutral_height: size * default.neutral_height,
+        min_length: middle - 0.5 * stroke,
+        max_length: middle + 0.5 * stroke,
+        velocity_limit: factor.min(1.5) * default.velocity_limit,
+        ..default
+    };
+    let [surge, sway] = horizontal_reach(&rig);
+    let heave = single_axis_range(&rig, Axis::Heave).min_reach();
+    parameters.safety.position_limit = 0.95 * Vector3::new(surge, sway, heave);
+    parameters.structure.strategy = strategy;
+    parameters.rig = rig;
+    parameters
+}
+
+#[test]
+fn smooth_rides_with_all_axes_at_once_do_not_jolt() {
+    use StrategyKind::{Adaptive, Classical, Optimal, Predictive, Robust};
+    let mut random = Random::new(58);
+    // Rides at which the predictive plan once changed the force by up to 12 m/s2 within 20 ms.
+    let hard = [(6.0, [0.46, 0.14, 0.38], 4.16), (4.4128, [0.4125, 0.206, 0.9075], 2.8689)]
+        .map(|(size, frequencies, phase)| Swell { size, frequencies, phase });
+    let rides = hard.into_iter().chain((0..).map(|_| Swell::random(&mut random)));
+    let mut worst = (f64::MIN, String::new());
+    for (number, ride) in rides.take(crate::cases::cases(1500, 25)).enumerate() {
+        let strategy = [Predictive, Classical, Adaptive, Optimal, Robust][number % 5];
+        // The default rig's stroke, and from 30 mm to 1.25 m in equal ratios.
+        let stroke = match number % 4 {
+            0 => 0.6,
+            _ => 0.03 * (1.25_f64 / 0.03).powf((number * 7 % 41) as f64 / 40.0),
+        };
+        let jolt = ride.jolt(&on_stroke(stroke, number % 3 == 1, strategy));
+        if jolt > worst.0 {
+            worst = (jolt, format!("ride {number}, {strategy:?}, {stroke:.3} m, {ride:?}"));
+        }
+    }
+    assert!(worst.0 < 0.7, "jolt of {} m/s2: {}", worst.0, worst.1);
 }

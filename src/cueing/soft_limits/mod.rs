@@ -1,14 +1,19 @@
 //! Soft limits: the platform approaches a limit like a critically damped system, long before the
 //! safety units or the actuator guard would have to brake.
 //!
-//! For surge, sway, heave and the six legs' lengths q in \[lo, hi\] the acceleration is kept within
+//! For surge, sway, heave and the six legs' lengths q in \[lo, hi\] the acceleration towards hi is
+//! kept within
 //!
 //! ```text
-//!     -p^2 (q - lo - m) - 2 p q'  <=  q''  <=  p^2 (hi - m - q) - 2 p q'
+//!     q''  <=  psi(p (hi - m - q) - q') - p q'
 //! ```
 //!
-//! with the pace p and the margin m, an exponential control barrier function of relative degree
-//! two. A leg's acceleration is affine in the platform's. Where a demand leaves these ranges, it is
+//! with the pace p and the margin m, and likewise towards lo. This is a control barrier function of
+//! relative degree two: p (hi - m - q) is the largest velocity, and psi the acceleration towards
+//! it. psi grows with the pace at first, and then like a root ([`GentleSlope`]), so that the
+//! acceleration ends gently.
+//!
+//! A leg's acceleration is affine in the platform's. Where a demand leaves these ranges, it is
 //! replaced by the nearest accelerations of all six coordinates. The ranges change continuously
 //! with the motion, so a smooth demand stays smooth.
 
@@ -27,7 +32,7 @@ use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
-use crate::platform::reach::short_stroke;
+use crate::platform::reach::{neutral_lengths, short_stroke};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
 
 /// The soft limits with their state.
@@ -41,6 +46,8 @@ pub struct SoftLimits {
     /// The same of surge and sway, of heave twice, and of two legs.
     axes: [TwoEnds; 2],
     legs: TwoEnds,
+    /// The part of the retreat that there is room for.
+    retreat_part: f64,
     /// The rows that acted in the last step.
     sides: Sides,
     retreat: Retreat,
@@ -52,6 +59,31 @@ const WEIGHTS: [f64; 6] = [1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
 const ACCELERATION: f64 = 0.95;
 /// Rate at which a limit of velocity is approached \[1/s\].
 const VELOCITY_PACE: f64 = 25.0;
+/// Largest slope of the acceleration on the way to a limit of velocity \[m/s3\]. Together with the
+/// next one it keeps the jolt of a smooth motion below 0.7 m/s2 within 20 ms.
+const VELOCITY_SLOPE: f64 = 25.0;
+/// Largest slope of psi on the way to a limit of position \[m/s3\].
+const POSITION_SLOPE: f64 = 15.0;
+/// A function of the room that is left: `pace` times the room at first, and then a root, so that
+/// the function times its derivative is at most `slope`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct GentleSlope {
+    pace: f64,
+    slope: f64,
+}
+
+impl GentleSlope {
+    /// The function's value where the root begins.
+    fn knee(self) -> f64 {
+        self.slope / self.pace
+    }
+
+    #[inline(always)]
+    fn value(self, room: f64) -> f64 {
+        let (linear, knee) = (self.pace * room, self.knee());
+        if linear <= knee { linear } else { (2.0 * self.slope * room - knee * knee).sqrt() }
+    }
+}
 
 /// A quantity's limits of position, velocity and acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,12 +92,24 @@ struct Ends {
     max: f64,
     velocity: f64,
     acceleration: f64,
+    /// Distances from neutral to `min` and to `max`.
+    room: [f64; 2],
 }
 
 impl Ends {
-    fn new([min, max]: [f64; 2], velocity: f64, acceleration: f64, margin: f64) -> Self {
-        let margin = self::min(margin, 0.25 * (max - min));
-        Ends { min: min + margin, max: max - margin, velocity, acceleration: ACCELERATION * acceleration }
+    /// The limits of a quantity that is between `neutral[0]` and `neutral[1]` at neutral. At either
+    /// end the margin takes at most half the room there is at neutral. No velocity is larger than
+    /// what the acceleration can brake at this pace.
+    fn new([min, max]: [f64; 2], neutral: [f64; 2], velocity: f64, acceleration: f64, margin: f64, pace: f64) -> Self {
+        let room = [neutral[0] - min, max - neutral[1]].map(|room| self::max(room, 0.0));
+        let [below, above] = room.map(|room| self::min(margin, 0.5 * room));
+        Ends {
+            min: min + below,
+            max: max - above,
+            velocity: if pace > 0.0 { self::min(velocity, acceleration / pace) } else { velocity },
+            acceleration: ACCELERATION * acceleration,
+            room: [room[0] - below, room[1] - above],
+        }
     }
 
     /// True if a motion towards a limit ends before it at this pace, or is as slow as this.
@@ -76,10 +120,14 @@ impl Ends {
     /// The least and the largest acceleration with which the limits are approached at this pace.
     #[inline(always)]
     fn range(&self, position: f64, velocity: f64, pace: f64) -> (f64, f64) {
-        let damped = 2.0 * pace * velocity;
-        let by_position = pace * pace;
-        let upper = min(by_position * (self.max - position) - damped, VELOCITY_PACE * (self.velocity - velocity));
-        let lower = max(by_position * (self.min - position) - damped, -VELOCITY_PACE * (self.velocity + velocity));
+        let approach = GentleSlope { pace, slope: POSITION_SLOPE };
+        let to_velocity = GentleSlope { pace: VELOCITY_PACE, slope: VELOCITY_SLOPE };
+        // Towards an end, `room` before it, at the velocity `towards`.
+        let largest = |room: f64, towards: f64| {
+            let by_position = approach.value(pace * room - towards) - pace * towards;
+            min(by_position, to_velocity.value(self.velocity - towards))
+        };
+        let (upper, lower) = (largest(self.max - position, velocity), -largest(position - self.min, -velocity));
         let most = self.acceleration;
         let upper = max(min(upper, most), -most);
         (min(max(lower, -most), upper), upper)
@@ -90,9 +138,9 @@ impl Ends {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct TwoEnds {
     middle: f64x2,
-    /// Half the range of position, times the pace squared.
+    /// Half the range of position, times the pace.
     by_position: f64x2,
-    /// The limit of velocity, times its pace.
+    /// The limit of velocity.
     by_velocity: f64x2,
     acceleration: f64x2,
 }
@@ -102,8 +150,8 @@ impl TwoEnds {
         let two = |value: &dyn Fn(&Ends) -> f64| f64x2::new(ends.each_ref().map(value));
         TwoEnds {
             middle: two(&|ends| 0.5 * (ends.min + ends.max)),
-            by_position: two(&|ends| pace * pace * 0.5 * (ends.max - ends.min)),
-            by_velocity: two(&|ends| VELOCITY_PACE * ends.velocity),
+            by_position: two(&|ends| pace * 0.5 * (ends.max - ends.min)),
+            by_velocity: two(&|ends| ends.velocity),
             acceleration: two(&|ends| ends.acceleration),
         }
     }
@@ -111,9 +159,19 @@ impl TwoEnds {
     /// In each lane, whether this acceleration is within [`Ends::range`].
     #[inline(always)]
     fn keep(&self, position: f64x2, velocity: f64x2, acceleration: f64x2, pace: f64) -> f64x2 {
-        let drawn = velocity * (2.0 * pace) + (position - self.middle) * (pace * pace);
-        self.by_position.cmp_ge((acceleration + drawn).abs())
-            & self.by_velocity.cmp_ge((acceleration + velocity * VELOCITY_PACE).abs())
+        // The inverses of psi: beside the linear part the square of what is beyond the knee. Where signs
+        // differ the square belongs to the other end, and this is stricter than `Ends::range`.
+        let beyond = |value: f64x2, knee: f64, slope: f64| {
+            let beyond = (value.abs() - f64x2::splat(knee)).max(f64x2::ZERO);
+            beyond * beyond * (0.5 / slope)
+        };
+        let drawn = acceleration + velocity * pace;
+        let to_position = drawn * (1.0 / pace) + velocity + (position - self.middle) * pace;
+        let to_velocity = acceleration * (1.0 / VELOCITY_PACE) + velocity;
+        let by_position = to_position.abs() + beyond(drawn, POSITION_SLOPE / pace, POSITION_SLOPE);
+        let by_velocity = to_velocity.abs() + beyond(acceleration, VELOCITY_SLOPE / VELOCITY_PACE, VELOCITY_SLOPE);
+        self.by_position.cmp_ge(by_position)
+            & self.by_velocity.cmp_ge(by_velocity)
             & self.acceleration.cmp_ge(acceleration.abs())
     }
 }
@@ -122,22 +180,27 @@ impl SoftLimits {
     /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
     pub fn new(parameters: &Parameters, heave: f64) -> Self {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
-        let margin = soft_limit.margin * short_stroke(rig);
+        let (margin, pace) = (soft_limit.margin * short_stroke(rig), soft_limit.pace);
         let farthest = |k: usize| if k == 2 { min(safety.position_limit[k], heave) } else { safety.position_limit[k] };
+        let geometry = Geometry::from(rig);
         let axes = [0, 1, 2].map(|k: usize| {
             let ends = [-farthest(k), farthest(k)];
-            Ends::new(ends, safety.velocity_limit[k], safety.acceleration_limit[k], margin)
+            Ends::new(ends, [0.0; 2], safety.velocity_limit[k], safety.acceleration_limit[k], margin, pace)
         });
         let Rig { min_length, max_length, velocity_limit, acceleration_limit, .. } = *rig;
-        let leg = Ends::new([min_length, max_length], velocity_limit, acceleration_limit, margin);
+        let neutral = neutral_lengths(&geometry, rig.neutral_height);
+        let leg = Ends::new([min_length, max_length], neutral, velocity_limit, acceleration_limit, margin, pace);
         SoftLimits {
-            geometry: Geometry::from(rig),
+            geometry,
             neutral_height: rig.neutral_height,
-            pace: soft_limit.pace,
+            pace,
             axis_ends: axes,
             leg_ends: leg,
-            axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, soft_limit.pace)),
-            legs: TwoEnds::of([leg; 2], soft_limit.pace),
+            axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, pace)),
+            legs: TwoEnds::of([leg; 2], pace),
+            retreat_part: Retreat::part_within(
+                axes.iter().chain([&leg]).fold(f64::INFINITY, |least, ends| ends.room.into_iter().fold(least, min)),
+            ),
             sides: Sides::default(),
             retreat: Retreat::default(),
         }
@@ -187,7 +250,7 @@ impl SoftLimits {
         if !self.retreat.acts() && self.keeps(demand, state, step) {
             return None;
         }
-        self.retreat = self.retreat.accelerated(making_up);
+        self.retreat = self.retreat.accelerated(&(self.retreat_part * making_up));
         let softened = self.softened(&demand.coordinates, state, step);
         self.retreat = softened.map_or(Retreat::default(), |_| self.retreat.after(step));
         softened

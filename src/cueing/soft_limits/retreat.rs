@@ -7,7 +7,10 @@
 //!     y'' = -alpha x r - w^2 y - w y',    r from the platform's origin to the head
 //! ```
 //!
-//! along each row, and never beyond where they are.
+//! along each row, and never beyond where they are. Where there is little room, y is a part of
+//! that: limits that come and go fast would jolt. Along a row y counts as y/(1 + (y/r)^4)^(1/4),
+//! with r a part of the room that the row has at neutral. Limits that retreated farther would
+//! contradict each other, and none would be kept.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -18,6 +21,10 @@ use crate::motion::min_max::{max, min};
 
 /// Frequency w at which the limits return, with a damping ratio of 1/2 \[rad/s\].
 const FREQUENCY: f64 = 0.8;
+/// Largest retreat of an end, as a fraction of its distance from neutral.
+const LARGEST_RETREAT: f64 = 0.5;
+/// Least room at neutral from which on the retreat is whole \[m\].
+const WHOLE_RETREAT_ROOM: f64 = 0.1;
 /// Time within which the retreat sets in, so that it does so without a jump \[s\].
 const SETTING_IN: f64 = 0.2;
 
@@ -30,6 +37,11 @@ pub struct Retreat {
 }
 
 impl Retreat {
+    /// The part of a retreat that a machine can make with this least room at neutral \[m\].
+    pub fn part_within(room: f64) -> f64 {
+        min(room / WHOLE_RETREAT_ROOM, 1.0)
+    }
+
     /// True while a row acts.
     pub fn acts(&self) -> bool {
         self.acting > 0.0
@@ -57,8 +69,16 @@ impl Retreat {
             return (lower, upper);
         }
         let Motion { position, velocity, acceleration } = &self.travel;
-        let along = direction.dot(acceleration);
-        let (least, most) = ends.range(q - direction.dot(position), v - direction.dot(velocity), pace);
+        let [position, velocity, acceleration] = [position, velocity, acceleration].map(|part| direction.dot(part));
+        // The end that comes nearer: the other one stays where it is.
+        let room = if position > 0.0 { ends.room[0] } else { ends.room[1] };
+        let largest = max(LARGEST_RETREAT * room, f64::MIN_POSITIVE);
+        let part = position / largest;
+        let to_fourth = 1.0 + (part * part) * (part * part);
+        let slope = 1.0 / (to_fourth * to_fourth.sqrt().sqrt());
+        let bend = -5.0 * (part * part * part) / largest * slope / to_fourth;
+        let along = slope * acceleration + bend * velocity * velocity;
+        let (least, most) = ends.range(q - position / to_fourth.sqrt().sqrt(), v - slope * velocity, pace);
         let upper = min(upper, most + along);
         (min(max(lower, least + along), upper), upper)
     }

@@ -94,16 +94,20 @@ fn a_demand_within_its_ranges_is_the_nearest() {
 fn an_end_is_approached_critically_damped_and_never_passed() {
     const STEP: f64 = 1e-4;
     let (pace, margin) = (5.0, 0.01);
-    let ends = Ends::new([-0.45, 0.45], 1.0, 10.0, margin);
+    let ends = Ends::new([-0.45, 0.45], [0.0; 2], 1.0, 10.0, margin, pace);
     assert!((ends.max - 0.44).abs() < 1e-15 && (ends.min + 0.44).abs() < 1e-15);
-    let narrow = Ends::new([-0.01, 0.01], 1.0, 10.0, margin);
-    assert!((narrow.max - 0.005).abs() < 1e-15, "at most a quarter of the range");
-    let (mut x, mut v) = (0.0, 0.3);
+    let narrow = Ends::new([-0.01, 0.01], [0.0; 2], 1.0, 10.0, margin, pace);
+    assert!((narrow.max - 0.005).abs() < 1e-15, "at most half the room at neutral");
+    let low = Ends::new([0.7, 1.0], [0.704, 0.706], 1.0, 10.0, margin, pace);
+    assert!((low.min - 0.702).abs() < 1e-15 && (low.max - 0.99).abs() < 1e-15);
+    assert!((low.room[0] - 0.002).abs() < 1e-15 && (low.room[1] - 0.284).abs() < 1e-15);
+    // From here on psi is in its linear part.
+    let (mut x, mut v) = (0.3, 0.3);
     for k in 0..100_000 {
         let (lower, upper) = ends.range(x, v, pace);
         assert!(lower <= upper && upper <= 9.5 && lower >= -9.5);
         let time = f64::from(k) * STEP;
-        let (start, slope) = (-ends.max, 0.3);
+        let (start, slope) = (0.3 - ends.max, 0.3);
         let exact = ends.max + (start + (slope + pace * start) * time) * (-pace * time).exp();
         assert!((x - exact).abs() < 1e-3, "{x} beside {exact} after {time} s");
         assert!(x < ends.max);
@@ -115,7 +119,83 @@ fn an_end_is_approached_critically_damped_and_never_passed() {
 
 #[test]
 fn a_velocity_limit_is_approached_as_well() {
-    let ends = Ends::new([-1e3, 1e3], 1.0, 10.0, 0.0);
-    assert!((ends.range(0.0, 0.9, 0.1).1 - 2.5).abs() < 1e-12);
-    assert!((ends.range(0.0, -0.9, 0.1).0 + 2.5).abs() < 1e-12);
+    let ends = Ends::new([-1e3, 1e3], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
+    // 25/s times the distance up to 1 m/s2, then sqrt(2 (25 m/s3) distance - (1 m/s2)^2).
+    for (distance, expected) in [(0.02, 0.5), (0.04, 1.0), (0.1, 2.0), (0.34, 4.0)] {
+        assert!((ends.range(0.0, 1.0 - distance, 0.1).1 - expected).abs() < 1e-12);
+        assert!((ends.range(0.0, distance - 1.0, 0.1).0 + expected).abs() < 1e-12);
+    }
+}
+
+/// Accelerations of a quantity that is demanded to accelerate at 4 m/s2 towards its end, from rest.
+fn accelerated(ends: &Ends, pace: f64, step: f64) -> Vec<f64> {
+    let (mut x, mut v) = (0.0, 0.0);
+    let one = |_| {
+        let acceleration = min(4.0, ends.range(x, v, pace).1);
+        x += step * (v + 0.5 * step * acceleration);
+        v += step * acceleration;
+        acceleration
+    };
+    (0..20_000).map(one).collect()
+}
+
+#[test]
+fn the_acceleration_towards_a_limit_ends_gently() {
+    const STEP: f64 = 1e-3;
+    let by_velocity = accelerated(&Ends::new([-1e3, 1e3], [0.0; 2], 1.0, 10.0, 0.0, 5.0), 5.0, STEP);
+    let by_position = accelerated(&Ends::new([-0.4, 0.4], [0.0; 2], 10.0, 100.0, 0.0, 5.0), 5.0, STEP);
+    let slopes = |course: &[f64]| course.windows(2).map(|pair| (pair[0] - pair[1]) / STEP).collect::<Vec<f64>>();
+    let steepest = slopes(&by_velocity).into_iter().fold(0.0, f64::max);
+    assert!((24.0..25.5).contains(&steepest), "{steepest} m/s3");
+    for (slope, acceleration) in slopes(&by_position).into_iter().zip(by_position) {
+        assert!(slope < 1.05 * (15.0 + 5.0 * max(acceleration, 0.0)), "{slope} m/s3 at {acceleration} m/s2");
+    }
+}
+
+#[test]
+fn weak_actuators_are_never_faster_than_they_can_brake() {
+    for (acceleration, fastest) in [(0.8, 0.16), (2.0, 0.4), (10.0, 1.0)] {
+        let ends = Ends::new([-1.0, 1.0], [0.0; 2], 1.0, acceleration, 0.0, 5.0);
+        assert!((ends.velocity - fastest).abs() < 1e-15);
+        let hardest = accelerated(&ends, 5.0, 1e-3).into_iter().fold(0.0, min);
+        assert!(hardest > -0.95 * acceleration, "{hardest} of {acceleration} m/s2");
+    }
+    assert_eq!(Ends::new([-1.0, 1.0], [0.0; 2], 1.0, 0.8, 0.0, 0.0).velocity, 1.0, "switched off");
+}
+
+/// Where the quick check says that an acceleration is within its range, it is.
+#[test]
+fn what_keeps_the_ranges_is_within_them() {
+    let (ends, pace) = (Ends::new([0.9, 1.6], [1.2, 1.3], 1.0, 10.0, 0.01, 5.0), 5.0);
+    let both = TwoEnds::of([ends; 2], pace);
+    let mut random = Random(3);
+    let (mut kept, mut within) = (0, 0);
+    for _ in 0..100_000 {
+        let [position, velocity, acceleration] = [1.25 + 0.35 * random.next(), random.next(), 8.0 * random.next()];
+        let (lower, upper) = ends.range(position, velocity, pace);
+        let inside = (lower..=upper).contains(&acceleration);
+        let two = |value: f64| f64x2::splat(value);
+        let keeps = both.keep(two(position), two(velocity), two(acceleration), pace).move_mask() == 0b11;
+        assert!(inside || !keeps, "{position} m, {velocity} m/s, {acceleration} m/s2");
+        kept += usize::from(keeps);
+        within += usize::from(inside);
+    }
+    assert!(kept > within * 8 / 10 && within > 10_000, "{kept} of {within}");
+}
+
+#[test]
+fn a_retreat_leaves_neutral_within_the_limits() {
+    let ends = Ends::new([-0.1, 0.4], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
+    let direction = Vector3::x();
+    // A tilt that would make limits retreat by far more than there is room for.
+    for side in [1.0, -1.0] {
+        let mut retreat = Retreat::default();
+        for _ in 0..3000 {
+            retreat = retreat.accelerated(&(side * direction)).after(1e-3);
+            // At rest at neutral neither limit pushes.
+            let (lower, upper) = retreat.accelerated(&Vector3::zeros()).range(&ends, [0.0; 2], &direction, 5.0);
+            assert!(lower < 0.0 && upper > 0.0, "{lower}, {upper}");
+        }
+    }
+    assert_eq!([0.025, 0.1, 0.3].map(Retreat::part_within), [0.25, 1.0, 1.0]);
 }

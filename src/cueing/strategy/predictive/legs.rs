@@ -7,7 +7,7 @@ use super::program::Nodes;
 use crate::cueing::strategy::law::Circumstances;
 use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
-use crate::platform::reach::short_stroke;
+use crate::platform::reach::{neutral_lengths, short_stroke};
 use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
 
 /// The rig, and the motion of the platform that is not planned.
@@ -78,12 +78,7 @@ impl<'a> Surroundings<'a> {
     /// The margin at an end takes at most half the room that the actuators have there at neutral.
     /// So neutral is always within these lengths.
     pub fn planned_stroke(&self) -> [f64; 2] {
-        let pose = Pose {
-            position: Vector3::new(0.0, 0.0, self.neutral_height),
-            orientation: Orientation::new(RollPitchYaw::default()),
-        };
-        let lengths = leg_lengths(self.geometry, &pose);
-        let [shortest, longest] = [f64::min, f64::max].map(|pick| lengths.iter().copied().fold(lengths[0], pick));
+        let [shortest, longest] = neutral_lengths(self.geometry, self.neutral_height);
         let [min, max] = self.stroke;
         [min + self.margin.min(0.5 * (shortest - min).max(0.0)), max - self.margin.min(0.5 * (max - longest).max(0.0))]
     }

@@ -172,6 +172,24 @@ fn the_dropped_force_is_continuous_from_plan_to_plan() {
 }
 
 #[test]
+fn the_dropped_force_is_smooth_where_the_plan_is_not() {
+    let geometry = Geometry::from(&Rig::default());
+    let mut predictive = predictive();
+    // As where rows hardly leave a solution.
+    predictive.plan.controls[0].copy_from(&AxisControls::from_fn(|k, _| if k % 2 == 0 { 15.0 } else { -15.0 }));
+    predictive.due = false;
+    let mut before = 0.0;
+    for k in 0..100 {
+        let states = [AxisState::default(); 2];
+        let [surge, sway] = predictive.decide(&states, &surroundings(&geometry), f64::INFINITY, 0.001).unwrap();
+        // Up to the first node at 40 ms, and down to the second one.
+        let expected: f64 = if k < 40 { 0.025 } else { -0.025 };
+        assert!((surge.dropped_force - before - expected).abs() < 1e-12 && sway.dropped_force == 0.0);
+        before = surge.dropped_force;
+    }
+}
+
+#[test]
 fn a_plan_in_the_making_is_abandoned_when_the_parameters_change() {
     let mut predictive = predictive();
     passed(&mut predictive, 1000, 6.0);
