@@ -150,7 +150,7 @@ pub struct Options {
     #[arg(long, requires = "duration", conflicts_with_all = ["from", "replay"])]
     empty_loop: bool,
 
-    /// Engage although signs of the telemetry contradict each other
+    /// Engage although the telemetry contradicts itself or its table
     #[arg(long)]
     ignore_signs: bool,
 
