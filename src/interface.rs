@@ -377,7 +377,7 @@ interface! {
     pub struct SoftLimitParameters: Parameter, Tunable {
         /// Rate at which the platform may approach a limit: at most this times the distance left per second. 0 is off.
         "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 9.0 } = 5.0;
-        /// Reserve that is kept at either end of an axis and of an actuator's stroke, at most a quarter of it.
+        /// Reserve that is kept at either end of an axis and of an actuator's stroke, at most half the room there at neutral.
         "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;
     }
 }
