@@ -172,7 +172,7 @@ fn write_files(
             parameter_file::write(&heading, &changed(&own), Parameters::ROWS),
         )?;
     }
-    write("fit.svg".to_owned(), picture::svg(fitted, strategies))?;
+    write("fit.svg".to_owned(), picture::svg(fitted, strategies)?)?;
     Ok(files)
 }
 
