@@ -1,14 +1,8 @@
-//! The measures as a list for people.
+//! The measures as a list for people: the table of them is the one place that names each.
 
 use serde::Serialize;
 
-use super::all::{Axes, Measures, Rider};
-use super::comfort::Comfort;
-use super::cues::Cues;
-use super::effort::Effort;
-use super::fidelity::Fidelity;
-use super::run::{Limits, Platform, Run};
-use super::shape::{AxisShape, Shape};
+use super::all::{Axes, Measures};
 
 /// The better of two values of a measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -22,7 +16,7 @@ pub enum Better {
     Neither,
 }
 
-/// One measure, with its value, unit, definition and source.
+/// One measure of a run, with its value, unit, definition and source.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Subject: `specific force x`, `sensed angular velocity y`, `platform`, ...
@@ -42,7 +36,43 @@ pub struct Row {
     pub source: &'static str,
 }
 
+/// A measure as it is declared: a row of the tables below.
+struct Measure<T: 'static = Measures> {
+    name: &'static str,
+    unit: &'static str,
+    better: Better,
+    definition: &'static str,
+    source: &'static str,
+    /// The value in `unit`, on an axis where the subject has axes; none where it is not defined.
+    value: fn(&T, usize) -> Option<f64>,
+}
+
+impl<T> Measure<T> {
+    fn row(&self, subject: String, value: Option<f64>) -> Row {
+        let Measure { name, unit, better, definition, source, .. } = *self;
+        Row { subject, name, value, unit, better, definition, source }
+    }
+}
+
+/// A subject with its measures.
+struct Subject {
+    name: &'static str,
+    /// Number of axes that it has, of x, y and z; 0 for the run as a whole.
+    axes: usize,
+    /// False for a run, or an axis of it, in which nothing happens.
+    is_present: fn(&Measures, usize) -> bool,
+    measures: &'static [Measure],
+}
+
+impl Subject {
+    /// Its name on an axis.
+    fn title(&self, axis: usize) -> String {
+        if self.axes == 0 { self.name.to_owned() } else { format!("{} {}", self.name, AXES[axis]) }
+    }
+}
+
 const AXES: Axes<&str> = ["x", "y", "z"];
+const DEGREE: f64 = 180.0 / std::f64::consts::PI;
 
 /// Entry for a measure that needs no source.
 const COMMON: &str = "common usage";
@@ -58,257 +88,275 @@ const BOUND: &str = "docs/measures.md, the bound; an interior-point method after
 const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
 
+/// Measures of one source, a row each: name, unit, the better of two values, value, definition.
+macro_rules! measures {
+    ($source:expr; $( $name:literal [$unit:expr] $better:ident: $value:expr, $definition:literal; )+) => {
+        &[$( Measure {
+            name: $name,
+            unit: $unit,
+            better: Better::$better,
+            definition: $definition,
+            source: $source,
+            value: $value,
+        }, )+]
+    };
+}
+
+/// The fidelity of a signal, whose errors are written in a unit that is so many times that of SI.
+macro_rules! fidelity {
+    ($signal:ident, $unit:expr, $factor:expr, $source:expr) => {
+        measures! { $source;
+            "RMS error" [$unit] Less: |of, k| of.$signal[k].map(|signal| $factor * signal.rms_error),
+                "Root mean square over the run of felt minus desired.";
+            "peak error" [$unit] Less: |of, k| of.$signal[k].map(|signal| $factor * signal.peak_error),
+                "Largest absolute value of felt minus desired.";
+            "correlation" [""] More: |of, k| of.$signal[k]?.correlation,
+                "Pearson's correlation of felt and desired, which no scale changes; undefined where one of them is constant.";
+            "delay" ["ms"] Less: |of, k| Some(1000.0 * of.$signal[k]?.delay?),
+                "How much later felt comes: the shift, within 2 s, at which the two correlate best; undefined where they \
+                 correlate by less than 0.9 there.";
+        }
+    };
+}
+
+/// False and missing cues of a signal.
+macro_rules! cues {
+    ($signal:ident) => {
+        measures! { THRESHOLDS;
+            "sensed in the vehicle" ["%"] Neither: |of, k| Some(100.0 * of.$signal[k].desired),
+                "Fraction of the run in which the vehicle's motion is above the threshold.";
+            "false cues" ["%"] Less: |of, k| Some(100.0 * of.$signal[k].false_cues),
+                "Fraction of the run in which the platform's motion is above the threshold and the vehicle's is not, or has \
+                 the opposite sign.";
+            "missing cues" ["%"] Less: |of, k| Some(100.0 * of.$signal[k].missing_cues),
+                "Fraction of the run in which the vehicle's motion is above the threshold and the platform's is not.";
+        }
+    };
+}
+
+/// The subjects in the order in which one reads them: those of a group are repeated axis by axis.
+const GROUPS: [&[Subject]; 4] = [
+    &[
+        Subject {
+            name: "specific force",
+            axes: 3,
+            is_present: |of, k| of.force[k].is_some(),
+            measures: fidelity!(force, "m/s²", 1.0, COMMON),
+        },
+        Subject {
+            name: "specific force",
+            axes: 2,
+            is_present: |of, k| of.shape.axes[k].is_some(),
+            measures: measures! { SHAPE;
+                "shape" [""] More: |of, k| Some(of.shape.axes[k]?.shape),
+                    "Correlation of felt and desired below 2 Hz: sign, time and proportion, whatever the size; 0 where nothing is felt.";
+                "size" [""] More: |of, k| Some(of.shape.axes[k]?.size),
+                    "RMS of the felt force below 2 Hz over that of the desired force; 1 is full size.";
+                "inverted" ["%"] Less: |of, k| Some(100.0 * of.shape.axes[k]?.inverted),
+                    "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and has the opposite sign of the desired \
+                     force.";
+            },
+        },
+        Subject {
+            name: "specific force",
+            axes: 3,
+            is_present: |of, k| of.comfort[k].is_some(),
+            measures: measures! { COMFORT;
+                "shake" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.shake.as_ref()?.value),
+                    "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
+                     undefined up to 16 samples a second and for runs of 15 samples or less.";
+                "jolt" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.jolt.as_ref()?.value),
+                    "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
+                     desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.";
+                "peak" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.peak.value),
+                    "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.";
+            },
+        },
+        Subject {
+            name: "sensed specific force",
+            axes: 3,
+            is_present: |of, k| of.sensed_force[k].is_some(),
+            measures: fidelity!(sensed_force, "m/s²", 1.0, VESTIBULAR),
+        },
+        Subject {
+            name: "sensed specific force",
+            axes: 3,
+            is_present: |of, k| of.sensed_force[k].is_some(),
+            measures: cues!(force_cues),
+        },
+    ],
+    &[Subject {
+        name: "horizontal specific force",
+        axes: 0,
+        is_present: |of, _| of.shape.inverted.is_some(),
+        measures: measures! { SHAPE;
+            "inverted" ["%"] Less: |of, _| Some(100.0 * of.shape.inverted?),
+                "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
+                 force.";
+            "shape error" ["%"] Less: |of, _| Some(100.0 * of.shape.error?),
+                "RMS below 2 Hz of felt less scaled desired force, relative to the RMS of the scaled desired force; undefined at a \
+                 scale of 0.";
+        },
+    }],
+    &[
+        Subject {
+            name: "angular velocity",
+            axes: 3,
+            is_present: |of, k| of.rate[k].is_some(),
+            measures: fidelity!(rate, "°/s", DEGREE, COMMON),
+        },
+        Subject {
+            name: "sensed angular velocity",
+            axes: 3,
+            is_present: |of, k| of.sensed_rate[k].is_some(),
+            measures: fidelity!(sensed_rate, "°/s", DEGREE, VESTIBULAR),
+        },
+        Subject {
+            name: "sensed angular velocity",
+            axes: 3,
+            is_present: |of, k| of.sensed_rate[k].is_some(),
+            measures: cues!(rate_cues),
+        },
+    ],
+    &[
+        Subject {
+            name: "rider",
+            axes: 0,
+            is_present: |_, _| true,
+            measures: measures! { SICKNESS;
+                "sick in the vehicle" ["%"] Neither: |of, _| Some(of.rider.sick[0]),
+                    "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
+                     vertical; without vision, from data of passengers.";
+                "sick on the platform" ["%"] Less: |of, _| Some(of.rider.sick[1]),
+                    "The same of the platform's motion.";
+            },
+        },
+        Subject {
+            name: "rider",
+            axes: 0,
+            is_present: |_, _| true,
+            measures: measures! { DOSE;
+                "sickness dose in the vehicle" ["m/s^1.5"] Neither: |of, _| Some(of.rider.dose[0]),
+                    "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.";
+                "sickness dose on the platform" ["m/s^1.5"] Less: |of, _| Some(of.rider.dose[1]),
+                    "The same of the platform's motion.";
+            },
+        },
+        Subject {
+            name: "rider",
+            axes: 0,
+            is_present: |_, _| true,
+            measures: measures! { RATING;
+                "incongruence" ["%"] Less: |of, _| Some(100.0 * of.rider.incongruence.as_ref()?.value),
+                    "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
+                     that of a platform at rest.";
+            },
+        },
+        Subject {
+            name: "platform",
+            axes: 0,
+            is_present: |_, _| true,
+            measures: measures! { COMMON;
+                "stroke used" ["%"] Neither: |of, _| Some(100.0 * of.effort.stroke_used),
+                    "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.";
+                "smallest stroke margin" ["m"] More: |of, _| Some(of.effort.smallest_margin),
+                    "Smallest distance of any actuator from either end of its stroke.";
+                "largest tilt rate" ["°/s"] Neither: |of, _| Some(of.effort.largest_tilt_rate.to_degrees()),
+                    "Largest rate of tilt coordination in roll or pitch.";
+                "tilt limited" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.tilt),
+                    "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
+                     least 0.1 s at its acceleration limit.";
+                "soft limits active" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.soft),
+                    "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.";
+                "safety units active" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.safety),
+                    "Fraction of the steps in which a safety unit limited the platform.";
+                "actuators limited" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.actuator),
+                    "Fraction of the steps in which the actuator guard limited an actuator.";
+                "final distance from neutral" ["m"] Less: |of, _| Some(of.effort.final_distance),
+                    "Distance of the platform from neutral at the end.";
+            },
+        },
+    ],
+];
+
+/// Values of the bound's rows: RMS of the desired force, RMS error that was felt, and the bound
+/// \[m/s2\].
+type BoundValues = [f64; 3];
+
+const BOUND_MEASURES: &[Measure<BoundValues>] = measures! { BOUND;
+    "bound" ["m/s²"] Neither: |[_, _, bound], _| Some(*bound),
+        "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
+         same limits of tilt, tilt rate, travel, speed and acceleration.";
+    "gap to the bound" ["m/s²"] Less: |[_, felt, bound], _| Some((felt - bound).max(0.0)),
+        "RMS error beyond the bound: the most that a better controller could gain.";
+    "relative error" ["%"] Less: |[desired, felt, _], _| percentage(*felt, *desired),
+        "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.";
+    "relative bound" ["%"] Neither: |[desired, _, bound], _| percentage(*bound, *desired),
+        "The bound as the same fraction.";
+};
+
+fn percentage(error: f64, desired: f64) -> Option<f64> {
+    (desired > 0.0).then(|| 100.0 * error / desired)
+}
+
+/// Every measure of every subject, in the order of the rows, with the axis.
+fn listed() -> impl Iterator<Item = (&'static Subject, usize, &'static Measure)> {
+    GROUPS.iter().flat_map(|group| {
+        let axes = group.iter().map(|subject| subject.axes).max().unwrap_or_default();
+        let on_axis =
+            move |axis| group.iter().filter(move |subject| axis < subject.axes.max(1)).map(move |of| (of, axis));
+        (0..axes.max(1))
+            .flat_map(on_axis)
+            .flat_map(|(of, axis)| of.measures.iter().map(move |measure| (of, axis, measure)))
+    })
+}
+
+/// Every measure in the order of the rows, without values: the rows of any run are among them, in
+/// this order.
+pub fn all_rows() -> Vec<Row> {
+    listed().map(|(subject, axis, measure)| measure.row(subject.title(axis), None)).collect()
+}
+
 impl Measures {
     /// The measures as rows, in the order in which one reads them. Axes on which nothing is desired
     /// and nothing felt are left out.
     pub fn rows(&self) -> Vec<Row> {
-        let mut rows = Vec::new();
-        for (k, axis) in AXES.iter().enumerate() {
-            rows.extend(FORCE.rows(axis, &self.force[k]));
-            rows.extend(self.shape.axes.get(k).copied().flatten().iter().flat_map(|shape| shape_rows(axis, shape)));
-            rows.extend(self.comfort[k].iter().flat_map(|comfort| comfort_rows(axis, comfort)));
-            rows.extend(SENSED_FORCE.rows(axis, &self.sensed_force[k]));
-            if self.sensed_force[k].is_some() {
-                rows.extend(cue_rows(format!("sensed specific force {axis}"), &self.force_cues[k]));
-            }
-        }
-        rows.extend(pooled_shape_rows(&self.shape));
-        for (k, axis) in AXES.iter().enumerate() {
-            rows.extend(RATE.rows(axis, &self.rate[k]));
-            rows.extend(SENSED_RATE.rows(axis, &self.sensed_rate[k]));
-            if self.sensed_rate[k].is_some() {
-                rows.extend(cue_rows(format!("sensed angular velocity {axis}"), &self.rate_cues[k]));
-            }
-        }
-        rows.extend(rider_rows(&self.rider));
-        rows.extend(effort_rows(&self.effort));
-        rows
+        let present = listed().filter(|(subject, axis, _)| (subject.is_present)(self, *axis));
+        present.map(|(subject, axis, measure)| measure.row(subject.title(axis), (measure.value)(self, axis))).collect()
     }
-}
 
-/// The rows that a run with motion on every axis has: those of any other run are among them, in the
-/// same order. Their values mean nothing.
-pub fn all_rows() -> Vec<Row> {
-    let count = 16;
-    let moving: Vec<[f64; 3]> = (0..count).map(|k| [f64::from(k); 3]).collect();
-    let still = vec![[0.0; 3]; moving.len()];
-    let run = Run {
-        step: 0.1,
-        desired_force: &moving,
-        felt_force: &still,
-        felt_force_within_steps: &still,
-        desired_rate: &moving,
-        scale: [1.0; 2],
-        felt_rate: &still,
-        platform: Platform {
-            legs: &vec![[1.0; 6]; moving.len()],
-            stroke: [0.5, 1.5],
-            displacement: &still,
-            tilt_rate: &vec![[0.0; 2]; moving.len()],
-            limited: &vec![Limits::default(); moving.len()],
-        },
-    };
-    Measures::of(&run).expect("the run has equal series of numbers").rows()
-}
-
-/// Name and source that all rows of a subject have.
-struct Subject {
-    name: String,
-    source: &'static str,
-}
-
-impl Subject {
-    /// A row that still needs its definition.
-    fn row(&self, name: &'static str, better: Better, value: impl Into<Option<f64>>, unit: &'static str) -> Row {
-        let (subject, value, source) = (self.name.clone(), value.into(), self.source);
-        Row { subject, name, value, unit, better, definition: "", source }
+    /// The value of each of [`all_rows`]; none where it is not defined.
+    pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
+        listed().map(|(subject, axis, measure)| {
+            (subject.is_present)(self, axis).then(|| (measure.value)(self, axis)).flatten()
+        })
     }
-}
-
-impl Row {
-    fn defined(self, definition: &'static str) -> Self {
-        Row { definition, ..self }
-    }
-}
-
-/// A signal that is compared: how its errors are written.
-struct Signal {
-    subject: &'static str,
-    unit: &'static str,
-    /// From SI to `unit`.
-    factor: f64,
-    source: &'static str,
-}
-
-const DEGREE: f64 = 180.0 / std::f64::consts::PI;
-const FORCE: Signal = Signal { subject: "specific force", unit: "m/s²", factor: 1.0, source: COMMON };
-const RATE: Signal = Signal { subject: "angular velocity", unit: "°/s", factor: DEGREE, source: COMMON };
-const SENSED_FORCE: Signal = Signal { subject: "sensed specific force", source: VESTIBULAR, ..FORCE };
-const SENSED_RATE: Signal = Signal { subject: "sensed angular velocity", source: VESTIBULAR, ..RATE };
-
-impl Signal {
-    fn rows(&self, axis: &str, fidelity: &Option<Fidelity>) -> Vec<Row> {
-        let Some(fidelity) = fidelity else { return Vec::new() };
-        let on = Subject { name: format!("{} {axis}", self.subject), source: self.source };
-        vec![
-            on.row("RMS error", Better::Less, self.factor * fidelity.rms_error, self.unit)
-                .defined("Root mean square over the run of felt minus desired."),
-            on.row("peak error", Better::Less, self.factor * fidelity.peak_error, self.unit)
-                .defined("Largest absolute value of felt minus desired."),
-            on.row("correlation", Better::More, fidelity.correlation, "").defined(
-                "Pearson's correlation of felt and desired, which no scale changes; undefined where one of them is constant.",
-            ),
-            on.row("delay", Better::Less, fidelity.delay.map(|delay| 1000.0 * delay), "ms").defined(
-                "How much later felt comes: the shift, within 2 s, at which the two correlate best; undefined where they \
-                 correlate by less than 0.9 there.",
-            ),
-        ]
-    }
-}
-
-fn comfort_rows(axis: &str, comfort: &Comfort) -> [Row; 3] {
-    let on = Subject { name: format!("specific force {axis}"), source: COMFORT };
-    [
-        on.row("shake", Better::Less, comfort.shake.map(|excess| excess.value), "m/s²").defined(
-            "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
-             undefined up to 16 samples a second and for runs of 15 samples or less.",
-        ),
-        on.row("jolt", Better::Less, comfort.jolt.map(|excess| excess.value), "m/s²").defined(
-            "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
-             desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.",
-        ),
-        on.row("peak", Better::Less, comfort.peak.value, "m/s²").defined(
-            "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.",
-        ),
-    ]
-}
-
-fn shape_rows(axis: &str, shape: &AxisShape) -> [Row; 3] {
-    let on = Subject { name: format!("specific force {axis}"), source: SHAPE };
-    [
-        on.row("shape", Better::More, shape.shape, "").defined(
-            "Correlation of felt and desired below 2 Hz: sign, time and proportion, whatever the size; 0 where nothing is felt.",
-        ),
-        on.row("size", Better::More, shape.size, "")
-            .defined("RMS of the felt force below 2 Hz over that of the desired force; 1 is full size."),
-        on.row("inverted", Better::Less, 100.0 * shape.inverted, "%").defined(
-            "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and has the opposite sign of the desired \
-             force.",
-        ),
-    ]
-}
-
-/// Surge and sway together.
-fn pooled_shape_rows(shape: &Shape) -> Vec<Row> {
-    let on = Subject { name: "horizontal specific force".to_owned(), source: SHAPE };
-    let Some(inverted) = shape.inverted else { return Vec::new() };
-    vec![
-        on.row("inverted", Better::Less, 100.0 * inverted, "%").defined(
-            "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
-             force.",
-        ),
-        on.row("shape error", Better::Less, shape.error.map(|error| 100.0 * error), "%").defined(
-            "RMS below 2 Hz of felt less scaled desired force, relative to the RMS of the scaled desired force; undefined at a \
-             scale of 0.",
-        ),
-    ]
-}
-
-fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
-    let on = Subject { name: subject, source: THRESHOLDS };
-    [
-        on.row("sensed in the vehicle", Better::Neither, 100.0 * cues.desired, "%")
-            .defined("Fraction of the run in which the vehicle's motion is above the threshold."),
-        on.row("false cues", Better::Less, 100.0 * cues.false_cues, "%").defined(
-            "Fraction of the run in which the platform's motion is above the threshold and the vehicle's is not, or has the \
-             opposite sign.",
-        ),
-        on.row("missing cues", Better::Less, 100.0 * cues.missing_cues, "%").defined(
-            "Fraction of the run in which the vehicle's motion is above the threshold and the platform's is not.",
-        ),
-    ]
 }
 
 /// The bound of one axis, `x`, `y` or `z`, beside what was felt there.
 ///
 /// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the
 /// RMS error that was felt.
-pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: f64) -> [Row; 4] {
-    let on = Subject { name: format!("specific force {axis}"), source: BOUND };
-    let percentage = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
-    [
-        on.row("bound", Better::Neither, bound, "m/s²").defined(
-            "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
-             same limits of tilt, tilt rate, travel, speed and acceleration.",
-        ),
-        on.row("gap to the bound", Better::Less, (felt - bound).max(0.0), "m/s²")
-            .defined("RMS error beyond the bound: the most that a better controller could gain."),
-        on.row("relative error", Better::Less, percentage(felt), "%").defined(
-            "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.",
-        ),
-        on.row("relative bound", Better::Neither, percentage(bound), "%").defined("The bound as the same fraction."),
-    ]
-}
-
-fn rider_rows(rider: &Rider) -> [Row; 5] {
-    let from = |source| Subject { name: "rider".to_owned(), source };
-    let [vehicle, platform] = rider.sick;
-    let [vehicle_dose, platform_dose] = rider.dose;
-    [
-        from(SICKNESS).row("sick in the vehicle", Better::Neither, vehicle, "%").defined(
-            "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
-             vertical; without vision, from data of passengers.",
-        ),
-        from(SICKNESS).row("sick on the platform", Better::Less, platform, "%").defined("The same of the platform's motion."),
-        from(DOSE).row("sickness dose in the vehicle", Better::Neither, vehicle_dose, "m/s^1.5").defined(
-            "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.",
-        ),
-        from(DOSE)
-            .row("sickness dose on the platform", Better::Less, platform_dose, "m/s^1.5")
-            .defined("The same of the platform's motion."),
-        from(RATING)
-            .row("incongruence", Better::Less, rider.incongruence.map(|incongruence| 100.0 * incongruence.value), "%")
-            .defined(
-                "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
-                 that of a platform at rest.",
-            ),
-    ]
-}
-
-fn effort_rows(effort: &Effort) -> [Row; 8] {
-    let on = Subject { name: "platform".to_owned(), source: COMMON };
-    [
-        on.row("stroke used", Better::Neither, 100.0 * effort.stroke_used, "%").defined(
-            "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.",
-        ),
-        on.row("smallest stroke margin", Better::More, effort.smallest_margin, "m")
-            .defined("Smallest distance of any actuator from either end of its stroke."),
-        on.row("largest tilt rate", Better::Neither, effort.largest_tilt_rate.to_degrees(), "°/s")
-            .defined("Largest rate of tilt coordination in roll or pitch."),
-        on.row("tilt limited", Better::Less, 100.0 * effort.limited.tilt, "%").defined(
-            "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
-             least 0.1 s at its acceleration limit.",
-        ),
-        on.row("soft limits active", Better::Less, 100.0 * effort.limited.soft, "%").defined(
-            "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.",
-        ),
-        on.row("safety units active", Better::Less, 100.0 * effort.limited.safety, "%")
-            .defined("Fraction of the steps in which a safety unit limited the platform."),
-        on.row("actuators limited", Better::Less, 100.0 * effort.limited.actuator, "%")
-            .defined("Fraction of the steps in which the actuator guard limited an actuator."),
-        on.row("final distance from neutral", Better::Less, effort.final_distance, "m")
-            .defined("Distance of the platform from neutral at the end."),
-    ]
+pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: f64) -> Vec<Row> {
+    let values = [desired, felt, bound];
+    let row =
+        |measure: &Measure<BoundValues>| measure.row(format!("specific force {axis}"), (measure.value)(&values, 0));
+    BOUND_MEASURES.iter().map(row).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::run::{Limits, Platform, Run};
     use super::*;
 
     const COUNT: usize = 500;
 
-    /// The rows of a run on which half of the surge and all of the rest is felt.
     fn rows_of(force: impl Fn(f64) -> [f64; 3]) -> Vec<Row> {
+        measures_of(force).rows()
+    }
+
+    /// The measures of a run on which half of the surge and all of the rest is felt.
+    fn measures_of(force: impl Fn(f64) -> [f64; 3]) -> Measures {
         let desired: Vec<[f64; 3]> = (0..COUNT).map(|k| force(0.01 * k as f64)).collect();
         let felt: Vec<[f64; 3]> = desired.iter().map(|[x, y, z]| [0.5 * x, *y, *z]).collect();
         let run = Run {
@@ -327,7 +375,7 @@ mod tests {
                 limited: &[Limits::default(); COUNT],
             },
         };
-        Measures::of(&run).unwrap().rows()
+        Measures::of(&run).unwrap()
     }
 
     #[test]
@@ -355,6 +403,19 @@ mod tests {
         for row in rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]) {
             let same = |other: &&Row| (&other.subject, other.name, other.unit) == (&row.subject, row.name, row.unit);
             assert!(rest.any(|other| same(&other)), "{}, {}", row.subject, row.name);
+        }
+    }
+
+    #[test]
+    fn the_values_are_those_of_the_rows_at_their_places_in_the_list() {
+        let measures = measures_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]);
+        let (all, rows) = (all_rows(), measures.rows());
+        let values: Vec<Option<f64>> = measures.values().collect();
+        assert_eq!(values.len(), all.len());
+        for (listed, value) in all.into_iter().zip(values) {
+            let found = rows.iter().find(|row| (&row.subject, row.name) == (&listed.subject, listed.name));
+            assert_eq!(found.and_then(|row| row.value), value, "{listed:?}");
+            assert!(found.is_none_or(|row| *row == Row { value, ..listed }));
         }
     }
 
