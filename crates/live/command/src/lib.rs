@@ -58,11 +58,11 @@ use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
+use moris_analysis::host::check_predictive;
 use moris_laps::Laps;
 use moris_live::frame::{Encoder, Values};
 use moris_live::{STEP, Session, Settings, log, moog};
 use moris_setup::Setup;
-use moris_washout::interface::StrategyKind;
 use rtrb::RingBuffer;
 
 use commands::COMMANDS;
@@ -451,10 +451,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 
 /// The laps of the road that are known at first.
 fn known_laps(file: Option<&Path>, features: &Features, setup: &Setup) -> Result<Laps> {
-    ensure!(
-        setup.parameters.structure.strategy == StrategyKind::Predictive,
-        "--learn is for the predictive strategy alone; add --strategy predictive"
-    );
+    check_predictive("learn", setup.parameters.structure.strategy)?;
     ensure!(features.has_position, "--learn needs the vehicle's position, which this source does not send");
     Ok(file.map_or_else(|| Ok(Laps::new()), learned_road::load)?)
 }

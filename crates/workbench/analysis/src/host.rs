@@ -4,9 +4,10 @@
 use moris_simulation::Replay;
 use moris_simulation::preview::Previewer;
 use moris_washout::Parameters;
+use moris_washout::interface::StrategyKind;
 
 use crate::error::Result;
-use crate::message::{message, named};
+use crate::message::{Message, given, message, named};
 use crate::recording::Recording;
 use moris_simulation::Simulation;
 
@@ -32,6 +33,18 @@ pub struct Host {
     pub preview: f64,
     /// True with a preview that is learned by the recording's position.
     pub learns: bool,
+}
+
+/// Refuses an option of the predictive strategy, such as `preview` or `learn`, with another one.
+///
+/// # Errors
+/// The strategy is another one: the option, and the remedy.
+pub fn check_predictive(option: &'static str, strategy: StrategyKind) -> Result<(), Message> {
+    if strategy == StrategyKind::Predictive {
+        return Ok(());
+    }
+    let remedy = given("strategy", StrategyKind::Predictive.name());
+    Err(message![named(option), " is for the predictive strategy alone; add ", remedy])
 }
 
 impl Host {

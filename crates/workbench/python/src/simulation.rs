@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use moris_analysis::bounds::{self, AxisBound};
 use moris_analysis::error::{Result, worded};
-use moris_analysis::host::Host;
+use moris_analysis::host::{Host, check_predictive};
 use moris_analysis::learned_road::Kept;
+use moris_analysis::message::Message;
 use moris_analysis::outcome::Outcome;
 use moris_analysis::page;
 use moris_analysis::recording::Recording;
@@ -18,7 +19,6 @@ use moris_simulation::Simulation;
 use moris_simulation::findings::fit;
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::measures::{Axes, Row};
-use moris_washout::interface::StrategyKind;
 use moris_washout::{Input, Output, Parameters, Washout};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -82,8 +82,9 @@ impl PySimulation {
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let host = host(preview)?;
-        check_preview(&setup, preview).map_err(PyValueError::new_err)?;
-        check_learning(&setup, &recording.inner, preview, learn).map_err(PyValueError::new_err)?;
+        let refused = |reason: Message| PyValueError::new_err(reason.worded(argument));
+        check_preview(&setup, preview).map_err(refused)?;
+        check_learning(&setup, &recording.inner, preview, learn).map_err(refused)?;
         let recording = Arc::clone(&recording.inner);
         let learned = learn.then(|| py.detach(|| learned(&recording, road.as_deref()))).transpose();
         let learned = learned.map_err(|reason| PyValueError::new_err(reason.with_sources(argument)))?;
@@ -238,11 +239,8 @@ pub fn host(preview: f64) -> PyResult<Host> {
 ///
 /// # Errors
 /// Why not, and the argument that helps.
-pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), &'static str> {
-    if preview > 0.0 && setup.parameters.structure.strategy != StrategyKind::Predictive {
-        return Err("preview is for the predictive strategy alone; add strategy=\"predictive\"");
-    }
-    Ok(())
+pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), Message> {
+    if preview > 0.0 { check_predictive("preview", setup.parameters.structure.strategy) } else { Ok(()) }
 }
 
 /// The preview that a recording learns, and keeps in a file if there is one.
@@ -257,13 +255,12 @@ fn learned(recording: &Recording, file: Option<&Path>) -> Result<Previewer> {
 ///
 /// # Errors
 /// Why not, and the argument that helps.
-fn check_learning(setup: &Setup, recording: &Recording, preview: f64, learn: bool) -> Result<(), &'static str> {
-    match setup.parameters.structure.strategy {
-        _ if !learn => Ok(()),
-        _ if preview > 0.0 => Err("preview and learn exclude each other"),
-        _ if recording.road.is_none() => Err("the recording has no position; read it with position=True"),
-        StrategyKind::Predictive => Ok(()),
-        _ => Err("learn is for the predictive strategy alone; add strategy=\"predictive\""),
+fn check_learning(setup: &Setup, recording: &Recording, preview: f64, learn: bool) -> Result<(), Message> {
+    match learn {
+        false => Ok(()),
+        true if preview > 0.0 => Err("preview and learn exclude each other".into()),
+        true if recording.road.is_none() => Err("the recording has no position; read it with position=True".into()),
+        true => check_predictive("learn", setup.parameters.structure.strategy),
     }
 }
 

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use crate::recording::PyRecording;
 use crate::setup::{self, Given};
 use crate::simulation::{check_preview, host};
+use crate::words::argument;
 
 /// All measures of a sweep, on every axis: subject, name and unit.
 static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> =
@@ -50,7 +51,7 @@ pub fn sweep_chunk<'py>(
     let mut setups = Vec::with_capacity(sets.len());
     for set in &sets {
         let loaded = match setup::load(py, rig, Some(set), strategy) {
-            Ok(setup) => check_preview(&setup, preview).map(|()| setup).map_err(str::to_owned),
+            Ok(setup) => check_preview(&setup, preview).map(|()| setup).map_err(|reason| reason.worded(argument)),
             Err(error) if error.is_instance(py, &refused) => Err(error.value(py).to_string()),
             Err(error) => return Err(error),
         };

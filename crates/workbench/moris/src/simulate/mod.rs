@@ -36,6 +36,7 @@ use crate::status::DOES_NOT_FIT;
 use crate::washout_fmu::WashoutFmu;
 use crate::words;
 pub use moris_analysis::bounds::{self, AxisBound};
+use moris_analysis::host::check_predictive;
 pub use moris_analysis::outcome::Outcome;
 use moris_analysis::outcome::listed;
 pub use moris_analysis::page;
@@ -248,9 +249,9 @@ fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
     let preview = options.preview.filter(|&seconds| seconds > 0.0);
     let predictive: Vec<&Case> =
         cases.iter().filter(|case| case.setup.parameters.structure.strategy == StrategyKind::Predictive).collect();
-    for (option, is_given) in [("--preview", preview.is_some()), ("--learn", options.learn.is_some())] {
+    for (option, is_given) in [("preview", preview.is_some()), ("learn", options.learn.is_some())] {
         if is_given && predictive.is_empty() {
-            bail!("{option} is for the predictive strategy alone; add --strategy predictive");
+            check_predictive(option, cases[0].setup.parameters.structure.strategy)?;
         }
     }
     let with = |Case { setup, .. }: &Case, origin: Origin, preview: &str| {
