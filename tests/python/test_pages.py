@@ -2,7 +2,9 @@
 
 import base64
 import hashlib
+import json
 import os
+import re
 import subprocess
 import urllib.request
 from html.parser import HTMLParser
@@ -85,6 +87,14 @@ def test_reports_run_only_their_own_scripts(made):
     for name in ("one", "two"):
         allowed = check((made / f"{name}.html").read_text(), 2)
         assert allowed["worker-src"] == ["blob:"] and "connect-src" not in allowed
+
+
+def test_a_report_has_sliders_or_says_why_it_has_none(made):
+    text = (made / "one.html").read_text()
+    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
+    reason = data["report"]["no_simulator_because"]
+    assert (reason is None) == (data["report"]["simulator"] is not None) == (data["worker"] is not None)
+    assert reason is None or "rustup target add wasm32-unknown-unknown" in reason
 
 
 def test_the_list_of_reports_has_no_script(made):

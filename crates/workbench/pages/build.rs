@@ -1,7 +1,8 @@
 //! Lists the scripts of the pages. Compiles the simulation for the report's page, and the ride, to
 //! WebAssembly, and finds the commit.
 //!
-//! Where the target is not installed the files are empty. The report's page then does not simulate,
+//! Where the target is not installed, rustup is asked to add it. Without rustup, without a network,
+//! or with `RUSTUP_AUTO_INSTALL=0`, the files are empty: the report's page then does not simulate,
 //! and there is no ride. Without git the version is that of the package alone.
 
 use std::env;
@@ -53,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
     // The modules themselves are compiled with this package, too.
-    let is_wanted = variable("TARGET")? != WEBASSEMBLY_TARGET && is_installed()?;
+    let is_wanted = variable("TARGET")? != WEBASSEMBLY_TARGET && (is_installed()? || is_added()?);
     for (name, feature, missing) in WEBASSEMBLY_MODULES {
         let is_wanted = is_wanted && (feature.is_empty() || env::var_os("CARGO_FEATURE_RIDE").is_some());
         let module = if is_wanted { compile(&root, &out, [name, feature], missing)? } else { Vec::new() };
@@ -105,17 +106,39 @@ fn commit(root: &Path) -> Option<String> {
     git(&["rev-parse", "--short=9", "HEAD"])
 }
 
-/// True if the compiler has the target's standard library. What rustup installs later is noticed.
+/// True if the compiler has the target's standard library.
 fn is_installed() -> Result<bool, Box<dyn Error>> {
-    let printed = |what: &[&str]| -> Result<PathBuf, Box<dyn Error>> {
-        let output = Command::new(variable("RUSTC")?).args(what).output()?;
-        Ok(PathBuf::from(String::from_utf8(output.stdout)?.trim()))
-    };
-    let components = printed(&["--print", "sysroot"])?.join("lib/rustlib/components");
+    Ok(rustc_directory(&["--print", "target-libdir", "--target", WEBASSEMBLY_TARGET])?.exists())
+}
+
+/// A directory that the compiler prints.
+fn rustc_directory(what: &[&str]) -> Result<PathBuf, Box<dyn Error>> {
+    let output = Command::new(variable("RUSTC")?).args(what).output()?;
+    Ok(PathBuf::from(String::from_utf8(output.stdout)?.trim()))
+}
+
+/// Asks rustup for the target, if rustup has started this compiler and may install. True if it has
+/// been added. Otherwise it is noticed when rustup installs it later.
+fn is_added() -> Result<bool, Box<dyn Error>> {
+    let is_forbidden = env::var("RUSTUP_AUTO_INSTALL").is_ok_and(|value| value == "0");
+    if let (false, Ok(toolchain)) = (is_forbidden, env::var("RUSTUP_TOOLCHAIN")) {
+        let asked =
+            Command::new("rustup").args(["target", "add", WEBASSEMBLY_TARGET, "--toolchain", &toolchain]).output();
+        let reason = match asked {
+            Ok(asked) if asked.status.success() => {
+                println!("cargo::warning=rustup has added the target {WEBASSEMBLY_TARGET}, for pages that simulate");
+                return Ok(true);
+            }
+            Ok(asked) => first_error(&String::from_utf8_lossy(&asked.stderr)),
+            Err(reason) => reason.to_string(),
+        };
+        println!("cargo::warning=rustup cannot add the target {WEBASSEMBLY_TARGET}, for pages that simulate: {reason}");
+    }
+    let components = rustc_directory(&["--print", "sysroot"])?.join("lib/rustlib/components");
     if components.exists() {
         println!("cargo::rerun-if-changed={}", components.display());
     }
-    Ok(printed(&["--print", "target-libdir", "--target", WEBASSEMBLY_TARGET])?.exists())
+    Ok(false)
 }
 
 /// A module, compiled in a directory of its own, because this build holds the lock of its
@@ -154,6 +177,11 @@ fn compile(root: &Path, out: &Path, [name, feature]: [&str; 2], missing: &str) -
     Ok(fs::read(
         directory.join(WEBASSEMBLY_TARGET).join(MODULE_PROFILE).join("examples").join(name).with_extension("wasm"),
     )?)
+}
+
+/// The line of a message that begins with the error, without the stack below it.
+fn first_error(text: &str) -> String {
+    text.lines().find(|line| line.starts_with("error")).unwrap_or("it says no reason").to_owned()
 }
 
 /// The last lines of a message as one.

@@ -81,6 +81,7 @@ fn two_runs() -> Report {
         ],
         selected: 0,
         simulator: None,
+        no_simulator_because: None,
     }
 }
 
@@ -116,6 +117,7 @@ fn hostile() -> Report {
         runs: vec![run.clone(), run],
         selected: 1,
         simulator: None,
+        no_simulator_because: None,
     }
 }
 

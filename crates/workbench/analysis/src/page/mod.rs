@@ -3,7 +3,7 @@
 pub mod simulator;
 pub mod vehicle;
 
-use moris_pages::report::{Chart, Line, Report, Run, Simulator, Thinning, felt_chart};
+use moris_pages::report::{Chart, Line, MODULE_REMEDY, Report, Run, Simulator, Thinning, felt_chart};
 use moris_simulation::{Finding, Weight};
 
 use self::vehicle::vehicle;
@@ -90,6 +90,8 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words
         runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
         selected: 0,
         simulator: None,
+        no_simulator_because: (!simulator::is_compiled() && first.simulation.foreign.is_none())
+            .then_some(MODULE_REMEDY),
     }
 }
 

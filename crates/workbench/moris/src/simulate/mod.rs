@@ -22,6 +22,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
+use moris_pages::report::MODULE_REMEDY;
 use moris_setup::Setup;
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::preview::{Previewer, parse_seconds};
@@ -129,10 +130,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     check_names(&recordings, &cases)?;
     if !simulator::is_compiled() {
-        eprintln!(
-            "note: the reports only show; for reports that simulate with other parameters, build moris after \
-             `rustup target add wasm32-unknown-unknown`"
-        );
+        eprintln!("note: the reports only show. {MODULE_REMEDY}");
     }
     let mut road = Kept::open(options.learn.as_ref().and_then(Option::as_deref))?;
     let mut entries = Vec::new();

@@ -266,9 +266,18 @@ function showRun(run, isMoving = false) {
   select(run.index, isMoving);
 }
 
+/** In place of the panel of parameters. */
+function explainMissingTuning(reason) {
+  byId("tuning").replaceChildren(element("summary", {}, ["Change parameters"]), element("p", { class: "summary" }, [reason]));
+  byId("tuning").hidden = false;
+}
+
 /** The panel of parameters, if this page can simulate. */
 async function setUpTuning() {
-  if (!report.simulator) return;
+  if (!report.simulator) {
+    if (report.no_simulator_because) explainMissingTuning(report.no_simulator_because);
+    return;
+  }
   const simulator = new Simulator(report.simulator, page.worker);
   await simulator.prepare();
   tuning = new Tuning(byId("tuning"), simulator, showRun, showCurves);
@@ -310,8 +319,5 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 window.simulationReport = { now, seek, show, play, select, view, recording, ranges: () => charts.map((chart) => chart.range()),
   runs: () => report.runs, cellText };
 byId("alarm").hidden = true;
-await setUpTuning().catch((error) => {
-  byId("tuning").replaceChildren(element("summary", {}, ["Change parameters"]), element("p", { class: "summary" }, [`This browser cannot simulate: ${error.message}`]));
-  byId("tuning").hidden = false;
-});
+await setUpTuning().catch((error) => explainMissingTuning(`This browser cannot simulate: ${error.message}`));
 if (tuning) window.simulationReport.tuning = tuning;

@@ -31,6 +31,8 @@ pub struct Report {
     pub selected: usize,
     /// The simulation of the recording with other parameters; none for a page that only shows.
     pub simulator: Option<Simulator>,
+    /// Why a page of a recording cannot simulate, in the place of its sliders.
+    pub no_simulator_because: Option<&'static str>,
 }
 
 /// The mock-up on the platform.

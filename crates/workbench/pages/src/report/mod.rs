@@ -29,6 +29,6 @@ pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::{escaped, html};
 pub use run::{felt_chart, run};
-pub use simulator::{MODULE, Parameter, ParameterKind, Simulator};
+pub use simulator::{MODULE, MODULE_REMEDY, Parameter, ParameterKind, Simulator};
 pub use tables::{PageTable, tables_html};
 pub use thinning::Thinning;

@@ -7,6 +7,10 @@ use crate::report::encode::{bytes, exact};
 /// The WebAssembly of the report's page, `modules/simulation.rs`; empty where it was not compiled.
 pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
 
+/// Remedy where [`MODULE`] was not compiled.
+pub const MODULE_REMEDY: &str = "Sliders for the parameters need Rust's target for WebAssembly, which was missing when the \
+     workbench was compiled. Run `rustup target add wasm32-unknown-unknown`, then compile the workbench again.";
+
 /// The simulation as WebAssembly, the recording's inputs, and the parameters to choose from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Simulator {
