@@ -1,6 +1,6 @@
 """Simulates the FMU of the low-pass in FMPy: the response to a step of 1 m/s².
 
-    cargo run --package moris-07_own_model_as_fmu
+    cargo run --bin moris-07_own_model_as_fmu
     python3 examples/07_own_model_as_fmu/simulate.py
 
 Draws `target/examples/07_own_model_as_fmu.svg`.

@@ -1,6 +1,7 @@
-"""ARCHITECTURE.md's rule of rings and its table of uses, held against the manifests."""
+"""ARCHITECTURE.md's rule of rings and its table of uses, held against the manifests, and what is compiled once for all."""
 
 import re
+import subprocess
 
 import pytest
 from conftest import ROOT
@@ -97,3 +98,18 @@ def test_analysis_leaves_the_words_for_options_to_the_faces():
         for literal in (found[0] for found in RUST.finditer(file.read_text())):
             if not literal.startswith("/"):
                 assert not re.search(r"--[a-z]|\\u\{fdd|[\ufdd0-\ufdef]", literal, re.IGNORECASE), f"{file}: {literal}"
+
+
+def compiled(*selection):
+    """Packages with their features, as cargo compiles them for a selection."""
+    command = ["cargo", "tree", "--locked", "--prefix", "none", "--format", "{p}|{f}", *selection]
+    printed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    return {re.sub(r" \(.*?\)", "", line) for line in printed.splitlines()}
+
+
+def test_the_python_package_as_tested_takes_each_library_as_the_tests_in_rust_have_compiled_it():
+    everything = compiled("--workspace", "--edges", "normal,build,dev")
+    package = compiled("--package", "moris-python", "--features", "as-tested", "--edges", "normal,build")
+    assert len(package) > 100
+    anew = {one for one in package - everything if not one.startswith("moris-python ")}
+    assert not anew, "add these features to tests/fmu-tests/Cargo.toml"

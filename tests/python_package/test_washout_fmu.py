@@ -47,7 +47,7 @@ def test_our_fmu_is_the_simulation_to_the_bit(dyadic, fmu, tmp_path, strategy):
 
 
 def test_the_example_has_the_motion_of_the_script_in_the_page(tmp_path, monkeypatch):
-    example = ["cargo", "run", "--quiet", "--manifest-path", ROOT / "Cargo.toml", "--package", "moris-11_own_washout_as_fmu"]
+    example = ["cargo", "run", "--quiet", "--manifest-path", ROOT / "Cargo.toml", "--bin", "moris-11_own_washout_as_fmu"]
     subprocess.run(example, cwd=tmp_path, check=True)
     subprocess.run([sys.executable, ROOT / "examples" / "recording.py", tmp_path / "ride.csv"], check=True)
     page = (ROOT / "docs" / "your-washout.md").read_text()

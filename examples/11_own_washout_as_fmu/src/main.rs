@@ -1,6 +1,6 @@
 //! Packs the FMU of the washout: its model description and its library.
 //!
-//!     cargo run --package moris-11_own_washout_as_fmu
+//!     cargo run --bin moris-11_own_washout_as_fmu
 //!
 //! Writes `target/fmu/ReidNahon.fmu`. `cargo build-fmu` adds documentation, a reference simulation
 //! and libraries for other platforms; a model gets them by an entry in `build-fmu/src/model/`.
