@@ -12,9 +12,13 @@ from contextlib import redirect_stdout
 from pathlib import Path
 
 import numpy as np
-import tomllib
 from fmpy import simulate_fmu
 from picture import BLUE, GREY, ORANGE, draw
+
+try:
+    import tomllib
+except ImportError:  # Python 3.10
+    import tomli as tomllib
 
 rig = tomllib.loads(Path("examples/04_own_rig.toml").read_text())
 start_values = {

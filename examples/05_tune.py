@@ -10,9 +10,13 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-import tomllib
 from picture import BLUE, GREY, ORANGE, draw
 from recording import main as write_recording
+
+try:
+    import tomllib
+except ImportError:  # Python 3.10
+    import tomli as tomllib
 
 DIRECTORY = Path("target/examples/05_tune")
 RIG = ["--rig", "examples/rigs/narrow.toml"]
