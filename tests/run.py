@@ -218,7 +218,12 @@ def docs(options):
 def install_package(optimised):
     """Optimised as users get it, or compiled as the tests are."""
     profile = {} if optimised else {"MATURIN_PEP517_ARGS": "--profile dev --features as-tested"}
-    run(python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".", **profile)
+    interpreter = python()
+    install = [interpreter, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    builder = re.search(r'^requires = \["(.+)"\]', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
+    # Kept in the environment, where pip would download it for each build: a second run needs no network.
+    run(*install, builder)
+    run(*install, "--no-build-isolation", ".", PATH=f"{interpreter.parent}{os.pathsep}{os.environ['PATH']}", **profile)
 
 
 def package(options):
