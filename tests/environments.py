@@ -148,15 +148,15 @@ def copy_toolchain(source, copy):
 
 
 def interpreter(name):
-    """The real program of a Python."""
+    """The real program of a Python: on the path, or a version of pyenv."""
     if name is None:
-        found = shutil.which("python3", path=os.pathsep.join(SYSTEM_PATH)) or sys.executable
-    else:
-        found = shutil.which(name)
-    asked = found and subprocess.run([found, "-c", "import sys; print(sys.executable)"], cwd=ROOT, capture_output=True, text=True)
-    if not asked or asked.returncode:
-        raise NotAvailable(f"{name}: install it")
-    return Path(asked.stdout.strip()).resolve()
+        return Path(shutil.which("python3", path=os.pathsep.join(SYSTEM_PATH)) or sys.executable).resolve()
+    found = [shutil.which(name), *sorted(Path.home().glob(f".pyenv/versions/*/bin/{name}"))]
+    for program in filter(None, found):
+        asked = subprocess.run([program, "-c", "import sys; print(sys.executable)"], cwd=ROOT, capture_output=True, text=True)
+        if asked.returncode == 0:
+            return Path(asked.stdout.strip()).resolve()
+    raise NotAvailable(f"{name}: install it")
 
 
 def is_reachable(path):
@@ -230,7 +230,7 @@ class Prepared:
         if not self.environment.is_archive:
             if not (ROOT / ".git").exists() or not shutil.which("git"):
                 raise NotAvailable("the sources are no git repository")
-            subprocess.run(["git", "clone", "--quiet", "--no-checkout", ROOT, self.sources], check=True)
+            subprocess.run(["git", "clone", "--quiet", ROOT, self.sources], check=True)
         for file in source_files():
             copy = self.sources / file.relative_to(ROOT)
             copy.parent.mkdir(parents=True, exist_ok=True)
