@@ -33,7 +33,7 @@ pub fn setup(py: Python, error: &Error) -> PyErr {
             exception(py, "ParameterError", (message, name, None::<f64>, nearest.clone()))
         }
         Error::WrongValue { name, reason, .. } => exception(py, "ParameterError", (format!("{name} {reason}"), name)),
-        Error::NoSuchSet { name, nearest } => {
+        Error::NoSuchSet { name, nearest } | Error::NoSuchRig { name, nearest } => {
             exception(py, "ParameterError", (error.to_string(), name, None::<f64>, nearest.clone()))
         }
         Error::Read { .. } | Error::Toml { .. } => plain(py, "ParameterError", error),

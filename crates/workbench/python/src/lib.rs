@@ -1,9 +1,9 @@
 //! The compiled half of the Python package `moris`; the other half is in `python/moris`.
 //!
 //! `washout` is the class `Washout`, `output` what its step returns. `setup` reads rigs and
-//! parameters, `judged` another washout's motion, `arrays` and `preview` numpy's arrays,
-//! `variables` finds variables by name, `table` lists them. `fmu` packs an FMU. `error`
-//! makes the exceptions, and `words` has the remedies in them.
+//! parameters, `judged` another washout's motion, `arrays` and `preview` numpy's arrays, `parallel`
+//! has the threads, `variables` finds variables by name, `table` lists them. `fmu` packs an FMU.
+//! `error` makes the exceptions, and `words` has the remedies in them.
 
 mod arrays;
 mod error;
@@ -11,6 +11,7 @@ mod fit;
 mod fmu;
 mod judged;
 mod output;
+mod parallel;
 mod preview;
 mod recording;
 mod response;
@@ -53,7 +54,7 @@ mod _moris {
     #[pymodule_export]
     use crate::sweep::{sweep_chunk, sweep_measures};
     #[pymodule_export]
-    use crate::table::variable_rows;
+    use crate::table::{presets, rigs, variable_rows};
     #[pymodule_export]
     use crate::tune::PyTuning;
     #[pymodule_export]

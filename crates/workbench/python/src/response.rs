@@ -9,6 +9,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error;
+use crate::parallel::on_all_cores;
 use crate::setup::{self, Given};
 
 /// Names of the channels, frequencies \[rad/s\], and the responses with the test's amplitudes
@@ -43,9 +44,8 @@ pub fn frequency_response<'py>(
     }
     let default = Amplitudes::default();
     let amplitudes = Amplitudes { force, ..default.scaled(rate / default.rate) };
-    let measured = py
-        .detach(|| Measured::of(&setup.parameters, amplitudes, gravity_turns, || ()))
-        .map_err(|reason| error::plain(py, "ParameterError", &reason))?;
+    let measured = on_all_cores(py, || Measured::of(&setup.parameters, amplitudes, gravity_turns, || ()))?;
+    let measured = measured.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
     let names = Channel::ALL.iter().map(|&channel| name(channel)).collect();
     let frequencies = PyArray1::from_slice(py, &frequencies());
     Ok((names, frequencies, arrays(py, &measured.test)?, arrays(py, &measured.small)?))

@@ -28,6 +28,7 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::arrays::{Series, series};
 use crate::error;
 use crate::judged;
+use crate::parallel::on_all_cores;
 use crate::recording::PyRecording;
 use crate::setup::{self, Given};
 use crate::variables::Variables;
@@ -265,7 +266,7 @@ fn check_learning(setup: &Setup, recording: &Recording, preview: f64, learn: boo
 }
 
 fn bounds_of(py: Python, simulation: &Simulation) -> PyResult<Axes<Option<AxisBound>>> {
-    py.detach(|| bounds::bounds(simulation)).map_err(|reason| error::bound(py, &reason))
+    on_all_cores(py, || bounds::bounds(simulation))?.map_err(|reason| error::bound(py, &reason))
 }
 
 /// The bound on surge, sway and heave: least RMS error, RMS of the desired signal, and felt

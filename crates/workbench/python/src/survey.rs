@@ -6,6 +6,7 @@ use moris_setup::rig_file;
 use pyo3::prelude::*;
 
 use crate::error;
+use crate::parallel::on_all_cores;
 use crate::setup::{Given, rig_of};
 
 /// The washout's default rig.
@@ -34,8 +35,8 @@ pub fn survey(py: Python, rig: Given, samples: u32) -> PyResult<Properties> {
         Some(rig) => rig_of(rig)?,
         None => rig_file::read(DEFAULT_RIG, "default rig").map_err(|error| error::setup(py, &error))?,
     };
-    let survey =
-        py.detach(|| Survey::of(&file, samples)).map_err(|error| error::refused(py, &error, &file.values()))?;
+    let survey = on_all_cores(py, || Survey::of(&file, samples))?;
+    let survey = survey.map_err(|error| error::refused(py, &error, &file.values()))?;
     let axes = survey.capabilities.axes.iter();
     let axes = axes.map(|axis| (axis.axis.name(), axis.range.min, axis.range.max, axis.speed, axis.acceleration));
     let (condition, singular_at) = match survey.capabilities.singularities {

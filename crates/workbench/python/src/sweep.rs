@@ -10,6 +10,7 @@ use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
+use crate::parallel::on_all_cores;
 use crate::recording::PyRecording;
 use crate::setup::{self, Given};
 use crate::simulation::{check_preview, host};
@@ -61,21 +62,18 @@ pub fn sweep_chunk<'py>(
     let recordings: Vec<Arc<Recording>> = recordings.iter().map(|recording| Arc::clone(&recording.inner)).collect();
     let count = recordings.len() * MEASURES.len();
     let mut rows = vec![f64::NAN; sets.len() * count];
-    py.detach(|| {
-        let pairs =
-            setups.iter().flat_map(|setup| recordings.iter().map(move |recording| (setup.as_ref(), &**recording)));
-        let tasks: Vec<_> = pairs.zip(rows.chunks_exact_mut(MEASURES.len())).collect();
-        let act = |((setup, recording), row): ((Option<&Setup>, &Recording), &mut [f64])| {
-            if let Some(setup) = setup {
-                measure(&host, setup, recording, row);
-            }
-        };
-        if threads == 1 {
-            tasks.into_iter().for_each(act);
-        } else {
-            tasks.into_par_iter().for_each(act);
+    let pairs = setups.iter().flat_map(|setup| recordings.iter().map(move |recording| (setup.as_ref(), &**recording)));
+    let tasks: Vec<_> = pairs.zip(rows.chunks_exact_mut(MEASURES.len())).collect();
+    let act = |((setup, recording), row): ((Option<&Setup>, &Recording), &mut [f64])| {
+        if let Some(setup) = setup {
+            measure(&host, setup, recording, row);
         }
-    });
+    };
+    if threads == 1 {
+        py.detach(|| tasks.into_iter().for_each(act));
+    } else {
+        on_all_cores(py, || tasks.into_par_iter().for_each(act))?;
+    }
     let rows = PyArray1::from_vec(py, rows).reshape([sets.len(), recordings.len(), MEASURES.len()])?;
     Ok((rows, errors))
 }

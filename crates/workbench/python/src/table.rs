@@ -1,6 +1,7 @@
 //! The table of variables.
 
 use moris_interface::{Causality, Group, Kind, Row, slots_of};
+use moris_setup::{RIGS, SETS};
 use moris_washout::interface::Inputs;
 use moris_washout::{Output, Parameters};
 use pyo3::IntoPyObjectExt;
@@ -25,6 +26,18 @@ type Variable<'py> = (
     Option<(f64, f64)>,
     Option<&'static str>,
 );
+
+/// The names of the parameter sets that are shipped; `parameters=` takes them.
+#[pyfunction]
+pub fn presets() -> Vec<&'static str> {
+    SETS.iter().map(|(name, _)| *name).collect()
+}
+
+/// The names of the rigs that are shipped, by stroke; `rig=` takes them.
+#[pyfunction]
+pub fn rigs() -> Vec<&'static str> {
+    RIGS.iter().map(|(name, _)| *name).collect()
+}
 
 /// Inputs, outputs and parameters, each a tuple.
 ///

@@ -2,7 +2,7 @@
 
 use moris_interface::{Group, Writer, guid, slot_count, slots_of};
 use moris_setup::{all, overlaid};
-use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
+use moris_washout::interface::{GravityRemoval, RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, MOST_INTERNAL_STEPS, Washout};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -16,12 +16,16 @@ use crate::setup::Given;
 use crate::variables::Variables;
 use crate::{error, setup};
 
+/// Medians of the specific force below this contain no gravity \[m/s2\]: a recording's, too.
+const NO_GRAVITY: f64 = 3.0;
+
 /// The washout filter on its platform: from the motion of a vehicle's rider to the
 /// motion of a platform.
 ///
 /// Frames: x forward, y left, z up. Roll, pitch and yaw are about x, y and z. All units are SI.
 ///
-/// - rig: path of a rig file, or a dict with its keys. None is the default rig.
+/// - rig: name of a shipped rig, path of a rig file, or a dict with its keys. None is the default
+///   rig.
 /// - parameters: name of a preset, path of a parameter file, dict of values by the names of the
 ///   FMU's variables, or a list of these. In a list, later ones override earlier ones.
 /// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". It sets the parameter
@@ -124,7 +128,8 @@ impl PyWashout {
     ///
     /// The first row is the output before the first step. A further call continues from there; its
     /// first sample is the last one of the previous call. Other Python threads can run meanwhile.
-    /// Raises RecordingError for arrays whose shapes do not match.
+    /// Raises RecordingError for arrays whose shapes do not match, and for a first call whose
+    /// specific force is that of free fall most of the time: gravity belongs to it.
     #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, preview=None, preview_step=None, inputs="slopes", nan="error"))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
@@ -149,6 +154,9 @@ impl PyWashout {
         let previews = preview.map(|array| Previews::of(array, Some(samples.len()), preview_step)).transpose()?;
         for k in 1..samples.len() {
             self.check_step(time.step(k - 1))?;
+        }
+        if !self.started {
+            self.check_gravity(py, &samples)?;
         }
         let rows = py.detach(|| {
             let mut rows = vec![0.0; samples.len() * COUNT];
@@ -248,6 +256,25 @@ impl PyWashout {
             *self.washout = self.washout.as_ref().clone().starting_with(input);
             self.started = true;
         }
+    }
+
+    /// Refuses the specific force of a vehicle in free fall, unless it is an acceleration by the
+    /// parameters.
+    fn check_gravity(&self, py: Python, samples: &[Input]) -> PyResult<()> {
+        if self.washout.parameters().conditioning.gravity_removal == GravityRemoval::None {
+            return Ok(());
+        }
+        let mut sizes: Vec<f64> = samples.iter().map(|sample| sample.specific_force.norm()).collect();
+        let middle = sizes.len() / 2;
+        let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+        if *median >= NO_GRAVITY {
+            return Ok(());
+        }
+        let reason = format!(
+            "specific_force is {median:.2} m/s2 most of the time, as in free fall: gravity has been taken out; add \
+             (0, 0, {STANDARD_GRAVITY}), or set gravityRemoval to \"none\""
+        );
+        Err(error::recording(py, reason))
     }
 
     fn check_step(&self, dt: f64) -> PyResult<()> {

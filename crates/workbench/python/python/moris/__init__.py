@@ -10,7 +10,7 @@ from ._fmu import build_fmu
 from ._judged import measure
 from ._measures import Measure, Measures
 from ._moris import VERSION as __version__
-from ._moris import Output, Washout
+from ._moris import Output, Washout, presets, rigs
 from ._outputs import Outputs
 from ._recording import Recording
 from ._response import FrequencyResponse, frequency_response
@@ -55,6 +55,8 @@ __all__ = [
     "frequency_response",
     "measure",
     "parameters",
+    "presets",
+    "rigs",
     "simulate",
     "survey",
     "sweep",

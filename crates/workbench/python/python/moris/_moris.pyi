@@ -24,6 +24,8 @@ __all__ = [
     "pack_fmu",
     "parameter_file",
     "parameter_values",
+    "presets",
+    "rigs",
     "survey",
     "sweep_chunk",
     "sweep_measures",
@@ -31,6 +33,10 @@ __all__ = [
 ]
 
 VERSION: str
+
+def presets() -> list[str]: ...
+def rigs() -> list[str]: ...
+
 FADE_IN: float
 
 @final
