@@ -11,8 +11,8 @@ use crate::{Error, FmuModel, Start};
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct StartOptions {
-    /// Rig file to embed, in the FMUs of models with a rig
-    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
+    /// Rig file, or shipped rig (hobby150, ...), to embed in the FMUs of models with a rig
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE|NAME"))]
     pub rig: Option<PathBuf>,
 
     /// Parameter file, or preset (motorcycle, car, ...), to embed in the washout's FMU; in another

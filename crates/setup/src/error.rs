@@ -7,6 +7,7 @@ use moris_interface::ParameterError;
 
 use crate::names::suggestion;
 use crate::parameter_sets::SETS;
+use crate::rigs::RIGS;
 
 /// Why a rig file, a parameter file or both together cannot be used, in words that say what to do.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +21,12 @@ pub enum Error {
         suggestion(nearest, &format!("shipped are {}", SETS.map(|(name, _)| name).join(", ")))
     )]
     NoSuchSet { name: String, nearest: Vec<String> },
+    /// Neither a file nor the name of a shipped rig.
+    #[error(
+        "{name} is neither a file nor a rig that is shipped{}",
+        suggestion(nearest, &format!("shipped are {}", RIGS.map(|(name, _)| name).join(", ")))
+    )]
+    NoSuchRig { name: String, nearest: Vec<String> },
     /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows
     /// the place.
     #[error("{source_name}: {}\n{remedy}", text.trim_end())]

@@ -18,10 +18,12 @@ mod names;
 pub mod parameter_file;
 mod parameter_sets;
 pub mod rig_file;
+mod rigs;
 mod setup;
 
 pub use error::Error;
 pub use named_values::{NamedValues, all, changed, differing, overlaid, values_of};
 pub use names::nearest;
 pub use parameter_sets::SETS;
+pub use rigs::RIGS;
 pub use setup::{Setup, load_rig, load_set, set_name};

@@ -9,7 +9,7 @@ use moris_washout::{Parameters, check, presets};
 use crate::named_values::overlaid;
 use crate::names::nearest;
 use crate::rig_file::RigFile;
-use crate::{Error, NamedValues, SETS, parameter_file, rig_file};
+use crate::{Error, NamedValues, RIGS, SETS, parameter_file, rig_file};
 
 /// A washout's parameters from files and sets, checked, and their names.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,12 +55,25 @@ impl Setup {
     }
 }
 
-/// Reads a rig file.
+/// The shipped rig of this name, or that of the rig file of this name.
 ///
 /// # Errors
-/// The file cannot be read, or [`rig_file::read`] rejects it.
+/// There is no such rig or file, or [`rig_file::read`] rejects the file.
 pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
-    rig_file::read(&text(file)?, &file.display().to_string())
+    let name = file.display().to_string();
+    if let Some((_, rig)) = RIGS.iter().find(|(known, _)| *known == name) {
+        return rig_file::read(rig, &name);
+    }
+    if is_no_file(file) {
+        let nearest = nearest(&name, RIGS.iter().map(|(known, _)| *known));
+        return Err(Error::NoSuchRig { name, nearest });
+    }
+    rig_file::read(&text(file)?, &name)
+}
+
+/// True for a name that can only be meant as that of something shipped.
+fn is_no_file(name: &Path) -> bool {
+    !name.exists() && name.extension().is_none()
 }
 
 /// The values of a shipped set of this name, or of the parameter file of this name, for a model
@@ -73,7 +86,7 @@ pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
         return Ok(presets::values(set).into_iter().map(|(variable, value)| (variable.to_owned(), value)).collect());
     }
     let file = Path::new(name);
-    if !file.exists() && file.extension().is_none() {
+    if is_no_file(file) {
         let nearest = nearest(name, SETS.iter().map(|(known, _)| *known));
         return Err(Error::NoSuchSet { name: name.to_owned(), nearest });
     }

@@ -11,8 +11,8 @@ use moris_washout::interface::{AutomaticScale, StrategyKind};
 /// Options for rig and parameters.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct SetupOptions {
-    /// Rig file [default: the default rig]
-    #[arg(long, value_name = "FILE")]
+    /// Rig file, or shipped rig (hobby150, ...) [default: the default rig]
+    #[arg(long, value_name = "FILE|NAME")]
     pub rig: Option<PathBuf>,
 
     /// Parameter file, or a preset: default, classical, motorcycle, car, paper, small-motions,

@@ -1,26 +1,23 @@
-//! The rigs of the bench, which are the rig files of `examples/rigs`.
+//! The rigs of the bench, which are the shipped ones.
 
-use moris_setup::{Error, Setup, rig_file};
+use moris_setup::{Error, Setup, load_rig};
 
 /// A rig of the bench.
 #[derive(Clone, Copy, Debug)]
 pub struct BenchRig {
     /// Name in tables, and of its file.
     pub name: &'static str,
-    text: &'static str,
-}
-
-/// The rigs of these files.
-macro_rules! rigs {
-    ($($name:literal)*) => {
-        [$( BenchRig { name: $name, text: include_str!(concat!("../../../../../examples/rigs/", $name, ".toml")) }, )*]
-    };
 }
 
 /// Every rig, by stroke.
-pub const RIGS: [BenchRig; 12] = rigs! {
-    "hobby100" "hobby150" "hobby200" "diy283" "compact" "dim330" "moog-like450" "narrow" "default" "flight091" "flight125"
-    "long-stroke"
+pub const RIGS: [BenchRig; 12] = {
+    let mut rigs = [BenchRig { name: "" }; 12];
+    let mut place = 0;
+    while place < rigs.len() {
+        rigs[place].name = moris_setup::RIGS[place].0;
+        place += 1;
+    }
+    rigs
 };
 
 impl BenchRig {
@@ -29,6 +26,6 @@ impl BenchRig {
     /// # Errors
     /// The rig file cannot be used.
     pub fn setup(&self) -> Result<Setup, Error> {
-        Ok(Setup::unchecked(Some(rig_file::read(self.text, self.name)?), &[]))
+        Ok(Setup::unchecked(Some(load_rig(self.name.as_ref())?), &[]))
     }
 }

@@ -57,8 +57,8 @@ pub struct Options {
     #[arg(long, value_enum, value_name = "VEHICLE")]
     vehicle: Option<Vehicle>,
 
-    /// Rig file [default: the default rig]
-    #[arg(long, value_name = "FILE")]
+    /// Rig file, or shipped rig (hobby150, ...) [default: the default rig]
+    #[arg(long, value_name = "FILE|NAME")]
     rig: Option<PathBuf>,
 
     /// Parameter file or preset over those of each strategy. May be given several times

@@ -32,8 +32,8 @@ pub struct Options {
     #[arg(required = true, value_name = "RECORDING")]
     pub recordings: Vec<PathBuf>,
 
-    /// Rig file [default: the default rig]
-    #[arg(long, value_name = "FILE")]
+    /// Rig file, or shipped rig (hobby150, ...) [default: the default rig]
+    #[arg(long, value_name = "FILE|NAME")]
     pub rig: Option<PathBuf>,
 
     /// Parameter file or preset, as for `moris simulate`. May be given several times: later ones
