@@ -132,7 +132,8 @@ impl Recording {
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = axes::inputs(&table, conventions)?;
         warnings.extend(mounting);
-        let channels = Channels::new(&table, &inputs, conventions);
+        let (checked, part) = table.complete();
+        let channels = Channels::new(&checked, &inputs[part.clone()], conventions, part.start);
         let stops = frozen::stops(&channels);
         checks::plausibility(&channels).map_err(|error| match stops.first() {
             // What a sensor shows after it has stopped is no unit or axis.

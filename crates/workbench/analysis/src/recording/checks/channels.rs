@@ -22,6 +22,8 @@ pub struct Channels<'a> {
     pub conventions: &'a Conventions,
     /// Time between samples \[s\].
     pub step: f64,
+    /// The recording's sample that is the first here.
+    pub first: usize,
     /// The speeds with the sign of the direction, which loggers leave out.
     pub speeds: Vec<f64>,
     /// A warning where the vehicle reverses without a sign.
@@ -29,11 +31,18 @@ pub struct Channels<'a> {
 }
 
 impl<'a> Channels<'a> {
-    pub fn new(table: &'a Table, inputs: &'a [Input], conventions: &'a Conventions) -> Self {
+    /// The channels of a part of a recording that begins with its sample `first_sample`.
+    pub fn new(table: &'a Table, inputs: &'a [Input], conventions: &'a Conventions, first_sample: usize) -> Self {
         let speeds = inputs.iter().map(|input| input.speed).collect();
-        let mut channels = Channels { table, inputs, conventions, step: table.step(), speeds, reversing: None };
+        let (step, first) = (table.step(), first_sample);
+        let mut channels = Channels { table, inputs, conventions, step, first, speeds, reversing: None };
         channels.sign_speeds();
         channels
+    }
+
+    /// Time of a sample in the recording \[s\].
+    pub fn time(&self, sample: usize) -> f64 {
+        (self.first + sample) as f64 * self.step
     }
 
     /// Gives the speeds the sign of the direction.
@@ -58,7 +67,7 @@ impl<'a> Channels<'a> {
         let goes_forward = drives.iter().any(|(direction, _)| *direction > 0.0);
         let mut times = Vec::new();
         for (_, drive) in drives.into_iter().filter(|(direction, _)| goes_forward && *direction < 0.0) {
-            times.push(format!("{:.1} s to {:.1} s", drive.start as f64 * self.step, drive.end as f64 * self.step));
+            times.push(format!("{:.1} s to {:.1} s", self.time(drive.start), self.time(drive.end)));
             self.speeds[drive].iter_mut().for_each(|speed| *speed = -*speed);
         }
         if !times.is_empty() {

@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use moris_interface::shown;
+use moris_washout::Input;
+use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::Channels;
 use super::channels::{LEAST_CHANGE, LEAST_SWAY};
 use crate::message::{Message, given, message};
 use crate::recording::conventions::{Conventions, Quantity};
-use crate::recording::signal::{is_constant, median, root_mean_square, runs, smooth, sorted};
+use crate::recording::signal::{integral, is_constant, median, root_mean_square, runs, smooth, sorted};
 use crate::recording::table::Table;
 
 /// Time from which a value that stays is looked at \[s\].
@@ -38,10 +40,11 @@ pub fn stops(channels: &Channels) -> Vec<String> {
     }
     let Channels { table, inputs, speeds, step, .. } = channels;
     let of_force = |part: &Range<usize>| {
-        let speeds = channels.changes(&speeds[part.clone()]);
-        let window = (part.len() - speeds.len()) as f64 * step;
-        let force = inputs[part.start].specific_force.x;
-        let left: Vec<f64> = speeds.iter().map(|change| change - force * window).collect();
+        // On a slope the force holds the vehicle without a change of its speed.
+        let along = |input: &Input| input.specific_force.x + STANDARD_GRAVITY * input.orientation.pitch.sin();
+        let driven = integral(inputs[part.clone()].iter().map(along), *step);
+        let changes = channels.changes(&speeds[part.clone()]).into_iter().zip(channels.changes(&driven));
+        let left: Vec<f64> = changes.map(|(change, driven)| change - driven).collect();
         root_mean_square(&left) >= LEAST_CHANGE
     };
     let of_rate = |part: &Range<usize>| {
@@ -55,7 +58,7 @@ pub fn stops(channels: &Channels) -> Vec<String> {
         // One that stays throughout is not measured at all.
         let stays = |run: &Range<usize>| run.len() > least && (run.len() as f64) < MOST * values.len() as f64;
         let stop = runs(values, |a, b| a == b).filter(stays).find(contradicts)?;
-        let [from, to] = [stop.start, stop.end].map(|sample| sample as f64 * step);
+        let [from, to] = [stop.start, stop.end].map(|sample| channels.time(sample));
         Some(format!(
             "Column {} stays at one value from {from:.1} s to {to:.1} s, while {fact}: the sensor has stopped. Cut this \
              part off.",

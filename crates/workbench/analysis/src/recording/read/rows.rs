@@ -26,13 +26,16 @@ pub struct Samples {
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
     pub warnings: Vec<Message>,
+    /// First and last time at which all columns have values of their own; none without gaps at the
+    /// ends.
+    pub complete: Option<(f64, f64)>,
 }
 
 impl Samples {
     /// No samples of columns yet.
     fn new(places: &[usize]) -> Self {
         let columns = places.iter().map(|&place| (place, Vec::new())).collect();
-        Samples { time: Vec::new(), columns, lines: Vec::new(), warnings: Vec::new() }
+        Samples { time: Vec::new(), columns, lines: Vec::new(), warnings: Vec::new(), complete: None }
     }
 
     /// Adds a sample, with a value for each column.

@@ -114,6 +114,6 @@ fn samples(
         };
         samples.warnings.extend(clock.into_seconds());
     }
-    gaps::fill(&mut samples, sheet, layout)?;
+    gaps::fill(&mut samples, sheet, layout, conventions)?;
     Ok(samples)
 }

@@ -2,28 +2,49 @@
 
 use super::interpolation::between;
 use super::times::LONGEST_GAP;
+use crate::message::Message;
 use crate::recording::columns::{Column, period};
+use crate::recording::conventions::Conventions;
 use crate::recording::message::RecordingError;
 use crate::recording::read::{Samples, Sheet};
 
 /// Interpolates missing values, and cuts off samples before the first or after the last value of a
-/// column. Warns about long gaps.
+/// column that the recording needs. Other columns hold their first and last values. Warns about
+/// these and about long gaps.
 ///
 /// # Errors
-/// A column has no values, or at no time do all columns have values.
-pub fn fill(samples: &mut Samples, sheet: &Sheet, layout: &[Column]) -> Result<(), RecordingError> {
+/// A column has no values, or at no time do all columns that the recording needs have values.
+pub fn fill(
+    samples: &mut Samples,
+    sheet: &Sheet,
+    layout: &[Column],
+    conventions: &Conventions,
+) -> Result<(), RecordingError> {
     if samples.columns.iter().flat_map(|(_, values)| values).all(|value| !value.is_nan()) {
         return Ok(());
     }
     let time = &samples.time;
+    let is_needed = |place: usize| {
+        let mut holds = layout.iter().filter(|column| column.terms.iter().any(|term| term.place == place));
+        holds.any(|column| conventions.needs(column.quantity))
+    };
     let (mut first, mut last) = (0, time.len() - 1);
+    let mut complete = (0, last);
     for (place, values) in &mut samples.columns {
         let name = sheet.header.shown(*place);
         let known: Vec<usize> = (0..values.len()).filter(|&sample| !values[sample].is_nan()).collect();
         let (Some(&begin), Some(&end)) = (known.first(), known.last()) else {
             return Err(sheet.refused(format!("column {name} is empty")));
         };
-        (first, last) = (first.max(begin), last.min(end));
+        complete = (complete.0.max(begin), complete.1.min(end));
+        if is_needed(*place) {
+            (first, last) = (first.max(begin), last.min(end));
+        } else {
+            samples.warnings.extend(held(&name, time, begin, end).map(Message::from));
+            let (at_begin, at_end) = (values[begin], values[end]);
+            values[..begin].fill(at_begin);
+            values[end + 1..].fill(at_end);
+        }
         for pair in known.windows(2) {
             let (a, b) = (pair[0], pair[1]);
             let span = time[b] - time[a];
@@ -45,6 +66,23 @@ pub fn fill(samples: &mut Samples, sheet: &Sheet, layout: &[Column]) -> Result<(
     if last <= first {
         return Err(sheet.refused("has no time at which all columns have values"));
     }
+    if complete != (first, last) {
+        samples.complete = Some((time[complete.0], time[complete.1]));
+    }
     samples.keep(first..last + 1);
     Ok(())
+}
+
+/// A warning about a column without values at the recording's beginning or end.
+fn held(name: &str, time: &[f64], begin: usize, end: usize) -> Option<String> {
+    let at = |sample: usize| format!("{:.2} s", time[sample] - time[0]);
+    let empty = match (begin > 0, end + 1 < time.len()) {
+        (false, false) => return None,
+        (true, false) => format!("begins at {}; before, its first value is used", at(begin)),
+        (false, true) => format!("ends at {}; after that, its last value is used", at(end)),
+        (true, true) => {
+            format!("begins at {} and ends at {}; its first and last values are used beyond", at(begin), at(end))
+        }
+    };
+    Some(format!("Column {name} {empty}."))
 }

@@ -87,8 +87,13 @@ pub fn by_time(
     if time.len() < 2 {
         return Err(RecordingError::whole(name, "the files have fewer than two samples in common"));
     }
-    let mut joined = Samples { time, columns: Vec::new(), lines, warnings: Vec::new() };
+    let complete = (begin > from || end < to).then_some((begin, end));
+    let mut joined = Samples { time, columns: Vec::new(), lines, warnings: Vec::new(), complete };
     for part in &parts {
+        if let Some((begin, end)) = part.samples.complete {
+            let (from, to) = joined.complete.unwrap_or((begin, end));
+            joined.complete = Some((begin.max(from), end.min(to)));
+        }
         let places = places(&part.samples.time, &joined.time);
         let columns = part.samples.columns.iter();
         let columns = columns.map(|(place, column)| (*place, values(&places, column, period(layout, *place))));

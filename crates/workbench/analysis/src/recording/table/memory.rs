@@ -55,6 +55,7 @@ pub fn of_columns(
         lines: (1..=time.len() as u64).collect(),
         time,
         warnings: Vec::new(),
+        complete: None,
     };
     Table::new(file, layout, samples, conventions)
 }

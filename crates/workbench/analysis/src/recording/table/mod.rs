@@ -18,7 +18,9 @@ mod placeholders;
 pub mod sampling;
 mod times;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -51,7 +53,13 @@ pub struct Table {
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
     pub warnings: Vec<Message>,
+    /// First and last time at which all columns have values of their own \[s\]; none where they
+    /// always do.
+    complete: Option<(f64, f64)>,
 }
+
+/// Least number of samples that checks look at.
+const LEAST_CHECKED: usize = 100;
 
 impl Table {
     /// A table of the sums that the layout describes, of samples with the time in seconds. What the
@@ -62,7 +70,7 @@ impl Table {
         samples: Samples,
         conventions: &Conventions,
     ) -> Result<Self, RecordingError> {
-        let Samples { time, columns, lines, warnings } = samples;
+        let Samples { time, columns, lines, warnings, complete } = samples;
         let values: BTreeMap<usize, Vec<f64>> = columns.into_iter().collect();
         let sum = |column: &Column| -> Vec<f64> {
             let at = |sample: usize| column.terms.iter().map(|t| t.factor * values[&t.place][sample]).sum::<f64>();
@@ -70,8 +78,9 @@ impl Table {
         };
         let measured = layout.iter().filter(|column| column.quantity != Quantity::Time);
         let columns = measured.map(|column| (column.quantity, sum(column))).collect();
-        let mut table = Table { file, time, columns, layout, lines, warnings };
+        let mut table = Table { file, time, columns, layout, lines, warnings, complete };
         table.rest(conventions);
+        table.centre_angles();
         table.orient()?;
         Ok(table)
     }
@@ -115,6 +124,32 @@ impl Table {
         let (roll, (pitch, yaw)): (Vec<_>, (Vec<_>, Vec<_>)) = angles.map(|(r, p, y)| (r, (p, y))).unzip();
         self.columns.extend(Quantity::ANGLES.into_iter().zip([roll, pitch, yaw]));
         Ok(())
+    }
+
+    /// Brings roll, pitch and lean of 0 to 360 degrees to -180 to 180: the same angles. Such
+    /// columns jump by a turn.
+    fn centre_angles(&mut self) {
+        for quantity in [Quantity::Angle(0), Quantity::Angle(1), Quantity::Lean] {
+            let Some(angles) = self.columns.get_mut(&quantity) else { continue };
+            let is_of_one_turn = angles.iter().all(|angle| (0.0..=TAU).contains(angle));
+            if is_of_one_turn && angles.windows(2).any(|pair| (pair[1] - pair[0]).abs() > PI) {
+                angles.iter_mut().filter(|angle| **angle > PI).for_each(|angle| *angle -= TAU);
+            }
+        }
+    }
+
+    /// The part in which all columns have values of their own, and the samples that it is of. The
+    /// whole table where there are few of them.
+    pub fn complete(&self) -> (Cow<'_, Table>, Range<usize>) {
+        let whole = 0..self.time.len();
+        let Some((from, to)) = self.complete else { return (Cow::Borrowed(self), whole) };
+        let range = self.time.partition_point(|time| *time < from)..self.time.partition_point(|time| *time <= to);
+        if range.len() < LEAST_CHECKED {
+            return (Cow::Borrowed(self), whole);
+        }
+        let mut part = self.clone();
+        part.keep(range.clone());
+        (Cow::Owned(part), range)
     }
 
     /// Mean time between samples \[s\].
