@@ -76,7 +76,7 @@ impl Evaluated<'_> {
                     }
                 ),
             ),
-            _ => (Weight::Good, format!("Nothing is wrong; surge and sway are hardly asked for.{soft}")),
+            _ => (Weight::Note, format!("Surge and sway are hardly asked for: there is little to judge.{soft}")),
         }
     }
 }

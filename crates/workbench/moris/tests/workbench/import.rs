@@ -302,12 +302,18 @@ fn standard_input_is_read() {
 
 #[test]
 fn files_that_are_no_csv_are_recognised_and_never_printed() {
-    let files: [(&str, Vec<u8>, &str); 12] = [
+    let files: [(&str, Vec<u8>, &str); 18] = [
         (
             "a.xlsx",
             b"PK\x03\x04\x14\0\x06\0\x08\0[Content_Types].xml\x1b[31m".to_vec(),
             "Excel workbook; save the sheet as CSV",
         ),
+        ("b.xlsx", b"PK\x03\x04\x14\0\0\0\x08\0docProps/app.xml".to_vec(), "Excel workbook"),
+        ("a.ods", b"PK\x03\x04mimetypeapplication/vnd.oasis.opendocument.spreadsheet".to_vec(), "OpenDocument"),
+        ("a.npz", b"PK\x03\x04\x14\0\0\0\x08\0time.npy\x93NUMPY".to_vec(), "NumPy archive (npz)"),
+        ("a.npy", b"\x93NUMPY\x01\0v\0{'descr': '<f8'".to_vec(), "NumPy array"),
+        ("a.bag", b"#ROSBAG V2.0\nE\0\0\0".to_vec(), "ROS bag"),
+        ("a.ulg", b"ULog\x01\x12\x35\x01\0\0".to_vec(), "ULog of PX4; convert it to CSV with ulog2csv"),
         ("a.zip", b"PK\x03\x04\x14\0\0\0\x08\0Accelerometer.csv".to_vec(), "zip archive; unpack it"),
         ("a.xls", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1".to_vec(), "old Excel workbook"),
         ("a.parquet", b"PAR1\x15\x04\x15\x10".to_vec(), "Parquet file"),

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use moris::recording::conventions::{Axes, Format, Missing, Mounting};
+use moris::recording::conventions::{AngleUnit, Axes, EmptyFields, Format, Gravity, Missing, Mounting};
 use moris::recording::{ConventionOptions, Recording};
 use moris::words;
 use moris_washout::Input;
@@ -97,6 +97,91 @@ fn vbo(has_unit: bool, time: &dyn Fn(usize) -> String) -> String {
         text += "\r\n";
     }
     text
+}
+
+/// A speed by satellite begins with the first fix. What a recording needs bounds
+/// it, and nothing else.
+#[test]
+fn an_optional_column_that_begins_late_leaves_the_ride_as_long_as_it_is() {
+    let options = ConventionOptions { empty_fields: Some(EmptyFields::Interpolate), ..ConventionOptions::default() };
+    let ride = |force: std::ops::Range<usize>, speed: std::ops::Range<usize>| {
+        let mut text = format!("{HEADER},speed\n");
+        for k in 0..=1000 {
+            let [surge, sway, yaw_rate, v] = car(0.01 * k as f64);
+            let surge = if force.contains(&k) { surge.to_string() } else { String::new() };
+            let v = if speed.contains(&k) { v.to_string() } else { String::new() };
+            writeln!(text, "{},{surge},{sway},{GRAVITY},0,0,{yaw_rate},{v}", plain(k)).unwrap();
+        }
+        read(&text, &options).unwrap()
+    };
+    let late = ride(0..2000, 400..801);
+    assert_is_the_car(&late, 1e-9);
+    let speeds = [0, 300, 600, 1000].map(|k| late.inputs()[k].speed);
+    assert_eq!(speeds, [4.0, 4.0, 6.0, 8.0].map(|time| car(time)[3]));
+    let said = words::warnings(&late);
+    let held = "Column speed begins at 4.00 s and ends at 8.00 s; its first and last values are used beyond.";
+    let of_speed = |said: &[String]| said.iter().filter(|line| line.contains("peed")).cloned().collect::<Vec<_>>();
+    assert_eq!(of_speed(&said), [held], "and the channels agree where all are measured");
+    assert_eq!(of_speed(&words::warnings(&ride(0..2000, 0..2000))), [""; 0]);
+    let bounded = ride(100..1001, 0..2000);
+    assert!((bounded.manoeuvre.duration() - 9.0).abs() < 1e-9 && (bounded.start - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn angles_of_a_whole_turn_are_those_about_zero() {
+    let roll = |t: f64| 0.06 * (TAU * 0.1 * t).sin();
+    let text: String = format!("{HEADER},roll,pitch,yaw\n")
+        + &(0..=1000).fold(String::new(), |text, k| {
+            let t = 0.01 * f64::from(k);
+            let (force, rate) = (GRAVITY * roll(t).sin(), 0.06 * TAU * 0.1 * (TAU * 0.1 * t).cos());
+            let degrees = roll(t).to_degrees().rem_euclid(360.0);
+            text + &format!("{t:.2},0,{force},{},{rate},0,0,{degrees},0,0\n", GRAVITY * roll(t).cos())
+        });
+    let options = ConventionOptions { angle_unit: Some(AngleUnit::Degree), ..ConventionOptions::default() };
+    let recording = read(&text, &options).unwrap();
+    for (time, input) in recording.times().zip(recording.inputs()).skip(100) {
+        assert!((input.orientation.roll - roll(time)).abs() < 1e-9, "{time}: {}", input.orientation.roll);
+    }
+}
+
+/// Computed: the force along x is exactly 0 for seconds, and the speed stays, on
+/// a slope that changes.
+#[test]
+fn a_computed_cruise_on_a_slope_is_no_sensor_that_has_stopped() {
+    let mut text = format!("{HEADER},roll,pitch,yaw,speed\n");
+    for k in 0..=2000 {
+        let t = 0.01 * f64::from(k);
+        let speed = 2.0 * t.min(5.0);
+        let (pitch, rate) = (0.08 * (TAU * 0.06 * t).sin(), 0.08 * TAU * 0.06 * (TAU * 0.06 * t).cos());
+        let force = if t < 5.0 { 2.0 } else { 0.0 };
+        writeln!(text, "{t:.2},{force},0,0,0,{rate},0,0,{pitch},0,{speed}").unwrap();
+    }
+    let options = ConventionOptions { gravity: Some(Gravity::Removed), ..ConventionOptions::default() };
+    let warnings = words::warnings(&read(&text, &options).unwrap()).join(" ");
+    assert!(!warnings.contains("has stopped"), "{warnings}");
+    // A force that stays although the vehicle brakes is another matter.
+    let braking: String = text
+        .lines()
+        .map(|line| match line.rsplit_once(',') {
+            Some((rest, speed)) if line.starts_with("15.") || line.starts_with("16.") => {
+                let time: f64 = line.split(',').next().unwrap().parse().unwrap();
+                format!("{rest},{}\n", speed.parse::<f64>().unwrap() - 2.0 * (time - 15.0))
+            }
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    let said = read(&braking, &options).map_or_else(|error| error, |recording| words::warnings(&recording).join(" "));
+    assert!(said.contains("has stopped") || said.contains("stays at one value"), "{said}");
+}
+
+#[test]
+fn lines_that_are_a_few_places_apart_are_to_be_sorted() {
+    let text = drive(10, &plain);
+    let mut lines: Vec<&str> = text.lines().collect();
+    lines.swap(101, 104);
+    lines.swap(301, 303);
+    let message = read(&(lines.join("\n") + "\n"), &ConventionOptions::default()).unwrap_err();
+    assert!(message.contains("time goes back") && message.contains("sort_values"), "{message}");
 }
 
 #[test]

@@ -9,6 +9,9 @@ use crate::recording::signal::median;
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const LONGEST_GAP: f64 = 0.2;
 
+/// Number of lines by which samples in nearly the right order may be misplaced.
+const MOST_MISPLACED: usize = 8;
+
 /// Spreads samples of equal times, as clocks with few digits write them, evenly up to the next
 /// time. Returns a warning if there are any.
 pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
@@ -36,11 +39,23 @@ pub fn disorder(time: &[f64]) -> Option<(usize, Message)> {
     let remedy = if time.windows(2).all(|pair| pair[1] <= pair[0]) && after < before {
         "; the last line comes first: sort the lines, in Python: pandas.read_csv(FILE)[::-1].to_csv(\"ride.csv\", index=False)"
             .into()
+    } else if after < before && is_nearly_sorted(time) {
+        "; lines that are a few places apart are exchanged: sort them, in Python: \
+         pandas.read_csv(FILE).sort_values(TIME).to_csv(\"ride.csv\", index=False)"
+            .into()
     } else {
         remedy_for_equal_times(time, wrong)
     };
     let (before, after) = (shown(before), shown(after));
     Some((wrong, message!["time {fault}: {after} s comes after {before} s", remedy]))
+}
+
+/// True for different times of which each is a few places from where it belongs.
+fn is_nearly_sorted(time: &[f64]) -> bool {
+    let mut sorted = time.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let is_near = |k: usize| time[k] >= time[k - MOST_MISPLACED];
+    sorted.windows(2).all(|pair| pair[0] < pair[1]) && (MOST_MISPLACED..time.len()).all(is_near)
 }
 
 /// The remedy where a sample has the time of the one before.
