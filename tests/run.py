@@ -137,7 +137,7 @@ def fmu(options):
     run("cargo", "build-fmu", "--fmi", "2,3")
     # All libraries are compiled by now.
     packed = [("build-fmu", "--fmi", "3", "--arrays"), ("build-fmu", "--reals-only")]
-    packed += [("build-fmu", "--terminals", "--output", "target/fmu/terminals")]
+    packed += [("build-fmu", "--terminals", "--output", TARGET / "fmu" / "terminals")]
     packed += [("build-ssp", "--system", system, *form) for system in ("MotorcycleSimulator", "MotorcycleLap") for form in ([], ["--flat"])]
     with ThreadPoolExecutor(usable_cores()) as pool:
         for _ in pool.map(lambda command: run("cargo", *command, at_once=True), packed):

@@ -8,7 +8,7 @@ import time as clock
 import moris
 import numpy as np
 import pytest
-from conftest import STANDARD_GRAVITY, gentle
+from conftest import ROOT, STANDARD_GRAVITY, gentle
 from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
 
@@ -421,3 +421,24 @@ def test_the_variables_are_those_of_the_fmu(fmu):
     for name, row in rows.items():
         assert row.causality == described[name].causality, name
         assert row.unit == (described[name].unit or ""), name
+
+
+def test_what_is_shipped_goes_by_name():
+    assert {"default", "classical", "motorcycle", "paper"} <= set(moris.presets())
+    assert {"default", "hobby150", "narrow"} <= set(moris.rigs())
+    for name in moris.rigs():
+        file = ROOT / "examples" / "rigs" / f"{name}.toml"
+        assert moris.parameters(rig=name) == moris.parameters(rig=file), name
+    for name in moris.presets():
+        moris.Washout(parameters=name)
+    with pytest.raises(moris.ParameterError, match="hoby150 is neither a file nor a rig .* hobby150"):
+        moris.Washout(rig="hoby150")
+
+
+def test_a_run_refuses_free_fall_as_a_simulation_does(ride):
+    force = np.column_stack([ride["ax"], ride["ay"], ride["az"] - STANDARD_GRAVITY])
+    with pytest.raises(moris.RecordingError, match="as in free fall.*gravityRemoval"):
+        moris.Washout().run(ride["time"], force)
+    without = moris.Washout(parameters={"gravityRemoval": "none"}).run(ride["time"], force)
+    with_gravity = moris.Washout(parameters={"gravityRemoval": "head_vertical"}).run(ride["time"], force + [0, 0, STANDARD_GRAVITY])
+    assert np.allclose(without["platform.position"], with_gravity["platform.position"], rtol=0, atol=1e-12)

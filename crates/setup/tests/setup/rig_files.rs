@@ -50,6 +50,22 @@ fn every_example_is_a_rig_that_a_washout_runs_on() {
 }
 
 #[test]
+fn every_example_is_shipped_under_its_name() {
+    let files = std::fs::read_dir(example("default.toml").parent().unwrap()).unwrap();
+    let stems = files.map(|file| file.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned());
+    let (mut files, mut shipped): (Vec<String>, Vec<String>) =
+        (stems.collect(), moris_setup::RIGS.iter().map(|(name, _)| (*name).to_owned()).collect());
+    files.sort();
+    shipped.sort();
+    assert_eq!(files, shipped);
+    for name in shipped {
+        assert_eq!(load_rig(name.as_ref()).unwrap(), load_rig(&example(&format!("{name}.toml"))).unwrap());
+    }
+    let error = load_rig("hoby150".as_ref()).unwrap_err().to_string();
+    assert!(error.contains("hoby150 is neither a file nor a rig that is shipped; did you mean hobby150"), "{error}");
+}
+
+#[test]
 fn the_safety_units_follow_from_the_rig_where_the_file_does_not_say() {
     let text = default_text();
     let without = &text[..text.find("[safety]").unwrap()];

@@ -1,7 +1,7 @@
 //! Computations on all cores: a pool of threads for each process.
 //!
-//! A fork copies memory and no threads. The child would wait for ever for the threads of a pool that
-//! its parent has made, as rayon's own is. So each process makes its own.
+//! A fork copies memory and no threads. The child would wait for ever for the threads of a pool
+//! that its parent has made, as rayon's own is. So each process makes its own.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
