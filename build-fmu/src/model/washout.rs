@@ -13,7 +13,7 @@ pub const WASHOUT: FmuModel = FmuModel {
     name: "MorisWashout",
     packages: ["moris-washout-fmi2", "moris-washout-fmi3"],
     libraries: ["MorisWashout", "MorisWashout_fmi3"],
-    title: "MORIS washout: motion cueing for a motorcycle simulator",
+    title: "MORIS washout: motion cueing on a Stewart platform",
     functions: ModelFns::from::<Washout>(),
     derived_start_values: |_| NamedValues::new(),
     sections: &[
