@@ -3,6 +3,6 @@
 
 /// A recording does not fit the rig.
 pub const DOES_NOT_FIT: u8 = 3;
-/// A result is worse than it should be: tuned parameters than those before, or a measure than its
-/// target.
+/// A result is worse than it should be: tuned parameters than those before, a measure than its
+/// target, or a response than its bounds.
 pub const WORSE: u8 = 4;

@@ -35,6 +35,7 @@ pub fn frequency_response<'py>(
     force: f64,
     rate: f64,
     gravity_turns: bool,
+    platform: bool,
 ) -> PyResult<FrequencyResponse<'py>> {
     let setup = setup::load(py, rig, parameters, strategy)?;
     for (name, value) in [("force", force), ("rate", rate)] {
@@ -44,7 +45,7 @@ pub fn frequency_response<'py>(
     }
     let default = Amplitudes::default();
     let amplitudes = Amplitudes { force, ..default.scaled(rate / default.rate) };
-    let measured = on_all_cores(py, || Measured::of(&setup.parameters, amplitudes, gravity_turns, || ()))?;
+    let measured = on_all_cores(py, || Measured::of(&setup.parameters, amplitudes, gravity_turns, platform, || ()))?;
     let measured = measured.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
     let names = Channel::ALL.iter().map(|&channel| name(channel)).collect();
     let frequencies = PyArray1::from_slice(py, &frequencies());

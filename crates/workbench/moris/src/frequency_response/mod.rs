@@ -13,13 +13,16 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 pub use moris_analysis::frequency_response::Measured;
+use moris_analysis::frequency_response::limits::Limit;
 use moris_simulation::frequency_response::channel::{CROSS, direct};
 use moris_simulation::frequency_response::excitation::Amplitudes;
 
 use crate::setup_options::SetupOptions;
+use crate::status::WORSE;
+use crate::words::option;
 
 /// Measure the frequency response of the whole washout
 ///
@@ -48,6 +51,22 @@ pub struct Options {
     #[arg(long)]
     gravity_turns: bool,
 
+    /// Move the nominal platform with its drives by the commands, in place of one that
+    /// moves exactly as commanded
+    #[arg(long, conflicts_with = "measured")]
+    platform: bool,
+
+    /// Recordings of the test on a real machine, one for each channel and frequency, in place of a
+    /// simulation. The columns rider.specificForce.x to .z and rider.angularVelocity.x to .z hold
+    /// what was measured at the head
+    #[arg(long, value_name = "FILES", num_args = 1.., value_delimiter = ',')]
+    measured: Vec<PathBuf>,
+
+    /// CSV file of bounds of one's own: channel, frequency, modulus_low, modulus_high, phase_low,
+    /// phase_high. The verdict is printed, and the exit status is 4 where a bound is not held
+    #[arg(long, value_name = "FILE.csv")]
+    bounds: Option<PathBuf>,
+
     /// Directory for the table (response.csv) and the pictures (direct.svg, cross.svg)
     #[arg(long, value_name = "DIRECTORY", default_value = "response")]
     report: PathBuf,
@@ -63,21 +82,37 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     for (name, value) in [("--force", options.force), ("--rate", options.rate)] {
         ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");
     }
+    // Before anything is measured.
+    let limits = options.bounds.as_deref().map(Limit::read).transpose().map_err(Error::msg)?.unwrap_or_default();
     let amplitudes = Amplitudes { force: options.force, ..Amplitudes::default().scaled(options.rate) };
-    let bar = ProgressBar::new(Measured::TESTS);
-    bar.set_style(ProgressStyle::with_template("frequency response {wide_bar} {pos} of {len} tests")?);
-    let measured = Measured::of(&setup.parameters, amplitudes, options.gravity_turns, || bar.inc(1))?;
-    bar.finish_and_clear();
-
-    writeln!(out, "Frequency response, felt over desired: {}, parameters: {}", setup.rig_name, setup.parameters_name)?;
+    let measured = if options.measured.is_empty() {
+        let bar = ProgressBar::new(Measured::TESTS);
+        bar.set_style(ProgressStyle::with_template("frequency response {wide_bar} {pos} of {len} tests")?);
+        let measured =
+            Measured::of(&setup.parameters, amplitudes, options.gravity_turns, options.platform, || bar.inc(1))?;
+        bar.finish_and_clear();
+        let on = if options.platform { ", on the platform with its drives" } else { "" };
+        let (rig, parameters) = (&setup.rig_name, &setup.parameters_name);
+        writeln!(out, "Frequency response, felt over desired{on}: {rig}, parameters: {parameters}")?;
+        measured
+    } else {
+        let measured = Measured::recorded(&options.measured).map_err(|reason| Error::msg(reason.worded(option)))?;
+        writeln!(out, "Frequency response, felt over desired, of {} recordings", measured.test.len())?;
+        measured
+    };
     write!(out, "{}", table::text(&measured))?;
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let file = |name: &str| options.report.join(name);
     table::write(&file("response.csv"), &measured)?;
-    picture::draw(&file("direct.svg"), &measured, &direct(), 3)?;
-    picture::draw(&file("cross.svg"), &measured, &CROSS, 2)?;
+    picture::draw(&file("direct.svg"), &measured, &limits, &direct(), 3)?;
+    picture::draw(&file("cross.svg"), &measured, &limits, &CROSS, 2)?;
     for name in ["response.csv", "direct.svg", "cross.svg"] {
         writeln!(out, "wrote {}", file(name).display())?;
     }
-    Ok(ExitCode::SUCCESS)
+    if limits.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let (are_held, verdicts) = table::verdicts(&limits, &measured);
+    write!(out, "{verdicts}")?;
+    Ok(if are_held { ExitCode::SUCCESS } else { ExitCode::from(WORSE) })
 }

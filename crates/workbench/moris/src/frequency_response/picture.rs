@@ -6,6 +6,7 @@ use anyhow::Result;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use moris_analysis::frequency_response::limits::Limit;
 use moris_simulation::capitalised;
 use moris_simulation::frequency_response::Response;
 use moris_simulation::frequency_response::channel::{Channel, name, ratio_unit};
@@ -24,6 +25,7 @@ const TEXT: RGBColor = RGBColor(40, 46, 56);
 const GRID: RGBColor = RGBColor(226, 229, 233);
 const TEST: RGBColor = RGBColor(0, 114, 178);
 const SMALL: RGBColor = RGBColor(213, 94, 0);
+const LIMIT: RGBColor = RGBColor(208, 222, 205);
 const LIMITED: RGBColor = RGBColor(255, 255, 255);
 
 /// The frequencies shown \[rad/s\].
@@ -31,11 +33,18 @@ const FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
 /// Least modulus drawn. A smaller one is not felt, and its phase has no meaning.
 const LEAST: f64 = 1e-3;
 
-/// Draws the felt motion on the outputs of these pairs of channels, side by side in columns.
+/// Draws the felt motion on the outputs of these pairs of channels, side by side in columns, with
+/// bounds as bars behind it.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn draw(file: &Path, measured: &Measured, pairs: &[(Channel, Channel)], columns: usize) -> Result<()> {
+pub fn draw(
+    file: &Path,
+    measured: &Measured,
+    limits: &[Limit],
+    pairs: &[(Channel, Channel)],
+    columns: usize,
+) -> Result<()> {
     let rows = pairs.len().div_ceil(columns);
     let size = (SIZE.0 * columns as u32, SIZE.1 * rows as u32 + HEAD);
     let root = SVGBackend::new(file, size).into_drawing_area();
@@ -43,7 +52,7 @@ pub fn draw(file: &Path, measured: &Measured, pairs: &[(Channel, Channel)], colu
     let (head, body) = root.split_vertically(HEAD);
     draw_key(&head)?;
     for (area, &pair) in body.split_evenly((rows, columns)).iter().zip(pairs) {
-        draw_pair(area, measured, pair)?;
+        draw_pair(area, measured, limits, pair)?;
     }
     root.present()?;
     Ok(())
@@ -69,7 +78,8 @@ fn draw_key(area: &Area) -> Result<()> {
     Ok(())
 }
 
-fn draw_pair(area: &Area, measured: &Measured, (input, output): (Channel, Channel)) -> Result<()> {
+fn draw_pair(area: &Area, measured: &Measured, limits: &[Limit], (input, output): (Channel, Channel)) -> Result<()> {
+    let limits: Vec<&Limit> = limits.iter().filter(|limit| limit.input == input && limit.output == output).collect();
     let of = |responses: &[Response]| -> Vec<Response> {
         responses.iter().filter(|response| response.input == input).cloned().collect()
     };
@@ -81,12 +91,20 @@ fn draw_pair(area: &Area, measured: &Measured, (input, output): (Channel, Channe
     let unit = ratio_unit(input, output);
     let title = if unit.is_empty() { title } else { format!("{title}, {unit}") };
     let (above, below) = area.split_vertically(MODULUS_HEIGHT);
-    draw_modulus(&above, &title, &test, &small, output)?;
-    draw_phase(&below, &test, &small, output)
+    draw_modulus(&above, &title, [&test, &small], &limits, output)?;
+    draw_phase(&below, [&test, &small], &limits, output)
 }
 
-fn draw_modulus(area: &Area, title: &str, test: &[Response], small: &[Response], output: Channel) -> Result<()> {
-    let values = || test.iter().chain(small).map(|response| modulus(response, output).max(LEAST));
+fn draw_modulus(
+    area: &Area,
+    title: &str,
+    [test, small]: [&[Response]; 2],
+    limits: &[&Limit],
+    output: Channel,
+) -> Result<()> {
+    let bounds = || limits.iter().flat_map(|limit| limit.modulus).flatten();
+    let measured = || test.iter().chain(small).map(|response| modulus(response, output));
+    let values = || measured().chain(bounds()).map(|value| value.max(LEAST));
     let low = 10_f64.powf(values().fold(0.1, f64::min).log10().floor());
     let high = 10_f64.powf(values().fold(1.1, f64::max).log10().ceil());
     let mut chart = ChartBuilder::on(area)
@@ -105,10 +123,11 @@ fn draw_modulus(area: &Area, title: &str, test: &[Response], small: &[Response],
         .axis_style(TEXT)
         .label_style((FONT, 17).into_font().color(&TEXT))
         .draw()?;
+    draw_limits(&mut chart, limits, |limit| limit.modulus, [low, high])?;
     draw_curves(&mut chart, test, small, output, |response| modulus(response, output), |_, _| false)
 }
 
-fn draw_phase(area: &Area, test: &[Response], small: &[Response], output: Channel) -> Result<()> {
+fn draw_phase(area: &Area, [test, small]: [&[Response]; 2], limits: &[&Limit], output: Channel) -> Result<()> {
     let mut chart = ChartBuilder::on(area)
         .margin_right(24)
         .margin_bottom(8)
@@ -126,8 +145,28 @@ fn draw_phase(area: &Area, test: &[Response], small: &[Response], output: Channe
         .axis_style(TEXT)
         .label_style((FONT, 17).into_font().color(&TEXT))
         .draw()?;
+    draw_limits(&mut chart, limits, |limit| limit.phase, [-180.0, 180.0])?;
     // Between two neighbours that seem to be more than half a turn apart, the phase has passed 180 degrees.
     draw_curves(&mut chart, test, small, output, |response| phase(response, output), |a, b| (a - b).abs() > 180.0)
+}
+
+/// Bounds as bars at their frequencies, open ones up to the end of the axis.
+fn draw_limits<'a, C>(
+    chart: &mut ChartContext<'a, SVGBackend<'a>, C>,
+    limits: &[&Limit],
+    of: impl Fn(&Limit) -> [Option<f64>; 2],
+    ends: [f64; 2],
+) -> Result<()>
+where
+    C: CoordTranslate<From = (f64, f64)>,
+{
+    for limit in limits.iter().filter(|limit| of(limit) != [None; 2]) {
+        let [low, high] = of(limit);
+        let [low, high] = [low.unwrap_or(ends[0]), high.unwrap_or(ends[1])].map(|end| end.clamp(ends[0], ends[1]));
+        let bar = [(limit.frequency, low), (limit.frequency, high)];
+        chart.draw_series(LineSeries::new(bar, LIMIT.stroke_width(12)))?;
+    }
+    Ok(())
 }
 
 /// The small signals as a line, the test's as a line with dots; no line is drawn over a `gap`

@@ -8,6 +8,9 @@ use moris_simulation::frequency_response::Response;
 use moris_simulation::frequency_response::channel::{CROSS, Channel, direct, name, ratio_unit, unit, unit_in_si};
 use moris_simulation::frequency_response::excitation::frequencies;
 
+use moris_analysis::frequency_response::limits::{Limit, pair_name};
+pub use moris_analysis::frequency_response::limits::{modulus, phase};
+
 use super::Measured;
 use crate::text_table::TextTable;
 
@@ -72,17 +75,6 @@ fn kind(input: Channel, output: Channel) -> &'static str {
     }
 }
 
-/// The modulus, in the units that people read.
-pub fn modulus(response: &Response, output: Channel) -> f64 {
-    response.ratios[output as usize].norm() * unit_in_si(response.input) / unit_in_si(output)
-}
-
-/// The phase by which what is felt leads, -180 to 180 \[deg\].
-pub fn phase(response: &Response, output: Channel) -> f64 {
-    // A phase of -0.0 would be written as such.
-    response.ratios[output as usize].arg().to_degrees() + 0.0
-}
-
 /// Modulus and phase of the direct and the cross channels with the test's amplitudes,
 /// and what limited them.
 pub fn text(measured: &Measured) -> String {
@@ -95,16 +87,30 @@ pub fn text(measured: &Measured) -> String {
     )
 }
 
+/// The verdict on each bound of a file that is not held, below a line with their number.
+pub fn verdicts(limits: &[Limit], measured: &Measured) -> (bool, String) {
+    let broken: Vec<(&Limit, Vec<String>)> = limits
+        .iter()
+        .map(|limit| (limit, limit.broken_by(measured)))
+        .filter(|(_, broken)| !broken.is_empty())
+        .collect();
+    let mut text = format!("bounds: {} of {} held\n", limits.len() - broken.len(), limits.len());
+    for (limit, reasons) in &broken {
+        let pair = pair_name(limit.input, limit.output);
+        text += &format!("  not held: {pair} at {:.3} rad/s: {}\n", limit.frequency, reasons.join(", "));
+    }
+    (broken.is_empty(), text)
+}
+
 /// A row for each frequency, a column for each pair of input and output.
 fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
-    let title = |&(input, output): &(Channel, Channel)| {
-        if input == output { name(input).to_owned() } else { format!("{} to {}", name(input), name(output)) }
-    };
+    let title = |&(input, output): &(Channel, Channel)| pair_name(input, output);
     let titles: Vec<String> = std::iter::once("rad/s".to_owned()).chain(pairs.iter().map(title)).collect();
     let mut table = TextTable::new(titles.iter().map(String::as_str));
-    for (k, frequency) in frequencies().into_iter().enumerate() {
+    for frequency in frequencies() {
         let cell = |&(input, output): &(Channel, Channel)| {
-            let response = &measured.test[input as usize * frequencies().len() + k];
+            // Of recordings there may be a few.
+            let Some(response) = measured.at(input, frequency) else { return String::new() };
             let mark = if response.settled { "" } else { "?" };
             format!("{:.3} {:>4.0}{mark}", modulus(response, output), phase(response, output).round() + 0.0)
         };

@@ -14,12 +14,15 @@ use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use moris::frequency_response::{Measured, picture, table};
+use moris_analysis::frequency_response::limits::Limit;
+use moris_analysis::frequency_response::platform::NominalPlatform;
 use moris_simulation::frequency_response::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
 use moris_simulation::frequency_response::channel::{CROSS, direct};
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
-use moris_simulation::frequency_response::{Response, response};
+use moris_simulation::frequency_response::{Response, response, response_on};
+use moris_stewart_platform::Parameters as StewartParameters;
 use moris_washout::nalgebra::Complex;
-use moris_washout::{Parameters, Washout, presets};
+use moris_washout::{Input, Parameters, Washout, presets};
 
 const GRAVITY: f64 = 9.80665;
 const HEAD: f64 = 1.2;
@@ -45,7 +48,7 @@ static MEASURED: LazyLock<(Measured, u64)> = LazyLock::new(|| {
     let progress = || {
         count.fetch_add(1, Ordering::Relaxed);
     };
-    let measured = Measured::of(&parameters, Amplitudes::default(), false, progress).unwrap();
+    let measured = Measured::of(&parameters, Amplitudes::default(), false, false, progress).unwrap();
     (measured, count.into_inner())
 });
 
@@ -158,6 +161,115 @@ fn everything_is_measured_once_and_in_order() {
 }
 
 #[test]
+fn bounds_of_one_s_own_are_held_or_named_with_the_value() {
+    let (measured, _) = &*MEASURED;
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("bounds.csv");
+    let read = |rows: &str| {
+        let header = "channel,frequency,modulus_low,modulus_high,phase_low,phase_high\n";
+        std::fs::write(&file, format!("{header}{rows}")).unwrap();
+        Limit::read(&file)
+    };
+    // The response of heave is a high-pass, of which the closed form is known.
+    let expected = high_pass(Complex::new(0.0, 10.0), 2.5, 1.0);
+    let (modulus, phase) = (expected.norm(), expected.arg().to_degrees());
+    let around = format!(
+        "heave,10,{},{},{},{}\nheave,9.9,{},,,{}\n",
+        modulus - 0.01,
+        modulus + 0.01,
+        phase - 1.0,
+        phase + 1.0,
+        modulus + 0.01,
+        phase - 361.0
+    );
+    let limits = read(&around).unwrap();
+    assert_eq!(limits[0].broken_by(measured), [""; 0]);
+    let [below, above] = &limits[1].broken_by(measured)[..] else { panic!("two bounds are broken") };
+    assert!(below.starts_with(&format!("modulus {modulus:.3} is below")), "{below}");
+    assert!(above.starts_with("phase") && above.contains("is above"), "{above}");
+    let (are_held, text) = table::verdicts(&limits, measured);
+    assert!(!are_held && text.starts_with("bounds: 1 of 2 held\n  not held: heave at 9.900 rad/s: modulus"), "{text}");
+    assert_eq!(read("pitch rate to surge,0.2,,,,\n").unwrap()[0].broken_by(measured), ["was not measured"]);
+    for (rows, reason) in [
+        ("", "there are no bounds"),
+        ("heaf,10,,,,\n", "line 2: there is no channel \"heaf\"; there are surge, sway"),
+        ("surge to yaw rate,10,,,,\n", "there is no channel"),
+        ("heave,-1,,,,\n", "frequency is \"-1\", but must be above 0 rad/s"),
+        ("heave,10,x,,,\n", "modulus_low is \"x\", which is no number"),
+    ] {
+        let error = read(rows).unwrap_err();
+        assert!(error.contains(reason), "{error}");
+    }
+    std::fs::write(&file, "channel,frequency\n").unwrap();
+    assert!(Limit::read(&file).unwrap_err().contains("there is no column modulus_low"));
+    let picture = directory.path().join("direct.svg");
+    picture::draw(&picture, measured, &limits, &direct(), 3).unwrap();
+    let bars = std::fs::read_to_string(&picture).unwrap().matches("stroke-width=\"12\"").count();
+    assert_eq!(bars, 4, "modulus and phase of two bounds");
+}
+
+/// The drives follow a command as a second-order low-pass behind a dead time: at a small amplitude
+/// the platform's felt heave is that of the commanded motion times it.
+#[test]
+fn the_platform_adds_the_lag_of_its_drives() {
+    let parameters = presets::parameters(presets::PAPER);
+    let washout = Washout::new(&parameters).unwrap();
+    let drives = StewartParameters::default().actuators;
+    for frequency in [1.0, 6.309_573_444_801_93] {
+        let amplitude = Amplitudes::default().scaled(SMALL).of(Heave, frequency);
+        let commanded = response(&washout, Heave, frequency, amplitude, false).ratios[Heave as usize];
+        let platform = NominalPlatform::new(&parameters).unwrap();
+        let moved = response_on(platform, &washout, Heave, frequency, amplitude, false).ratios[Heave as usize];
+        let s = Complex::new(0.0, frequency / drives.bandwidth);
+        let lag =
+            (s * s + 2.0 * drives.damping * s + 1.0).inv() * Complex::from_polar(1.0, -frequency * drives.dead_time);
+        let error = (moved / commanded - lag).norm();
+        assert!(error < 2e-3, "{frequency}: {} is not {lag}", moved / commanded);
+    }
+}
+
+/// The washout's own motion, recorded: the same table as by simulation.
+#[test]
+fn recordings_of_the_test_give_the_same_response() {
+    let directory = tempfile::tempdir().unwrap();
+    let parameters = presets::parameters(presets::PAPER);
+    let (frequency, step, amplitude) = (frequencies()[7], 0.005, 1e-2);
+    let mut washout = Washout::new(&parameters).unwrap();
+    let mut text = "time,ax,ay,az,wx,wy,wz".to_owned();
+    for name in ["specificForce", "angularVelocity"] {
+        text += &["x", "y", "z"].map(|axis| format!(",rider.{name}.{axis}")).concat();
+    }
+    let mut before = Input::default();
+    for k in 0..=8000 {
+        let time = step * f64::from(k);
+        let heave = amplitude * (time / 5.0).min(1.0) * (frequency * time).sin();
+        let mut input = Input::default();
+        input.specific_force.z += heave;
+        if k > 0 {
+            washout.step_between(&before, &input, step);
+        }
+        before = input;
+        let felt = washout.output();
+        let (force, rate) = (felt.felt_specific_force, felt.felt_angular_velocity);
+        text += &format!("\n{time},0,0,{},0,0,0,{},{},{}", GRAVITY + heave, force.x, force.y, force.z);
+        text += &format!(",{},{},{}", rate.x, rate.y, rate.z);
+    }
+    let file = directory.path().join("heave.csv");
+    std::fs::write(&file, text + "\n").unwrap();
+    let measured = Measured::recorded(&[&file]).unwrap();
+    let [found] = &measured.test[..] else { panic!("one test") };
+    assert_eq!((found.input, found.frequency, found.settled), (Heave, frequency, true));
+    let expected = high_pass(Complex::new(0.0, frequency), 2.5, 1.0);
+    let ratio = found.ratios[Heave as usize];
+    assert!((ratio - expected).norm() < 2e-3, "{ratio} is not {expected}");
+    let table = table::text(&measured);
+    assert!(table.contains(&format!("{:.3}", expected.norm())), "{table}");
+    std::fs::write(&file, "time,ax,ay,az,wx,wy,wz\n0,0,0,9.8,0,0,0\n0.1,0,0,9.8,0,0,0\n0.2,0,0,9.8,0,0,0\n").unwrap();
+    let error = moris::words::error(&Measured::recorded(&[&file]).unwrap_err());
+    assert!(error.contains("heave.csv") && error.contains("there are no columns"), "{error}");
+}
+
+#[test]
 fn the_files_hold_what_was_measured() {
     let (measured, _) = &*MEASURED;
     let directory = tempfile::tempdir().unwrap();
@@ -186,9 +298,9 @@ fn the_files_hold_what_was_measured() {
         [("direct.svg", ["Surge", "Yaw rate"]), ("cross.svg", ["Pitch rate to surge", "Sway to roll rate"])]
     {
         let pairs = if name == "direct.svg" { &direct()[..] } else { &CROSS };
-        picture::draw(&file(name), measured, pairs, pairs.len() / 2).unwrap();
+        picture::draw(&file(name), measured, &[], pairs, pairs.len() / 2).unwrap();
         let drawn = std::fs::read_to_string(file(name)).unwrap();
         assert!(titles.iter().all(|title| drawn.contains(title)), "{name}");
     }
-    assert!(picture::draw(&file("no/such/direct.svg"), measured, &direct(), 3).is_err());
+    assert!(picture::draw(&file("no/such/direct.svg"), measured, &[], &direct(), 3).is_err());
 }

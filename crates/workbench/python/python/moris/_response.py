@@ -68,12 +68,14 @@ def frequency_response(
     force: float = 1.0,
     rate: float | None = None,
     gravity_turns: bool = False,
+    platform: bool = False,
 ) -> FrequencyResponse:
     """Measures the frequency response of the whole washout, after ICAO Doc 9625's objective motion cueing test.
 
     rig, parameters, strategy: as for Washout. force: amplitude of the specific force [m/s2]. rate: amplitude of the angular
     velocity [rad/s], by default 1 deg/s; an angle of six times and an angular acceleration of ten times as much bound it.
-    gravity_turns: the vehicle's orientation follows its roll and pitch rates. Returns a FrequencyResponse. It uses all cores.
+    gravity_turns: the vehicle's orientation follows its roll and pitch rates. platform: the nominal platform with its drives
+    moves by the commands, not exactly as commanded. Returns a FrequencyResponse. It uses all cores.
     """
     rate = float(np.radians(1.0)) if rate is None else rate
-    return FrequencyResponse(*_moris.frequency_response(rig, parameters, strategy, force, rate, gravity_turns))
+    return FrequencyResponse(*_moris.frequency_response(rig, parameters, strategy, force, rate, gravity_turns, platform))

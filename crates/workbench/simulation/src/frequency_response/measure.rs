@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use moris_washout::Washout;
 use moris_washout::nalgebra::Complex;
+use moris_washout::{Output, Washout};
 
 use super::channel::{CHANNELS, Channel, felt, unit_in_si};
 use super::excitation::Sine;
@@ -39,16 +39,45 @@ const FEWEST_BLOCKS: usize = 4;
 const AGREEMENT: f64 = 1e-4;
 /// A filter at its limits need not repeat itself from period to period. Up to this fraction of the
 /// input that is no matter.
-const SETTLED: f64 = 1e-2;
+pub const SETTLED: f64 = 1e-2;
+
+/// What moves by the washout's commands, and what its rider feels.
+pub trait Machine {
+    /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the
+    /// order of the channels.
+    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNELS];
+}
+
+/// A machine that moves exactly as commanded.
+#[derive(Clone, Copy, Debug)]
+pub struct AsCommanded;
+
+impl Machine for AsCommanded {
+    fn felt(&mut self, commanded: &Output, _step: f64) -> [f64; CHANNELS] {
+        felt(commanded)
+    }
+}
 
 /// Measures the response of a washout to a channel at a frequency, from where the washout is: at
 /// rest at neutral. One washout serves all tests, so that its rig is surveyed once.
 pub fn response(at_rest: &Washout, channel: Channel, frequency: f64, amplitude: f64, gravity_turns: bool) -> Response {
+    response_on(AsCommanded, at_rest, channel, frequency, amplitude, gravity_turns)
+}
+
+/// As [`response()`], on a machine that is at rest at neutral.
+pub fn response_on(
+    machine: impl Machine,
+    at_rest: &Washout,
+    channel: Channel,
+    frequency: f64,
+    amplitude: f64,
+    gravity_turns: bool,
+) -> Response {
     let period = TAU / frequency;
     let periods = (SHORTEST_BLOCK / period).ceil();
     let fade = periods * period;
     let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters: at_rest.parameters() };
-    let mut walk = SteadyStateRun::new(at_rest, sine, periods);
+    let mut walk = SteadyStateRun::new(machine, at_rest, sine, periods);
     walk.block(); // It fades in.
     let mut last = walk.block();
     let blocks = ((LONGEST_WAIT / fade) as usize).max(FEWEST_BLOCKS);
@@ -65,7 +94,8 @@ pub fn response(at_rest: &Washout, channel: Channel, frequency: f64, amplitude: 
 }
 
 /// The washout on its way through the sine.
-struct SteadyStateRun<'a> {
+struct SteadyStateRun<'a, M> {
+    machine: M,
     sine: Sine<'a>,
     washout: Washout,
     /// Samples in a block, and the time between them.
@@ -75,12 +105,12 @@ struct SteadyStateRun<'a> {
     made: usize,
 }
 
-impl<'a> SteadyStateRun<'a> {
-    fn new(at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
+impl<'a, M: Machine> SteadyStateRun<'a, M> {
+    fn new(machine: M, at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
         let block = periods * TAU / sine.frequency;
         let samples = (block / LONGEST_STEP).ceil();
         let washout = at_rest.clone().starting_with(&sine.input(0.0));
-        SteadyStateRun { sine, washout, samples: samples as usize, step: block / samples, made: 0 }
+        SteadyStateRun { machine, sine, washout, samples: samples as usize, step: block / samples, made: 0 }
     }
 
     /// Goes on for a block of whole periods.
@@ -96,7 +126,8 @@ impl<'a> SteadyStateRun<'a> {
             let output = self.washout.output();
             let flags = [output.tilt_limited, output.safety_active, output.actuator_limited];
             let turn = Complex::from_polar(1.0, -self.sine.frequency * time);
-            block.add(turn, self.sine.value(time), felt(&output), flags);
+            let felt = self.machine.felt(&output, self.step);
+            block.add(turn, self.sine.value(time), felt, flags);
         }
         block
     }
