@@ -41,8 +41,8 @@ pub fn pair_name(input: Channel, output: Channel) -> String {
 
 impl Limit {
     /// The bounds in a CSV file: a row for each channel and frequency, its columns `channel`,
-    /// `frequency` \[rad/s\], `modulus_low`, `modulus_high`, `phase_low` and `phase_high` \[deg\]. An
-    /// empty field is no bound.
+    /// `frequency` \[rad/s\], `modulus_low`, `modulus_high`, `phase_low` and `phase_high` \[deg\].
+    /// An empty field is no bound.
     ///
     /// # Errors
     /// The file cannot be read, lacks a column or a row, names no channel, or a field is no number.
@@ -101,7 +101,8 @@ impl Limit {
     }
 }
 
-/// The same phase, by whole turns as near to its bounds as can be: bounds may go beyond 180 degrees.
+/// The same phase, by whole turns as near to its bounds as can be: bounds may go beyond 180
+/// degrees.
 fn nearest_turn(phase: f64, [low, high]: [Option<f64>; 2]) -> f64 {
     let bounds: Vec<f64> = [low, high].into_iter().flatten().collect();
     let Some(first) = bounds.first() else { return phase };

@@ -17,9 +17,9 @@ use crate::recording::{Conventions, Recording, RecordingError};
 const IMPURITY: f64 = 0.1;
 
 impl Measured {
-    /// The responses in recordings, one of each test: the vehicle's motion as in any recording, and
-    /// beside it the columns `rider.specificForce.x` to `.z` and `rider.angularVelocity.x` to `.z`,
-    /// measured at the head. The later half of each is evaluated.
+    /// The responses in recordings, one of each test. Each has the vehicle's motion as any
+    /// recording has it. Its columns `rider.specificForce.x` to `.z` and `rider.angularVelocity.x`
+    /// to `.z` were measured at the head. The later half is evaluated.
     ///
     /// # Errors
     /// A file cannot be read, lacks columns, is too short for a period, or its motion is no sine on
