@@ -395,6 +395,8 @@ interface! {
         "automaticScale.fallTime" fall_time: f64 [S] { 0.1 ..= 1e4 } = 0.6, used_if("scale.automatic", &["on"]);
         /// Time constant with which the automatic scale rises.
         "automaticScale.riseTime" rise_time: f64 [S] { 0.1 ..= 1e4 } = 5.2, used_if("scale.automatic", &["on"]);
+        /// Automatic scale at the beginning of a ride, before anything is known of it.
+        "automaticScale.start" start: f64 { 0.01 ..= 1.0 } = 0.55, used_if("scale.automatic", &["on"]);
     }
 }
 

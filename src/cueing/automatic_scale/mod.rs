@@ -35,8 +35,6 @@ pub struct FittingScale {
     bank: Option<Bank>,
 }
 
-/// The factor before anything is known of the ride.
-const START: f64 = 0.55;
 /// Largest relative rate at which the factor falls \[1/s\].
 const FASTEST_FALL: f64 = 1.0;
 /// Time constant with which a factor that is no longer automatic returns to 1 \[s\].
@@ -51,7 +49,11 @@ impl FittingScale {
     /// There is no regulator for the platform's limits.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         let bank = bank(parameters)?;
-        Ok(FittingScale { factor: if bank.is_some() { START } else { 1.0 }, rate: 0.0, bank })
+        Ok(FittingScale {
+            factor: if bank.is_some() { parameters.automatic_scale.start } else { 1.0 },
+            rate: 0.0,
+            bank,
+        })
     }
 
     /// Takes other parameters. The factor continues from its value; it begins anew if the scale

@@ -78,7 +78,7 @@ impl Factors {
         Factors { scale, breaks: 1.0, heave: 1.0 }
     }
 
-    /// The parameters with these factors.
+    /// The parameters with these factors. An automatic scale begins with them.
     pub fn applied(&self, parameters: &Parameters) -> Parameters {
         let mut scaled = *parameters;
         let conditioning = &mut scaled.conditioning;
@@ -90,6 +90,7 @@ impl Factors {
         }
         conditioning.force_scale[2] *= self.heave;
         conditioning.rate_scale *= self.scale;
+        scaled.automatic_scale.start = 1.0;
         scaled
     }
 }
@@ -281,9 +282,11 @@ fn quick(parameters: &Parameters) -> Parameters {
 
 #[cfg(test)]
 mod tests {
+    use moris_washout::interface::AutomaticScale;
     use moris_washout::{Input, presets};
 
     use super::*;
+    use crate::drives::bench::DRIVES;
 
     /// A slalom of so many m/s2 to the side.
     fn slalom(amplitude: f64, frequency: f64) -> Manoeuvre {
@@ -308,6 +311,21 @@ mod tests {
         // A little more does not fit.
         let more = Factors::scale(1.2 * fit.best.factors.scale);
         assert!(Aims::default().distance(&search.candidate(&predictive, more).unwrap().shape) > 1.0);
+    }
+
+    /// An event that is over before the automatic scale has learned: it begins with what fits.
+    #[test]
+    fn single_events_have_the_right_shape_with_an_automatic_scale_that_begins_with_the_fit() {
+        for name in ["lane-change", "emergency-stop"] {
+            let drive = DRIVES.iter().find(|drive| drive.name == name).unwrap().manoeuvre();
+            let search = Search::new(&drive, 0.0, Aims::default());
+            let mut parameters = presets::parameters(presets::PREDICTIVE);
+            let factors = search.fit(&parameters).unwrap().best.factors;
+            parameters.automatic_scale.automatic = AutomaticScale::On;
+            let shape = search.shape(&factors.applied(&parameters)).unwrap();
+            let (least, (_, inverted)) = (shape.least_shape().unwrap(), shape.most_inverted().unwrap());
+            assert!(least >= 0.8 && inverted <= 0.03, "{name}: shape {least}, inverted {inverted}");
+        }
     }
 
     #[test]

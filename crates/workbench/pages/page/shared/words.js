@@ -46,6 +46,7 @@ const PLAIN = [
   [/^automaticScale\.error$/, () => "Error that the automatic size permits", "strong weak"],
   [/^automaticScale\.memory$/, () => "Memory of the automatic size", "strong weak"],
   [/^automaticScale\.fallTime$/, () => "Time in which the automatic size falls", "smooth gentle strong weak"],
+  [/^automaticScale\.start$/, () => "Automatic size at the ride's beginning", "strong weak"],
   [/^automaticScale\.riseTime$/, () => "Time in which the automatic size rises", "smooth gentle strong weak"],
   [/^preaction$/, () => "Acting ahead of a stop", "brake"],
   [/^safety\.(.)\.positionLimit$/, (axis) => `Longest travel of ${ALONG[axis]}`, "stroke"],
