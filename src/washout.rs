@@ -7,16 +7,21 @@ use serde::{Deserialize, Serialize};
 use crate::cueing::angular::AngularChannel;
 use crate::cueing::automatic_scale::FittingScale;
 use crate::cueing::compensation::{compensated, tangential};
-use crate::cueing::conditioning::{Cue, InputFilter, cue_force, forward_acceleration, scaled_cue, scaled_force};
+use crate::cueing::conditioning::{
+    ConditioningGlide, Cue, InputFilter, cue_force, forward_acceleration, scaled_cue, scaled_force,
+};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
 use crate::cueing::soft_limits::SoftLimits;
+use crate::cueing::soft_limits::glide::SoftLimitGlide;
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::law::Circumstances;
 use crate::cueing::strategy::predictive::preview::PreviewedCue;
-use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction};
+use crate::interface::{
+    ConditioningParameters, Input, Output, Parameters, Preaction, Preview, Reconstruction, StructureParameters,
+};
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::{ActuatorGuard, LocationFrame, PlatformCoordinates, PlatformMotion, PlatformState};
@@ -41,9 +46,17 @@ use crate::validate::{check, check_change};
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Washout {
+    /// As set; some glide to these values.
     parameters: Parameters,
-    /// Fraction of the time to engage that has passed. 1: engaged, 0: disengaged.
+    /// The conditioning in force.
+    conditioning: ConditioningParameters,
+    glide: ConditioningGlide,
+    /// Parameters of the soft limits in force.
+    soft: SoftLimitGlide,
+    /// Fraction of the time to engage that has passed, 1: engaged, 0: disengaged, and its rate
+    /// \[1/s\].
     engaging: f64,
+    engaging_rate: f64,
     /// The input at the end of the last step, and its cue.
     last: CuedInput,
     scale: FittingScale,
@@ -83,8 +96,7 @@ struct CuedInput {
 
 impl CuedInput {
     #[inline(always)]
-    fn new(input: Input, parameters: &Parameters) -> Self {
-        let Parameters { conditioning, structure, .. } = parameters;
+    fn new(input: Input, conditioning: &ConditioningParameters, structure: &StructureParameters) -> Self {
         let head = LocationFrame::new(structure, input.lean);
         CuedInput { input, head, cue: scaled_cue(&input, conditioning, structure.gravity, head.lean) }
     }
@@ -111,6 +123,9 @@ struct PreviousStep {
 /// disengaged \[s\].
 const FADE_TIME: [f64; 2] = [4.0, 10.0];
 
+/// Time in which a fade turns round after `engaged` has changed on its way \[s\].
+const TURN_TIME: f64 = 1.0;
+
 /// Change of the cue's horizontal force per second above which it fades more slowly \[m/s3\]: what
 /// tilt at 3 degrees a second takes over. A faster fade would take the stroke.
 const FADE_SLOPE: f64 = 0.5;
@@ -118,6 +133,11 @@ const FADE_SLOPE: f64 = 0.5;
 /// Time for which the soft limits act once the input rests \[s\]. A filter that they hold does not
 /// unwind, and may push against them for ever. Without them it returns in its time constants.
 const SOFT_LIMITS_HOLD: f64 = 30.0;
+
+/// Part of their pace at which gentler soft limits have to stop the platform before they come into
+/// force, and the speed up to which it may come to rest anywhere \[m/s\].
+const GENTLE_PART: f64 = 0.8;
+const GENTLE_SPEED: f64 = 0.01;
 
 impl Washout {
     /// The washout at rest at neutral.
@@ -130,11 +150,15 @@ impl Washout {
         let guard = ActuatorGuard::new(rig, structure.max_step);
         let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
-        let last = CuedInput::new(Input::default(), parameters);
+        let last = CuedInput::new(Input::default(), &parameters.conditioning, structure);
         let at_rest = felt(&guard.now().motion, &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
+            conditioning: parameters.conditioning,
+            glide: ConditioningGlide::default(),
+            soft: SoftLimitGlide::at(parameters),
             engaging: 1.0,
+            engaging_rate: 0.0,
             last,
             scale: FittingScale::new(parameters)?,
             input_filter: InputFilter::default(),
@@ -154,7 +178,7 @@ impl Washout {
     /// The washout at rest at neutral before its first step, with this input. It is disengaged if
     /// the input is, and the head is where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
-        self.last = CuedInput::new(input.sanitized(), &self.parameters);
+        self.last = self.cued(input.sanitized());
         self.engaging = f64::from(input.engaged);
         self.felt = felt(self.motion(), &self.last.head, self.parameters.structure.gravity);
         self.before.felt = self.felt;
@@ -183,7 +207,7 @@ impl Washout {
     /// ```
     #[inline]
     pub fn preview(&mut self, preview: &Preview) {
-        let Parameters { conditioning, structure, .. } = &self.parameters;
+        let (conditioning, structure) = (&self.conditioning, &self.parameters.structure);
         let CuedInput { input, head, .. } = &self.last;
         let (engagement, factor) = (self.engagement(), self.scale.factor());
         let Some(law) = self.strategy.previewed() else { return };
@@ -231,7 +255,7 @@ impl Washout {
         }
         let end = match course {
             InputCourse::Held(input) => {
-                self.last = CuedInput::new(input.sanitized(), &self.parameters);
+                self.last = self.cued(input.sanitized());
                 None
             }
             InputCourse::Ramp(end) => {
@@ -244,7 +268,7 @@ impl Washout {
                 Some(end)
             }
             InputCourse::Between(start, end) => {
-                self.last = CuedInput::new(start.sanitized(), &self.parameters);
+                self.last = self.cued(start.sanitized());
                 Some(end.sanitized())
             }
         };
@@ -255,8 +279,20 @@ impl Washout {
         let mut done = 0.0;
         while done < count {
             done += 1.0;
+            if !self.soft.is_at(&self.parameters) {
+                self.glide_soft_limits(internal_step);
+            }
+            let glides = !self.glide.is_over();
+            if glides {
+                self.glide.advance(internal_step);
+                self.conditioning = self.glide.in_force(&self.parameters.conditioning);
+            }
             if let Some(end) = &end {
-                let next = CuedInput::new(start.input.towards(end, done / count), &self.parameters);
+                let next = self.cued(start.input.towards(end, done / count));
+                self.internal_step(&next, internal_step);
+                self.last = next;
+            } else if glides {
+                let next = self.cued(start.input);
                 self.internal_step(&next, internal_step);
                 self.last = next;
             } else {
@@ -264,6 +300,12 @@ impl Washout {
             }
             observe(&self.felt.specific_force);
         }
+    }
+
+    /// The input with its cue by the conditioning in force.
+    #[inline(always)]
+    fn cued(&self, input: Input) -> CuedInput {
+        CuedInput::new(input, &self.conditioning, &self.parameters.structure)
     }
 
     /// Number of internal steps in a step. A step a rounding error longer than the
@@ -354,6 +396,19 @@ impl Washout {
         }
     }
 
+    /// Brings the soft limits nearer to their parameters, as far as the platform keeps them.
+    #[cold]
+    fn glide_soft_limits(&mut self, step: f64) {
+        let heave = self.strategy.largest_heave();
+        let idle = !self.soft_limits.active();
+        let next = self.soft.after(&self.parameters, idle, step);
+        let limits = SoftLimits::new(&next.in_force(&self.parameters), heave);
+        if !next.is_gentler_than(&self.soft) || limits.stop_from(self.guard.now(), GENTLE_PART, GENTLE_SPEED) {
+            self.soft = next;
+            self.soft_limits.retune(&next.in_force(&self.parameters), heave);
+        }
+    }
+
     /// Continues the filters from the motion that the platform really makes, where a limit has
     /// changed it. `rates` are those at the step's end.
     #[cold]
@@ -386,17 +441,35 @@ impl Washout {
             let references = [engagement * end.cue.force.x, engagement * end.cue.force.y];
             self.scale.advance(references, &self.parameters, step);
         }
-        let conditioning = &self.parameters.conditioning;
-        (self.last.cue.limited(before, conditioning), end.cue.limited(self.scale.factor(), conditioning))
+        let start = self.last.cue.limited(before, &self.conditioning);
+        let end = end.cue.limited(self.scale.factor(), &self.conditioning);
+        if self.glide.is_over() { (start, end) } else { (self.glide.corrected(start), self.glide.corrected(end)) }
     }
 
     /// The cue at the step's start and end as the channels receive it: filtered, and faded while
     /// the washout is being engaged or disengaged.
     fn conditioned_cues(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
         let before = self.engagement();
-        self.engaging = engaging_after(self.engaging, engaged, &end.force, step);
+        self.engage(engaged, &end.force, step);
         let (start, end) = (start.scaled(before), end.scaled(self.engagement()));
-        self.input_filter.advance(start, end, &self.parameters.conditioning, step)
+        self.input_filter.advance(start, end, &self.conditioning, step)
+    }
+
+    /// Advances the fraction of the time to engage on the way to `engaged`, under a cue with this
+    /// force. Where the way turns round, it does so gradually.
+    fn engage(&mut self, engaged: bool, force: &Vector3<f64>, step: f64) {
+        let end = f64::from(engaged);
+        if self.engaging == end {
+            self.engaging_rate = 0.0;
+            return;
+        }
+        let [least, longest] = FADE_TIME;
+        let pace = 1.0 / (force.xy().norm() / FADE_SLOPE).clamp(least, longest);
+        let rate = if engaged { pace } else { -pace };
+        let change = 2.0 * pace * step / TURN_TIME;
+        let before = self.engaging_rate;
+        self.engaging_rate = if before == 0.0 { rate } else { max(min(rate, before + change), before - change) };
+        self.engaging = min(max(self.engaging + self.engaging_rate * step, 0.0), 1.0);
     }
 
     /// Changes the cue ahead of a stop, with `preaction` on.
@@ -420,7 +493,8 @@ impl Washout {
     }
 
     /// Changes the tunable parameters. Position, velocity, angles and rates of the platform stay
-    /// what they are. Jumps that the new parameters would cause fade within a second or two.
+    /// what they are, and so does the felt force. Both fade to those of the new parameters within
+    /// 2 s.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why. Fixed parameters cannot be changed.
@@ -430,47 +504,55 @@ impl Washout {
         let nothing_cued = self.last.cue.force.xy() == Vector2::zeros() && self.last.cue.rates == Vector3::zeros();
         let mut scale = self.scale;
         scale.retune(parameters, nothing_cued)?;
-        self.strategy.retune(parameters)?;
-        // From here on nothing fails. The order matters: the channels' inputs `before` are those of
-        // the old conditioning and the new strategy, and the cue, its limits and the inputs `after`
-        // are made with the new parameters.
+        self.strategy.retune(parameters, &self.guard.now().coordinates.linear)?;
+        // From here on nothing fails.
         self.scale = scale;
-        let (force_before, rates_before) = self.drive(self.input_filter.cue());
-        self.parameters = *parameters;
-        self.soft_limits.retune(parameters, self.strategy.largest_heave());
-        self.last = CuedInput::new(self.last.input, parameters);
-        let cue = self.last.cue.limited(self.scale.factor(), &parameters.conditioning);
-        let now = self.input_filter.output(cue.scaled(self.engagement()), &parameters.conditioning);
-        let (force_after, rates_after) = self.drive(now);
-        let order = parameters.structure.splitter_order;
-        self.direct_linear.retune(&parameters.splitter, order, force_before, force_after);
-        self.angular.retune(&parameters.angular, parameters.structure.angular_order, rates_before, rates_after);
+        let spurious_before = self.spurious();
+        let before = std::mem::replace(&mut self.parameters, *parameters);
+        self.soft.tighten(&parameters.safety);
+        if nothing_cued && self.motion().velocity == Vector3::zeros() {
+            self.soft = SoftLimitGlide::at(parameters);
+        }
+        self.soft_limits.retune(&self.soft.in_force(parameters), self.strategy.largest_heave());
+        let Parameters { conditioning, splitter, angular, structure, .. } = parameters;
+        if before.conditioning != *conditioning {
+            let numbers = ConditioningParameters {
+                gravity_removal: before.conditioning.gravity_removal,
+                angular_velocity_frame: before.conditioning.angular_velocity_frame,
+                ..if nothing_cued { *conditioning } else { self.conditioning }
+            };
+            let limited = |cue: &Cue, by: &ConditioningParameters| cue.limited(self.scale.factor(), by);
+            let old = limited(&CuedInput::new(self.last.input, &numbers, structure).cue, &numbers);
+            let by_choice = ConditioningParameters {
+                gravity_removal: conditioning.gravity_removal,
+                angular_velocity_frame: conditioning.angular_velocity_frame,
+                ..numbers
+            };
+            let new = limited(&CuedInput::new(self.last.input, &by_choice, structure).cue, &by_choice);
+            self.glide.begin(&before.conditioning, conditioning, &old.less(&new));
+            if nothing_cued {
+                self.glide.end();
+            }
+            self.conditioning = self.glide.in_force(conditioning);
+            self.last = self.cued(self.last.input);
+        }
+        let jump = self.spurious() - spurious_before;
+        self.direct_linear.retune(splitter, structure.splitter_order, jump);
+        self.angular.retune(angular, structure.angular_order);
         Ok(())
     }
 
-    /// Inputs of the linear channel (a force in the base frame, less what is compensated) and of
-    /// the angular channel (rates) now, if the conditioned cue is this one.
-    fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
+    /// Acceleration that is compensated now, in the base frame \[m/s2\].
+    fn spurious(&self) -> Vector3<f64> {
         let Parameters { conditioning, structure, .. } = &self.parameters;
-        let head = &self.last.head;
-        let force = self.motion().orientation.rotation * head.to_platform_axes(cue.force);
         let turning = RotationalMotion::new(&self.guard.demand().angles);
-        let arm = turning.orientation.rotation * head.point;
-        let tilt = self.strategy.tilt_angles();
-        (force - compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity), cue.rates)
+        let arm = turning.orientation.rotation * self.last.head.point;
+        compensated(conditioning.compensation, &turning, arm, &self.strategy.tilt_angles(), structure.gravity)
     }
 
-    /// The parameters in force.
+    /// The parameters, as last set.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
-    }
-
-    /// True if the soft limits of these parameters stop the platform from its motion now, at this
-    /// part of their pace. Those that do not would leave it to the guard, which brakes hard. Speeds
-    /// up to `slow` \[m/s\] do not count.
-    pub fn soft_limits_stop(&self, parameters: &Parameters, part: f64, slow: f64) -> bool {
-        let limits = SoftLimits::new(parameters, self.strategy.largest_heave());
-        !limits.enabled() || limits.stop_from(self.guard.now(), part, slow)
     }
 
     /// The platform's motion as commanded, with its accelerations.
@@ -541,16 +623,4 @@ impl Washout {
             ..Output::default()
         }
     }
-}
-
-/// The fraction of the time to engage after `step` seconds on the way to `engaged`, under a cue
-/// with this force.
-fn engaging_after(engaging: f64, engaged: bool, force: &Vector3<f64>, step: f64) -> f64 {
-    let end = f64::from(engaged);
-    if engaging == end {
-        return end;
-    }
-    let [least, longest] = FADE_TIME;
-    let change = step / (force.xy().norm() / FADE_SLOPE).clamp(least, longest);
-    if engaged { min(engaging + change, end) } else { max(engaging - change, end) }
 }

@@ -5,14 +5,16 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::filter::bumpless::FadingOffset;
-use crate::filter::chain::{Chains, Denominator};
+use crate::filter::chain::Denominator;
+use crate::filter::crossfade::FadedChains;
 use crate::interface::AngularParameters;
 use crate::motion::Motion;
 
 /// The angular channel with its state: roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngularChannel {
-    chains: Chains,
+    chains: FadedChains,
+    /// Correction to the input, after the motion was another one than demanded.
     offset: FadingOffset,
     /// The rates at the end of the last step \[rad/s\].
     rates: Vector3<f64>,
@@ -21,19 +23,13 @@ pub struct AngularChannel {
 impl AngularChannel {
     /// The channel at rest.
     pub fn new(parameters: &AngularParameters, order: i32) -> Self {
-        let chains = Chains::new(denominators(parameters, order));
+        let chains = FadedChains::new(denominators(parameters, order), 1);
         AngularChannel { chains, offset: FadingOffset::default(), rates: Vector3::zeros() }
     }
 
-    /// Changes the filter parameters without a jump: angles and rates stay what they are, and the
-    /// difference fades away.
-    ///
-    /// The input changes from `before` to `after` at the same instant, because of
-    /// other new parameters.
-    pub fn retune(&mut self, parameters: &AngularParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
-        let rates = self.chains.high_pass(before);
-        self.chains.retune(denominators(parameters, order), 1);
-        self.offset.add(rates - self.chains.high_pass(after));
+    /// Changes the filter parameters. Angles and rates fade to those of the new filters.
+    pub fn retune(&mut self, parameters: &AngularParameters, order: i32) {
+        self.chains.retune(denominators(parameters, order));
     }
 
     /// Advances by `step` seconds while the rates go linearly from `start` to `end`. Returns angle,
@@ -45,10 +41,10 @@ impl AngularChannel {
         let (offset_start, offset_end) = self.offset.advance(step);
         let end = end + offset_end;
         self.chains.advance(start + offset_start, end, step);
-        let rates = self.chains.high_pass(end);
+        let (position, rates) = self.chains.angle_and_rate();
         let acceleration = (rates - self.rates) / step;
         self.rates = rates;
-        Motion { position: self.chains.first_integral(), velocity: rates, acceleration }
+        Motion { position, velocity: rates, acceleration }
     }
 
     /// Continues from angles and rates that are not those demanded, at the end of a step
@@ -56,8 +52,9 @@ impl AngularChannel {
     /// input, the rates' fades.
     #[cold]
     pub fn continue_from(&mut self, angles: &Vector3<f64>, rates: &Vector3<f64>, end: Vector3<f64>) {
-        self.chains.set_first_integral(angles);
-        let demanded = self.chains.high_pass(end + self.offset.value());
+        self.chains.set_angle(angles);
+        self.chains.set_input(end + self.offset.value());
+        let (_, demanded) = self.chains.angle_and_rate();
         self.offset.add(rates - demanded);
         self.rates = *rates;
     }

@@ -1,11 +1,13 @@
 //! Block (1), first half: gravity removal, scaling, limiting and low-pass of what the
 //! vehicle model delivers.
 
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::filter::bumpless::GlidingOffset;
 use crate::filter::critically_damped::CriticallyDamped;
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
+use crate::motion::min_max::min;
 use crate::motion::orientation::rates_from_reference;
 
 /// The signal to cue: zero at rest.
@@ -21,6 +23,11 @@ impl Cue {
     /// The cue times a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Cue { force: self.force * factor, rates: self.rates * factor }
+    }
+
+    /// The difference to another cue.
+    pub fn less(&self, other: &Cue) -> Self {
+        Cue { force: self.force - other.force, rates: self.rates - other.rates }
     }
 
     /// Surge, sway and rates times the automatic scale, and all of it limited.
@@ -192,6 +199,86 @@ pub fn soft_limit(value: f64, limit: f64) -> f64 {
     (knee + room * libm::tanh((value.abs() - knee) / room)).copysign(value)
 }
 
+/// Conditioning that changes in motion: scales, limits and cutoffs glide to new values, and what
+/// the other parameters change at once is a correction of the cue that fades.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ConditioningGlide {
+    /// Of scales, logarithms of limits, and time constants of the low-passes.
+    numbers: GlidingOffset<14>,
+    /// Of force \[m/s2\] and rates \[rad/s\].
+    cue: GlidingOffset<6>,
+}
+
+impl ConditioningGlide {
+    /// Glides from these parameters to those, whose cue is less by `jump` at the same numbers.
+    pub fn begin(&mut self, before: &ConditioningParameters, after: &ConditioningParameters, jump: &Cue) {
+        self.numbers.add(&(numbers(before) - numbers(after)));
+        self.cue.add(&stacked(&jump.force, &jump.rates));
+    }
+
+    /// Ends the glide of the numbers, where nothing is cued.
+    pub fn end(&mut self) {
+        self.numbers = GlidingOffset::default();
+    }
+
+    /// True if nothing glides.
+    #[inline(always)]
+    pub fn is_over(&self) -> bool {
+        self.numbers.is_over() && self.cue.is_over()
+    }
+
+    /// Advances by `step` seconds.
+    pub fn advance(&mut self, step: f64) {
+        self.numbers.advance(step);
+        self.cue.advance(step);
+    }
+
+    /// The parameters in force on the way to these.
+    pub fn in_force(&self, target: &ConditioningParameters) -> ConditioningParameters {
+        if self.numbers.is_over() {
+            return *target;
+        }
+        let values = numbers(target) + self.numbers.values();
+        let three = |first: usize| values.fixed_rows::<3>(first).into_owned();
+        let cutoff = |time: f64| if time > SHORTEST_TIME { 1.0 / time } else { 0.0 };
+        ConditioningParameters {
+            force_scale: three(0),
+            rate_scale: three(3),
+            force_limit: three(6).map(libm::exp),
+            rate_limit: three(9).map(libm::exp),
+            cutoff: cutoff(values[12]),
+            rate_cutoff: cutoff(values[13]),
+            ..*target
+        }
+    }
+
+    /// The cue with the correction.
+    pub fn corrected(&self, cue: Cue) -> Cue {
+        let by = self.cue.values();
+        Cue { force: cue.force + by.fixed_rows::<3>(0), rates: cue.rates + by.fixed_rows::<3>(3) }
+    }
+}
+
+/// Time constants of a low-pass up to this are none \[s\].
+const SHORTEST_TIME: f64 = 1e-6;
+/// Longer ones glide as this one \[s\].
+const LONGEST_TIME: f64 = 1e6;
+
+/// Numbers that glide linearly.
+fn numbers(parameters: &ConditioningParameters) -> SVector<f64, 14> {
+    let ConditioningParameters { force_scale, rate_scale, force_limit, rate_limit, .. } = parameters;
+    let time = |cutoff: f64| if cutoff > 0.0 { min(1.0 / cutoff, LONGEST_TIME) } else { 0.0 };
+    let mut numbers = SVector::<f64, 14>::zeros();
+    numbers.fixed_rows_mut::<6>(0).copy_from(&stacked(force_scale, rate_scale));
+    numbers.fixed_rows_mut::<6>(6).copy_from(&stacked(&force_limit.map(libm::log), &rate_limit.map(libm::log)));
+    (numbers[12], numbers[13]) = (time(parameters.cutoff), time(parameters.rate_cutoff));
+    numbers
+}
+
+fn stacked(first: &Vector3<f64>, second: &Vector3<f64>) -> SVector<f64, 6> {
+    SVector::from([first.x, first.y, first.z, second.x, second.y, second.z])
+}
+
 /// The optional low-passes: of first order on the whole cue, and of second order on its rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputFilter {
@@ -205,12 +292,6 @@ impl InputFilter {
     /// The output now.
     pub fn cue(&self) -> Cue {
         Cue { rates: self.rates.value(), ..self.cue }
-    }
-
-    /// The output, if the cue is `unfiltered` now and the filters are those of these parameters.
-    pub fn output(&self, unfiltered: Cue, parameters: &ConditioningParameters) -> Cue {
-        let cue = if parameters.cutoff == 0.0 { unfiltered } else { self.cue };
-        if parameters.rate_cutoff == 0.0 { cue } else { Cue { rates: self.rates.value(), ..cue } }
     }
 
     /// Advances by `step` seconds while the cue goes linearly from `start` to `end`. Returns the

@@ -6,35 +6,36 @@ use serde::{Deserialize, Serialize};
 
 use crate::cueing::safety::SafetyUnits;
 use crate::cueing::splitter::high_pass_denominators;
-use crate::filter::bumpless::FadingOffset;
-use crate::filter::chain::Chains;
+use crate::filter::bumpless::GlidingOffset;
+use crate::filter::crossfade::FadedChains;
 use crate::interface::{SafetyParameters, SplitterParameters};
 use crate::motion::Motion;
 
 /// The linear channel with its state: surge, sway and heave, along x, y and z of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DirectLinearMotion {
-    chains: Chains,
-    offset: FadingOffset,
+    chains: FadedChains,
+    /// Correction to the input.
+    offset: GlidingOffset<3>,
     safety: SafetyUnits,
 }
 
 impl DirectLinearMotion {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(parameters: &SplitterParameters, order: i32, longest_step: f64) -> Self {
-        let chains = Chains::new(high_pass_denominators(parameters, order));
-        DirectLinearMotion { chains, offset: FadingOffset::default(), safety: SafetyUnits::new(longest_step) }
+        let chains = FadedChains::new(high_pass_denominators(parameters, order), 2);
+        DirectLinearMotion { chains, offset: GlidingOffset::default(), safety: SafetyUnits::new(longest_step) }
     }
 
-    /// Changes the filter parameters without a jump: position, velocity and acceleration stay what
-    /// they are, and the difference fades away.
+    /// Changes the filter parameters. Position, velocity and acceleration fade to those of the new
+    /// filters.
     ///
-    /// The input changes from `before` to `after` at the same instant, because of
-    /// other new parameters.
-    pub fn retune(&mut self, parameters: &SplitterParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
-        let acceleration = self.chains.high_pass(before);
-        self.chains.retune(high_pass_denominators(parameters, order), 2);
-        self.offset.add(acceleration - self.chains.high_pass(after));
+    /// The input becomes less by `jump` at the same instant, because of other new parameters.
+    pub fn retune(&mut self, parameters: &SplitterParameters, order: i32, jump: Vector3<f64>) {
+        self.chains.retune(high_pass_denominators(parameters, order));
+        if jump != Vector3::zeros() {
+            self.offset.add(&jump);
+        }
     }
 
     /// Advances the filters by `step` seconds while the input goes linearly from `start` to `end`.
@@ -42,21 +43,23 @@ impl DirectLinearMotion {
     ///
     /// The input is a force in the base frame.
     pub fn advance_filters(&mut self, [start, end]: [Vector3<f64>; 2], step: f64) -> Motion<Vector3<f64>> {
-        let (offset_start, offset_end) = self.offset.advance(step);
-        let end = end + offset_end;
-        self.chains.advance(start + offset_start, end, step);
-        Motion {
-            position: self.chains.second_integral(),
-            velocity: self.chains.first_integral(),
-            acceleration: self.chains.high_pass(end),
-        }
+        let (start, end) = if self.offset.is_over() { (start, end) } else { self.corrected(start, end, step) };
+        self.chains.advance(start, end, step);
+        self.chains.motion()
+    }
+
+    #[cold]
+    fn corrected(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let before = self.offset.values();
+        self.offset.advance(step);
+        (start + before, end + self.offset.values())
     }
 
     /// Continues the filters from a motion that is not the one they demanded. What made the
     /// difference acts like an input, and is washed out like one.
     #[cold]
     pub fn continue_filters_from(&mut self, motion: &Motion<Vector3<f64>>) {
-        self.chains.set_integrals(&motion.velocity, &motion.position);
+        self.chains.set_motion(&motion.position, &motion.velocity);
     }
 
     /// Surge, sway and heave `step` seconds later that keep the safety limits and come

@@ -1,13 +1,81 @@
 //! Bumpless transfer: a jump that a new parameter would cause is held as a
-//! correction, and fades away.
+//! correction, and fades away. A [`FadingOffset`] begins to fade at once, a [`GlidingOffset`]
+//! without a jump of its first three derivatives.
 
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// A correction to the inputs of three filters that decays to zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FadingOffset {
     value: Vector3<f64>,
+}
+
+/// Corrections that go to zero through four equal lags. The changes add up, so a host may
+/// make any number of them at any time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GlidingOffset<const N: usize> {
+    /// The output of each lag; the last one's is the correction.
+    lags: [SVector<f64, N>; 4],
+    /// True until all have ended.
+    glides: bool,
+}
+
+/// Break frequency of each lag \[rad/s\]: 1 % of a correction is left after 2 s, and its slope is at
+/// most 1.1 times the correction a second.
+const GLIDE_PACE: f64 = 5.0;
+/// Corrections below this become zero.
+const GLIDE_END: f64 = 1e-12;
+
+impl<const N: usize> Default for GlidingOffset<N> {
+    fn default() -> Self {
+        GlidingOffset { lags: [SVector::zeros(); 4], glides: false }
+    }
+}
+
+impl<const N: usize> GlidingOffset<N> {
+    /// The corrections now.
+    pub fn values(&self) -> SVector<f64, N> {
+        self.lags[3]
+    }
+
+    /// True if there is no correction.
+    #[inline(always)]
+    pub fn is_over(&self) -> bool {
+        !self.glides
+    }
+
+    /// Adds corrections.
+    pub fn add(&mut self, values: &SVector<f64, N>) {
+        self.lags.iter_mut().for_each(|lag| *lag += values);
+        self.glides = true;
+    }
+
+    /// Adds corrections that begin with these slopes \[1/s\].
+    pub fn add_with_slopes(&mut self, values: &SVector<f64, N>, slopes: &SVector<f64, N>) {
+        // The last lag's slope is pace times its input less its output, and its input has that slope, too.
+        for (lag, lead) in self.lags.iter_mut().zip([2.0, 2.0, 1.0, 0.0]) {
+            *lag += values + slopes * (lead / GLIDE_PACE);
+        }
+        self.glides = true;
+    }
+
+    /// Advances by `step` seconds.
+    pub fn advance(&mut self, step: f64) {
+        if self.is_over() {
+            return;
+        }
+        let angle = GLIDE_PACE * step;
+        let decay = libm::exp(-angle);
+        let [a, b, c, d] = self.lags;
+        let b_next = b + angle * a;
+        let c_next = c + angle * (b + angle / 2.0 * a);
+        let d_next = d + angle * (c + angle / 2.0 * (b + angle / 3.0 * a));
+        self.lags = [a, b_next, c_next, d_next].map(|lag| decay * lag);
+        if self.lags.iter().all(|lag| lag.amax() < GLIDE_END) {
+            *self = Self::default();
+        }
+    }
 }
 
 /// Time constant of the decay of an offset \[s\].
@@ -19,6 +87,12 @@ impl FadingOffset {
     /// The correction now.
     pub fn value(&self) -> Vector3<f64> {
         self.value
+    }
+
+    /// True if there is no correction.
+    #[inline(always)]
+    pub fn is_over(&self) -> bool {
+        self.value == Vector3::zeros()
     }
 
     /// Adds a correction.
@@ -40,6 +114,42 @@ impl FadingOffset {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The closed form of four equal lags: exp(-p t) times the first four terms of exp(p t).
+    #[test]
+    fn offsets_glide_through_four_lags_and_add_up() {
+        let form = |t: f64| {
+            let x = GLIDE_PACE * t;
+            (-x).exp() * (1.0 + x + x * x / 2.0 + x * x * x / 6.0)
+        };
+        let mut offset = GlidingOffset::<2>::default();
+        offset.add(&SVector::from([1.0, -2.0]));
+        let mut time = 0.0;
+        for k in 0..200 {
+            if k == 50 {
+                offset.add(&SVector::from([0.5, 0.0]));
+            }
+            let step = if k % 3 == 0 { 0.01 } else { 0.02 };
+            offset.advance(step);
+            time += step;
+            let second = if k >= 50 { 0.5 * form(time - 0.83) } else { 0.0 };
+            let [one, two] = offset.values().into();
+            assert!((one - form(time) - second).abs() < 1e-12 && (two + 2.0 * form(time)).abs() < 1e-12, "at {time}");
+        }
+        assert!((form(2.0) - 0.0103).abs() < 1e-4);
+        offset.advance(10.0);
+        assert!(offset.is_over());
+    }
+
+    #[test]
+    fn an_offset_begins_with_its_slope() {
+        let mut offset = GlidingOffset::<1>::default();
+        offset.add_with_slopes(&SVector::from([1.0]), &SVector::from([3.0]));
+        let before = offset.values()[0];
+        offset.advance(1e-4);
+        let slope = (offset.values()[0] - before) / 1e-4;
+        assert!(before == 1.0 && (slope - 3.0).abs() < 1e-3, "{before}, {slope}");
+    }
 
     #[test]
     fn an_offset_decays_with_its_time_constant_and_ends() {

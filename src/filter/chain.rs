@@ -87,6 +87,16 @@ impl Chains {
         Chains { denominators, step: 0.0, transitions: Default::default(), states: Default::default() }
     }
 
+    /// The coefficients.
+    pub fn denominators(&self) -> &[Denominator; 3] {
+        &self.denominators
+    }
+
+    /// True if all states are zero.
+    pub fn is_at_rest(&self) -> bool {
+        self.states == [f64x4::ZERO; 3]
+    }
+
     /// Advances by `step` seconds while the input goes linearly from `start` to `end`.
     #[inline(always)]
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {

@@ -4,3 +4,4 @@
 pub(crate) mod bumpless;
 pub mod chain;
 pub mod critically_damped;
+pub(crate) mod crossfade;

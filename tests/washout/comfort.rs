@@ -126,10 +126,10 @@ fn a_ramps_corner_is_felt_without_a_kick_back() {
 }
 
 /// Largest change of the felt force per second, of surge and sway, while a steady force is engaged
-/// and disengaged, on the way too.
-fn largest_jerk(parameters: &Parameters, [surge, sway]: [f64; 2]) -> f64 {
+/// and disengaged at these times in turn, on the way too.
+fn largest_jerk(parameters: &Parameters, [surge, sway]: [f64; 2], toggles: &[f64]) -> f64 {
     const STEP: f64 = 0.001;
-    let engaged = |t: f64| [3.0..13.0, 14.0..15.0, 22.0..24.0, 25.0..40.0].iter().any(|on| on.contains(&t));
+    let engaged = |t: f64| toggles.iter().filter(|toggle| **toggle <= t).count() % 2 == 1;
     let input = |t: f64| Input { engaged: engaged(t), ..accelerating(surge, sway, 0.0) };
     let mut washout = Washout::new(parameters).unwrap().starting_with(&input(0.0));
     let (mut before, mut largest) = (washout.output().felt_specific_force, 0.0_f64);
@@ -148,8 +148,25 @@ fn engaging_and_disengaging_are_felt_without_a_jerk() {
         let parameters = presets::parameters(changed);
         let forces = [[1.0, 0.5], [3.0, -2.0], [-4.0, 3.0], [-6.0, 4.0]];
         for force in forces.into_iter().step_by(crate::cases::cases(1, 3)) {
-            let jerk = largest_jerk(&parameters, force);
+            let jerk = largest_jerk(&parameters, force, &[3.0, 13.0, 14.0, 15.0, 22.0, 24.0, 25.0, 40.0]);
             assert!(jerk < 10.0, "{set}, {force:?} m/s2: {jerk} m/s3");
+        }
+    }
+}
+
+#[test]
+fn engaging_and_disengaging_at_random_are_felt_without_a_jerk() {
+    let mut random = Random::new(1);
+    for (set, changed) in SETS {
+        let parameters = presets::parameters(changed);
+        for _ in 0..crate::cases::cases(10, 2) {
+            let force = [random.between(-6.0, 6.0), random.between(-4.0, 4.0)];
+            let mut toggles = vec![1.0];
+            while toggles[toggles.len() - 1] < 40.0 {
+                toggles.push(toggles[toggles.len() - 1] + 0.05 + 6.0 * random.between(0.0, 1.0).powi(2));
+            }
+            let jerk = largest_jerk(&parameters, force, &toggles);
+            assert!(jerk < 11.0, "{set}, {force:?} m/s2, {toggles:?} s: {jerk} m/s3");
         }
     }
 }

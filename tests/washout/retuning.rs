@@ -6,7 +6,8 @@ use moris_washout::{Input, Output, Parameters, Washout, presets};
 use nalgebra::Vector3;
 
 use crate::common::limits::Watch;
-use crate::common::{G, displacement, ride};
+use crate::common::manoeuvres::accelerate_and_brake;
+use crate::common::{G, accelerating, displacement, ride};
 
 const STEP: f64 = 0.001;
 
@@ -277,4 +278,115 @@ fn started_disengaged_it_stays_at_neutral() {
     let input = |t: f64| Input { engaged: false, ..moving(t) };
     let mut washout = washout(&[]).starting_with(&input(0.0));
     ride(&mut washout, 10.0, STEP, input, |t, output| assert!(displacement(output) < 1e-12, "at {t}"));
+}
+
+/// The ends to which a tunable variable is changed: those of its usual range, or a tenth and 2.5
+/// times its start value. A cutoff is switched off, too.
+fn ends(slot: usize) -> Vec<f64> {
+    let identity = Washout::IDENTITY;
+    let row = identity.row(slot);
+    match (row.kind, row.usual) {
+        (Kind::Enumeration(enumeration), _) => (1..=enumeration.items.len()).map(|item| item as f64).collect(),
+        (_, Some((low, high))) if row.name.ends_with("utoff") => vec![0.0, low, high],
+        (_, Some((low, high))) => vec![low, high],
+        _ => {
+            let (min, max) = row.range.unwrap();
+            [0.1, 2.5].map(|factor| (factor * start_slots()[slot]).clamp(min, max)).to_vec()
+        }
+    }
+}
+
+/// Time for which a change is watched, and time within which a jolt happens \[ms\].
+const WATCHED: usize = 2500;
+const JOLT: usize = 20;
+
+/// The felt force every millisecond from this one on, and whether a limit changes the motion.
+fn felt_from(mut washout: Washout, from: usize, drive: fn(f64) -> Input) -> Vec<(Vector3<f64>, bool)> {
+    let after = |k: usize| {
+        washout.step_between(&drive(k as f64 * STEP), &drive((k + 1) as f64 * STEP), STEP);
+        let output = washout.output();
+        let is_limited = output.soft_limited || output.safety_active || output.actuator_limited;
+        (output.felt_specific_force, is_limited)
+    };
+    (from..from + WATCHED).map(after).collect()
+}
+
+/// Largest change of the felt force within 20 ms beyond that of the undisturbed motion: while no
+/// limit acts, and while one does.
+fn jolts(felt: &[(Vector3<f64>, bool)], undisturbed: &[(Vector3<f64>, bool)]) -> [f64; 2] {
+    let change = |felt: &[(Vector3<f64>, bool)], k: usize| (felt[k + JOLT].0 - felt[k].0).abs();
+    let mut largest = [0.0_f64; 2];
+    for k in 0..WATCHED - JOLT {
+        let is_limited = felt[k.saturating_sub(JOLT)..=k + JOLT].iter().any(|(_, is_limited)| *is_limited);
+        let beyond = (change(felt, k) - change(undisturbed, k)).max();
+        largest[usize::from(is_limited)] = largest[usize::from(is_limited)].max(beyond);
+    }
+    largest
+}
+
+/// Every tunable parameter, with every strategy, to both ends of its usual range. `--nocapture`
+/// prints the largest jolts of each in the order of the strategies.
+#[test]
+fn no_tunable_parameter_is_felt_as_a_jolt() {
+    /// The bounds \[m/s2\]. A limit that begins to act is felt as on any smooth drive.
+    const BOUNDS: [f64; 2] = [0.1, 0.5];
+    /// Rows that go to 25 times a break frequency, or 40,000 times a weight, with the bound while no limit acts.
+    const EXTREME: [&str; 5] = [
+        "splitter.x.omega1 = 20",
+        "splitter.x.omega2 = 20",
+        "adaptive.omega = 20",
+        "robust.weightPosition = 1000",
+        "robust.weightTiltAcceleration = 1000",
+    ];
+    const EXTREME_BOUND: f64 = 0.3;
+    type Drive = (&'static str, fn(f64) -> Input, usize);
+    let drives: [Drive; 4] = [
+        ("steady", |_| accelerating(2.0, 0.0, 0.0), 20_000),
+        ("run a", |t| accelerating(accelerate_and_brake(t), 0.0, 0.0), 29_000),
+        ("run a's start", |t| accelerating(accelerate_and_brake(t), 0.0, 0.0), 6_000),
+        ("all axes", moving, 6_000),
+    ];
+    let identity = Washout::IDENTITY;
+    let kind = identity.slot("strategy").unwrap();
+    let names = ["classical", "adaptive", "optimal", "predictive", "robust"];
+    let rows = changes().into_iter().map(|(slot, _)| slot);
+    let mut table: Vec<_> =
+        rows.flat_map(|slot| ends(slot).into_iter().map(move |end| (slot, end, [[0.0_f64; 2]; 5]))).collect();
+    for (strategy, (_, drive, at)) in
+        (0..5).flat_map(|k| drives.iter().take(crate::cases::cases(4, 2)).map(move |d| (k, d)))
+    {
+        let mut start = start_slots();
+        start[kind] = 1.0 + strategy as f64;
+        let mut washout = Washout::from_slots(&start).unwrap();
+        for k in 0..*at {
+            washout.step_between(&drive(k as f64 * STEP), &drive((k + 1) as f64 * STEP), STEP);
+        }
+        let undisturbed = felt_from(washout.clone(), *at, *drive);
+        for (slot, end, largest) in &mut table {
+            let name = identity.variable_name(*slot);
+            let of_other = |other: &&str| *other != names[strategy] && name.starts_with(&format!("{other}."));
+            let mut slots = start.clone();
+            slots[*slot] = *end;
+            let mut changed = washout.clone();
+            if names.iter().any(of_other) || slots == start || changed.retune_from(&slots).is_err() {
+                continue;
+            }
+            let found = jolts(&felt_from(changed, *at, *drive), &undisturbed);
+            largest[strategy] = [0, 1].map(|k: usize| largest[strategy][k].max(found[k]));
+        }
+    }
+    let mut failed = Vec::new();
+    for (slot, end, largest) in table {
+        let name = identity.variable_name(slot);
+        let texts = largest.map(|[free, limited]| format!("{free:.2}/{limited:.2}"));
+        println!("{name} = {end}: {}", texts.join("  "));
+        // The safety limits are in force at once, and the platform brakes for them.
+        let what = format!("{name} = {end}");
+        let free = if EXTREME.contains(&what.as_str()) { EXTREME_BOUND } else { BOUNDS[0] };
+        let exceeds = largest.iter().any(|found| found[0] > free || found[1] > BOUNDS[1]);
+        if exceeds && !name.starts_with("safety.") {
+            failed.push(format!("{what}: {texts:?}"));
+        }
+    }
+    assert!(failed.is_empty(), "jolts of {}: free and at a limit [m/s2]\n{}", names.join(", "), failed.join("\n"));
 }

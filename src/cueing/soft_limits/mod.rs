@@ -17,6 +17,7 @@
 //! replaced by the nearest accelerations of all six coordinates. The ranges change continuously
 //! with the motion, so a smooth demand stays smooth.
 
+pub mod glide;
 pub mod nearest;
 mod retreat;
 #[cfg(test)]

@@ -15,11 +15,13 @@
 //! dq/dP2 are integrated beside the motion. The weights of travel and of its velocity, rho_x and
 //! rho_v, increase near the ends of the actuators' strokes.
 
+use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Circumstances, Decision, Law, Situation, Unsolvable};
+use super::law::{AxisState, Circumstances, Decision, Jump, Law, Situation, Unsolvable};
 use super::regulator::AxisModel;
+use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{AdaptiveParameters, Parameters};
 
 /// The strategy with its state.
@@ -28,6 +30,8 @@ pub struct Adaptive {
     models: [AxisModel; 2],
     parameters: AdaptiveParameters,
     axes: [Adaptation; 2],
+    /// Logarithms of the adaptation's numbers in force less those set.
+    glide: GlidingOffset<9>,
 }
 
 /// The gains of one axis, and the sensitivities to them.
@@ -64,9 +68,20 @@ impl Law for Adaptive {
         Ok(Adaptive::new(models, &on_rig(parameters)))
     }
 
-    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+    fn set_parameters(
+        &mut self,
+        models: &[AxisModel; 2],
+        parameters: &Parameters,
+        states: &[AxisState; 2],
+    ) -> Result<[Jump; 2], Unsolvable> {
+        let before = self.parameters;
         self.retune(models, &on_rig(parameters));
-        Ok(())
+        let in_motion = self.axes.iter().any(|axis| axis.to_travel_gain != [0.0; 2]);
+        if in_motion && before != self.parameters {
+            self.glide.add(&(logarithms(&before) - logarithms(&self.parameters)));
+        }
+        let less = |state: &AxisState| returning(&before, state) - returning(&self.parameters, state);
+        Ok(states.map(|state| Jump { force: less(&state), slope: less(&state.coasting()) }))
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
@@ -90,7 +105,7 @@ impl Adaptive {
     pub fn new(models: &[AxisModel; 2], parameters: &AdaptiveParameters) -> Self {
         let gains = [parameters.nominal1, parameters.nominal2];
         let axis = Adaptation { gains, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: [0.0; 2] };
-        Adaptive { models: *models, parameters: *parameters, axes: [axis; 2] }
+        Adaptive { models: *models, parameters: *parameters, axes: [axis; 2], glide: GlidingOffset::default() }
     }
 
     /// Changes the parameters. The gains continue from where they are.
@@ -109,10 +124,42 @@ impl Adaptive {
     ) -> [Decision; 2] {
         let near_end = (1.0 - stroke_margin / NEAR_END).max(0.0);
         let weight_scale = 1.0 + LARGEST_INCREASE * near_end * near_end;
+        let parameters = if self.glide.is_over() { self.parameters } else { self.gliding(step) };
         [0, 1].map(|k: usize| {
-            self.axes[k].decide(&self.models[k], &self.parameters, &states[k], references[k], weight_scale, step)
+            self.axes[k].decide(&self.models[k], &parameters, &states[k], references[k], weight_scale, step)
         })
     }
+}
+
+impl Adaptive {
+    /// The parameters in force after a step. Frequency and damping do not glide: what they change at
+    /// once is a correction of the dropped force.
+    #[cold]
+    fn gliding(&mut self, step: f64) -> AdaptiveParameters {
+        self.glide.advance(step);
+        let [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2] =
+            (logarithms(&self.parameters) + self.glide.values()).map(libm::exp).into();
+        AdaptiveParameters {
+            gain1,
+            gain2,
+            nominal1,
+            nominal2,
+            weight_position,
+            weight_velocity,
+            weight_tilt_rate,
+            pull1,
+            pull2,
+            ..self.parameters
+        }
+    }
+}
+
+/// Logarithms of the numbers of the adaptation.
+fn logarithms(parameters: &AdaptiveParameters) -> SVector<f64, 9> {
+    let AdaptiveParameters { gain1, gain2, nominal1, nominal2, pull1, pull2, .. } = *parameters;
+    let AdaptiveParameters { weight_position, weight_velocity, weight_tilt_rate, .. } = *parameters;
+    let numbers = [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2];
+    SVector::from(numbers.map(libm::log))
 }
 
 impl Adaptation {
@@ -134,10 +181,10 @@ impl Adaptation {
         let by_rate = limits.by_rate(step);
         let demanded = by_rate * (rate - tilt_rate);
         let alpha = limits.nearest_acceleration(state, demanded, step);
-        let AdaptiveParameters { omega, zeta, nominal1, nominal2, .. } = *parameters;
-        let (damping, stiffness) = (2.0 * zeta * omega, omega * omega);
+        let AdaptiveParameters { nominal1, nominal2, .. } = *parameters;
+        let [stiffness, damping] = stiffness_and_damping(parameters);
         // H alpha is not dropped: whatever its gain, travel makes up for the kick of a tilt that begins.
-        let dropped = (travel_gain - 1.0) * left - damping * velocity - stiffness * position;
+        let dropped = (travel_gain - 1.0) * left + returning(parameters, state);
 
         let limited = alpha != demanded || rate != tilt_gain * left || tilt.abs() >= model.angle_limit;
         let gravity = model.gravity * cos;
@@ -174,6 +221,18 @@ impl Adaptation {
         self.tilt = [sensitivity(tilted + step * turned), sensitivity(turned)];
         Decision { dropped_force: dropped, tilt_acceleration: alpha }
     }
+}
+
+/// Stiffness \[1/s2\] and damping \[1/s\] of travel.
+fn stiffness_and_damping(parameters: &AdaptiveParameters) -> [f64; 2] {
+    let AdaptiveParameters { omega, zeta, .. } = *parameters;
+    [omega * omega, 2.0 * zeta * omega]
+}
+
+/// The part of the dropped force that returns travel \[m/s2\].
+fn returning(parameters: &AdaptiveParameters, state: &AxisState) -> f64 {
+    let [stiffness, damping] = stiffness_and_damping(parameters);
+    -damping * state.velocity - stiffness * state.position
 }
 
 /// A sensitivity of position and velocity after a step.
@@ -402,6 +461,6 @@ mod tests {
         let axes = adaptive.axes;
         let model = AxisModel { gravity: 9.0, ..FREE };
         adaptive.retune(&[model; 2], &after);
-        assert_eq!(adaptive, Adaptive { models: [model; 2], parameters: after, axes });
+        assert_eq!(adaptive, Adaptive { models: [model; 2], parameters: after, axes, glide: GlidingOffset::default() });
     }
 }

@@ -18,11 +18,12 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Circumstances, Decision, Situation, Unsolvable};
+use super::law::{AxisState, Circumstances, Decision, Jump, Situation, Unsolvable};
 use super::laws::AnyLaw;
 use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
 use crate::cueing::compensation::{centripetal, tangential};
+use crate::filter::bumpless::GlidingOffset;
 use crate::interface::Parameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
@@ -40,6 +41,8 @@ pub struct Coordinated {
     /// True if a limit stops either tilt.
     pub limited: bool,
     dropped_force: [f64; 2],
+    /// Correction to the dropped forces, after a change of the law's parameters.
+    offset: GlidingOffset<2>,
     /// Fraction of the law in force; the rest returns to neutral.
     fraction: f64,
     /// 1: the law decides, 0: it has nothing to decide by, as after the end of a plan; between
@@ -72,17 +75,35 @@ impl Coordinated {
             tilt: [Motion::default(); 2],
             limited: false,
             dropped_force: [0.0; 2],
+            offset: GlidingOffset::default(),
             fraction: 1.0,
             decided: 1.0,
         }))
     }
 
-    /// Takes other parameters.
+    /// Takes other parameters, where this is the platform's motion. The dropped forces fade to those
+    /// of the new parameters.
     ///
     /// # Errors
     /// The strategy's weights cannot be used. Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
-        self.law.set_parameters(&models(parameters), parameters)
+    pub fn retune(&mut self, parameters: &Parameters, linear: &Motion<Vector3<f64>>) -> Result<(), Unsolvable> {
+        let states = self.states(linear);
+        let jumps = self.law.set_parameters(&models(parameters), parameters, &states)?;
+        if jumps != [Jump::default(); 2] {
+            self.offset.add_with_slopes(&jumps.map(|jump| jump.force).into(), &jumps.map(|jump| jump.slope).into());
+        }
+        Ok(())
+    }
+
+    /// States of surge and sway.
+    fn states(&self, linear: &Motion<Vector3<f64>>) -> [AxisState; 2] {
+        [0, 1].map(|k: usize| AxisState {
+            position: linear.position[k],
+            velocity: linear.velocity[k],
+            tilt: self.tilt[k].position,
+            tilt_rate: self.tilt[k].velocity,
+            tilt_acceleration: self.tilt[k].acceleration,
+        })
     }
 
     /// Roll and pitch of the tilt.
@@ -95,14 +116,7 @@ impl Coordinated {
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
     pub fn advance_tilt(&mut self, circumstances: &Circumstances, step: f64) {
         let Circumstances { parameters, guard, engagement, .. } = *circumstances;
-        let linear = &guard.now().coordinates.linear;
-        let states = [0, 1].map(|k: usize| AxisState {
-            position: linear.position[k],
-            velocity: linear.velocity[k],
-            tilt: self.tilt[k].position,
-            tilt_rate: self.tilt[k].velocity,
-            tilt_acceleration: self.tilt[k].acceleration,
-        });
+        let states = self.states(&guard.now().coordinates.linear);
         let situation = Situation { states, references: circumstances.effective_references(), circumstances };
         let decisions = self.law.decisions(&situation, step);
         // Where a law has nothing to decide by, the dropped force stays while the return fades in.
@@ -111,6 +125,7 @@ impl Coordinated {
         let fraction = self.decided * engagement;
         let decisions = decisions
             .unwrap_or(self.dropped_force.map(|dropped_force| Decision { dropped_force, tilt_acceleration: 0.0 }));
+        self.offset.advance(step);
         let tilt = &parameters.tilt;
         let longest_step = parameters.structure.max_step;
         let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, longest_step);
@@ -151,8 +166,9 @@ impl Coordinated {
         // acceleration is compensated all the same: it may jump.
         let returning = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
         let alone = Vector3::new(returning.x, returning.y, heave.acceleration + parameters.structure.gravity);
+        let offset = self.offset.values();
         let needed = [0, 1].map(|k: usize| {
-            let cued = force[k] + self.dropped_force[k];
+            let cued = force[k] + self.dropped_force[k] + offset[k];
             self.fraction * cued + (1.0 - self.fraction) * axes[k].dot(&alone) - axes[k].dot(&beside)
         });
         let determinant = axes[0].x * axes[1].y - axes[0].y * axes[1].x;

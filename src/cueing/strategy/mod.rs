@@ -57,19 +57,19 @@ impl Strategy {
         }
     }
 
-    /// Takes other parameters.
+    /// Takes other parameters, where this is the platform's motion.
     ///
     /// # Errors
     /// Its weights cannot be used. Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
+    pub fn retune(&mut self, parameters: &Parameters, linear: &Motion<Vector3<f64>>) -> Result<(), ParameterError> {
         match self {
             Strategy::Classical(classical) => {
                 classical.retune(parameters);
                 Ok(())
             }
-            Strategy::Coordinated(coordinated) => {
-                coordinated.retune(parameters).map_err(|reason| reason.of_strategy(parameters.structure.strategy))
-            }
+            Strategy::Coordinated(coordinated) => coordinated
+                .retune(parameters, linear)
+                .map_err(|reason| reason.of_strategy(parameters.structure.strategy)),
         }
     }
 

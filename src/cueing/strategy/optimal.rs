@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, Situation, Unsolvable};
 use super::minimax::Disturbance;
 use super::regulator::{AxisModel, Regulator, State, Weights};
 use crate::interface::{OptimalParameters, Parameters};
@@ -19,8 +19,9 @@ pub struct Optimal {
     models: [AxisModel; 2],
     regulators: [Regulator; 2],
     tuning: Tuning,
-    /// Low-pass of each axis's reference \[m/s2\].
+    /// Low-pass of each axis's reference, and the rest of it \[m/s2\].
     slow: [f64; 2],
+    fast: [f64; 2],
 }
 
 /// The tunable parameters.
@@ -44,8 +45,13 @@ impl Law for Optimal {
         Optimal::new(models, &(&parameters.optimal).into())
     }
 
-    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-        self.retune(models, &(&parameters.optimal).into())
+    fn set_parameters(
+        &mut self,
+        models: &[AxisModel; 2],
+        parameters: &Parameters,
+        states: &[AxisState; 2],
+    ) -> Result<[Jump; 2], Unsolvable> {
+        self.retune(models, &(&parameters.optimal).into(), states)
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
@@ -80,18 +86,33 @@ impl Optimal {
             Some(disturbance) => disturbance.regulator(&weighed(&models[axis]), &tuning.weights),
         };
         let regulators = [regulator(0)?, regulator(1)?];
-        Ok(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2] })
+        Ok(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2], fast: [0.0; 2] })
     }
 
-    /// Takes other parameters.
+    /// Takes other parameters. Returns by how much less the dropped forces are for them in these
+    /// states.
     ///
     /// # Errors
     /// The weights cannot be used. Nothing has changed then.
-    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> Result<(), Unsolvable> {
-        if (models, tuning) != (&self.models, &self.tuning) {
-            *self = Optimal { slow: self.slow, ..Optimal::new(models, tuning)? };
+    pub fn retune(
+        &mut self,
+        models: &[AxisModel; 2],
+        tuning: &Tuning,
+        states: &[AxisState; 2],
+    ) -> Result<[Jump; 2], Unsolvable> {
+        if (models, tuning) == (&self.models, &self.tuning) {
+            return Ok([Jump::default(); 2]);
         }
-        Ok(())
+        let before = *self;
+        *self = Optimal { slow: self.slow, fast: self.fast, ..Optimal::new(models, tuning)? };
+        let at_rest = |law: &Optimal| Optimal { slow: [0.0; 2], fast: [0.0; 2], ..*law };
+        let less = |before: &Optimal, after: &Optimal, k: usize, state: &AxisState| {
+            before.control(k, state).dropped_force - after.control(k, state).dropped_force
+        };
+        Ok([0, 1].map(|k: usize| Jump {
+            force: less(&before, self, k, &states[k]),
+            slope: less(&at_rest(&before), &at_rest(self), k, &states[k].coasting()),
+        }))
     }
 
     /// Decision for a step of `step` seconds that begins in these states, with these
@@ -100,12 +121,17 @@ impl Optimal {
         let fraction = 1.0 - libm::exp(-step / self.tuning.split_time);
         [0, 1].map(|k: usize| {
             self.slow[k] = at_rest_if_tiny(self.slow[k] + fraction * (references[k] - self.slow[k]));
-            let AxisState { position, velocity, tilt, tilt_rate, .. } = states[k];
-            let (slow, fast) = (self.slow[k], references[k] - self.slow[k]);
-            let state = State::new(position, velocity, tilt, tilt_rate, slow, fast);
-            let [dropped_force, tilt_acceleration] = self.regulators[k].control(&state);
-            Decision { dropped_force, tilt_acceleration }
+            self.fast[k] = references[k] - self.slow[k];
+            self.control(k, &states[k])
         })
+    }
+
+    /// The decision in this state of an axis.
+    fn control(&self, axis: usize, state: &AxisState) -> Decision {
+        let AxisState { position, velocity, tilt, tilt_rate, .. } = *state;
+        let state = State::new(position, velocity, tilt, tilt_rate, self.slow[axis], self.fast[axis]);
+        let [dropped_force, tilt_acceleration] = self.regulators[axis].control(&state);
+        Decision { dropped_force, tilt_acceleration }
     }
 }
 
@@ -165,15 +191,25 @@ mod tests {
     fn retuning_keeps_the_slow_part_and_without_a_regulator_everything() {
         let mut optimal = after(6, [1.5, -0.7]);
         let before = optimal;
-        optimal.retune(&[MODEL; 2], &tuning()).unwrap();
+        let states = [AxisState { position: 0.1, velocity: 0.2, tilt: 0.05, ..AxisState::default() }; 2];
+        optimal.retune(&[MODEL; 2], &tuning(), &states).unwrap();
         assert_eq!(optimal, before);
-        let other = Tuning { split_time: 0.3, ..tuning() };
-        optimal.retune(&[MODEL; 2], &other).unwrap();
-        assert_eq!(optimal, Optimal { slow: before.slow, ..Optimal::new(&[MODEL; 2], &other).unwrap() });
+        let other = Tuning { weights: Weights { position: 2.0, ..tuning().weights }, ..tuning() };
+        let jumps = optimal.retune(&[MODEL; 2], &other, &states).unwrap();
+        let made = Optimal::new(&[MODEL; 2], &other).unwrap();
+        assert_eq!(optimal, Optimal { slow: before.slow, fast: before.fast, ..made });
+        for k in 0..2 {
+            let state = State::new(0.1, 0.2, 0.05, 0.0, before.slow[k], before.fast[k]);
+            let [old, new] = [&before, &made].map(|law| law.regulators[k].control(&state)[0]);
+            let found = jumps[k].force;
+            assert!((found - (old - new)).abs() < 1e-12 && found.abs() > 1e-3, "{found}");
+            let gain = |law: &Optimal| law.regulators[k].gains[(0, 0)];
+            assert!((jumps[k].slope - 0.2 * (gain(&made) - gain(&before))).abs() < 1e-12, "{jumps:?}");
+        }
         assert_ne!(optimal.slow, [0.0; 2]);
         let kept = optimal;
         let unusable = Weights { position: f64::NAN, ..other.weights };
-        let refused = optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other });
+        let refused = optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other }, &states);
         assert_eq!(refused, Err(Unsolvable::RiccatiEquation));
         assert_eq!(optimal, kept);
     }

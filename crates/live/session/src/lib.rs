@@ -20,7 +20,7 @@
 //! | [`gate`] | change of the washout's source without a jump |
 //! | [`legs`] | where the legs are before they follow commands |
 //! | [`travel`] | the way between the settled pose and neutral |
-//! | [`tuning`] | parameters that glide to chosen values |
+//! | [`tuning`] | parameters that are chosen in motion |
 //! | [`signs`] | test of the telemetry's signs |
 //! | [`sizes`] | test of its units, axes and gravity |
 //! | [`relation`] | how two signals go together |

@@ -438,7 +438,7 @@ impl Session {
         }
         tuning::check_in_motion(self.tuning.target(), &self.slots)?;
         self.washout.clone().retune(parameters)?;
-        self.tuning.glide_to(&self.slots);
+        self.tuning.choose(&self.slots);
         Ok(())
     }
 
@@ -583,14 +583,7 @@ impl Session {
             self.follow(Event::Disengage);
         }
         self.adjust_delay();
-        if let Some(parameters) = self.tuning.advance(self.steps) {
-            let gentle = tuning::with_gentle_limits(&parameters, &self.washout);
-            if gentle != parameters {
-                self.tuning.go_on();
-            }
-            // Values on the way may be refused where both ends are not: the next ones follow.
-            let _ = self.washout.retune(&gentle);
-        }
+        self.tuning.apply(&mut self.washout, self.steps);
         self.learn_road(now - STEP - self.delay);
         let (at, change) = self.input(now);
         let [start, end] = self.gate.advance(&at.motion, &at.slope, change, STEP);

@@ -1,41 +1,35 @@
-//! Parameters that glide to chosen values within about 2 s.
+//! Parameters that are chosen in motion.
+//!
+//! The washout fades changes in. Tighter limits of tilt and of the safety units would be in force at
+//! once, and wait here until the platform keeps them gently.
 
-use moris_interface::{Group as _, Kind, Reader, refuse};
-use moris_washout::interface::{SafetyParameters, SoftLimitParameters, TiltParameters};
+use moris_interface::{Group as _, Reader, refuse};
+use moris_washout::interface::{SafetyParameters, TiltParameters};
 use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::log::name_of;
 
 /// Steps from one change to the next.
 const INTERVAL: u64 = 40;
-/// Part of the way that each of two lags goes in an interval: 98 % are gone after 2 s.
+/// Part by which a limit becomes tighter in an interval.
 const PART: f64 = 0.108;
 /// Parts of new limits within which the platform must be before they come into force.
 const INSIDE: f64 = 0.8;
-/// Speed below which the platform may come to rest anywhere \[m/s\].
-const SLOW: f64 = 0.01;
-/// Most by which the soft limits' margin grows in an interval \[m\].
-const NARROWER: f64 = 0.007;
 /// Least pace with which a limit is approached \[1/s\], where the soft limits have none.
 const SLOWEST: f64 = 1.0;
 
-/// Part of a value by which it may still differ when it becomes the chosen one.
-const NEAR: f64 = 1e-3;
-
-/// The parameters in force, and those to which they glide. Each value follows through two equal
-/// lags, positive ones by factors.
+/// The chosen parameters.
 #[derive(Clone, Debug)]
 pub struct Tuning {
     target: Vec<f64>,
-    middle: Vec<f64>,
-    value: Vec<f64>,
-    glides: bool,
+    /// Not all of them are in force.
+    waits: bool,
 }
 
 impl Tuning {
-    /// At these values of all slots.
+    /// These values of all slots, which are in force.
     pub fn new(slots: &[f64]) -> Tuning {
-        Tuning { target: slots.to_vec(), middle: slots.to_vec(), value: slots.to_vec(), glides: false }
+        Tuning { target: slots.to_vec(), waits: false }
     }
 
     /// The chosen values.
@@ -43,59 +37,31 @@ impl Tuning {
         &self.target
     }
 
-    /// At these values at once.
+    /// Chooses these values, which are in force.
     pub fn set(&mut self, slots: &[f64]) {
-        for values in [&mut self.target, &mut self.middle, &mut self.value] {
-            values.copy_from_slice(slots);
-        }
-        self.glides = false;
-    }
-
-    /// Glides to these values.
-    pub fn glide_to(&mut self, slots: &[f64]) {
         self.target.copy_from_slice(slots);
-        self.glides = true;
+        self.waits = false;
     }
 
-    /// Goes on, because not all values could come into force.
-    pub fn go_on(&mut self) {
-        self.glides = true;
+    /// Chooses these values.
+    pub fn choose(&mut self, slots: &[f64]) {
+        self.target.copy_from_slice(slots);
+        self.waits = true;
     }
 
-    /// The parameters after this step, if they change then.
-    pub fn advance(&mut self, step: u64) -> Option<Parameters> {
-        if !self.glides || !step.is_multiple_of(INTERVAL) {
-            return None;
+    /// Puts the chosen values into force as far as the platform keeps them gently, if this step is
+    /// one for that.
+    pub fn apply(&mut self, washout: &mut Washout, step: u64) {
+        if !self.waits || !step.is_multiple_of(INTERVAL) {
+            return;
         }
-        let mut arrived = true;
-        for slot in 0..self.target.len() {
-            let target = self.target[slot];
-            let is_real = matches!(Parameters::ROWS[usize::from(Parameters::SLOTS[slot].row)].kind, Kind::Real(_));
-            let [middle, value] = if is_real {
-                let middle = nearer(self.middle[slot], target);
-                [middle, nearer(self.value[slot], middle)]
-            } else {
-                [target; 2]
-            };
-            (self.middle[slot], self.value[slot]) = (middle, value);
-            let least = NEAR * target.abs().max(1e-3);
-            arrived &= (middle - target).abs() <= least && (value - target).abs() <= least;
-        }
-        if arrived {
-            self.middle.copy_from_slice(&self.target);
-            self.value.copy_from_slice(&self.target);
-            self.glides = false;
-        }
-        Some(Parameters::read(&mut Reader::new(&self.value)))
+        let parameters = Parameters::read(&mut Reader::new(&self.target));
+        let (safety, tilt) = (with_room(&parameters, washout), with_tilt(&parameters, washout));
+        let gentle = Parameters { safety, tilt, ..parameters };
+        self.waits = gentle != parameters;
+        // Limits on the way may be refused where both ends are not: the next ones follow.
+        self.waits |= washout.retune(&gentle).is_err();
     }
-}
-
-/// These parameters, with limits in force that the platform can keep gently now.
-pub fn with_gentle_limits(parameters: &Parameters, washout: &Washout) -> Parameters {
-    let safety = with_room(parameters, washout);
-    let tilt = with_tilt(parameters, washout);
-    let parameters = Parameters { safety, tilt, ..*parameters };
-    Parameters { soft_limit: with_pace(&parameters, washout), ..parameters }
 }
 
 /// The tilt's limits of these parameters. Where a tilt is beyond smaller ones, or could not end
@@ -143,30 +109,6 @@ fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
         }
     }
     safety
-}
-
-/// The soft limits of these parameters, towards which they change gradually. Those in force stay
-/// while the platform is so fast that a lower pace or a larger margin would not stop it in time:
-/// the guard would have to.
-fn with_pace(parameters: &Parameters, washout: &Washout) -> SoftLimitParameters {
-    let before = washout.parameters().soft_limit;
-    let SoftLimitParameters { pace, margin } = parameters.soft_limit;
-    let soft_limit = SoftLimitParameters {
-        pace: pace.max((1.0 - PART) * before.pace),
-        margin: margin.min(before.margin + NARROWER),
-    };
-    let is_gentler = soft_limit.pace < before.pace || soft_limit.margin > before.margin;
-    let stops = !is_gentler || washout.soft_limits_stop(&Parameters { soft_limit, ..*parameters }, INSIDE, SLOW);
-    if stops { soft_limit } else { before }
-}
-
-/// A value that has gone a part of the way to another.
-fn nearer(from: f64, to: f64) -> f64 {
-    match () {
-        () if from == to => to,
-        () if from > 0.0 && to > 0.0 => from * libm::pow(to / from, PART),
-        () => from + PART * (to - from),
-    }
 }
 
 /// Checks that values may change in this way while the platform moves: a scale keeps its sign, and

@@ -30,8 +30,9 @@ use self::horizon::{BLOCKS, Horizon, SAMPLE, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::PreviewedCue;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
-use super::law::{AxisState, Decision, Law, PlanStatus, Previewed, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, PlanStatus, Previewed, Situation, Unsolvable};
 use super::regulator::{AxisModel, Weights};
+use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
 
 /// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
@@ -81,7 +82,14 @@ pub struct Predictive {
     /// [`MAX_DROPPED_SLOPE`].
     dropped_forces: [f64; 2],
     homing: [Homing; 2],
+    /// Logarithms of the weights and poles in force less those set.
+    glide: GlidingOffset<6>,
+    /// Time until the programs follow the glide again \[s\].
+    until_followed: f64,
 }
+
+/// Time from one change of the programs to the next while the weights glide \[s\].
+const FOLLOW_TIME: f64 = 0.06;
 
 /// A plan, and how far it has been carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -112,8 +120,14 @@ impl Law for Box<Predictive> {
         Predictive::new(models, &(&parameters.predictive).into()).map(Box::new)
     }
 
-    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-        self.retune(models, &(&parameters.predictive).into())
+    fn set_parameters(
+        &mut self,
+        models: &[AxisModel; 2],
+        parameters: &Parameters,
+        _states: &[AxisState; 2],
+    ) -> Result<[Jump; 2], Unsolvable> {
+        // The dropped forces go on from where they are.
+        self.retune(models, &(&parameters.predictive).into()).map(|()| [Jump::default(); 2])
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
@@ -196,10 +210,13 @@ impl Predictive {
             plan,
             dropped_forces: [0.0; 2],
             homing: [Homing::default(); 2],
+            glide: GlidingOffset::default(),
+            until_followed: 0.0,
         })
     }
 
-    /// Changes the parameters. The plan stays; the next one is made with them.
+    /// Changes the parameters. The plan stays; the next one is made with them. In motion, weights and
+    /// poles glide to their values.
     ///
     /// # Errors
     /// The weights cannot be used. Nothing has changed then.
@@ -208,11 +225,28 @@ impl Predictive {
             return Ok(());
         }
         self.programs.retune(models, &tuning.weights)?;
-        program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
-        (self.models, self.tuning) = (*models, *tuning);
+        let before = std::mem::replace(&mut self.tuning, *tuning);
+        self.models = *models;
+        if before.weights != tuning.weights && self.dropped_forces != [0.0; 2] {
+            self.glide.add(&(logarithms(&before.weights) - logarithms(&tuning.weights)));
+        }
+        self.follow_glide();
         self.solver.abandon();
         self.due = true;
         Ok(())
+    }
+
+    /// Makes the programs with the weights in force.
+    fn follow_glide(&mut self) {
+        if !self.glide.is_over() {
+            let [position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole] =
+                (logarithms(&self.tuning.weights) + self.glide.values()).map(libm::exp).into();
+            let weights = Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole };
+            // Weights on the way may be unusable where both ends are not: the next ones follow.
+            let _ = self.programs.retune(&self.models, &weights);
+        }
+        program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
+        self.until_followed = FOLLOW_TIME;
     }
 
     /// The plan that is being carried out.
@@ -231,6 +265,9 @@ impl Predictive {
         step: f64,
     ) -> Option<[Decision; 2]> {
         if self.due && self.solver.status() != Status::Running {
+            if !self.glide.is_over() && self.until_followed <= 0.0 {
+                self.follow_glide();
+            }
             self.begin(states, surroundings, time_to_stop);
         } else {
             self.proceed(step);
@@ -249,6 +286,15 @@ impl Predictive {
         });
         self.plan.age += step;
         self.begun += step;
+        if !self.glide.is_over() {
+            self.until_followed -= step;
+            self.glide.advance(step);
+            if self.glide.is_over() {
+                let _ = self.programs.retune(&self.models, &self.tuning.weights);
+                program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
+                self.solver.abandon();
+            }
+        }
         decisions
     }
 
@@ -304,8 +350,9 @@ impl Predictive {
             self.free[k] = axis.free_nodes(&data);
             gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
             let free = axis.rows(&self.free[k], &AxisControls::zeros());
-            self.rows.lower.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| -1.0 - value));
-            self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| 1.0 - value));
+            let bounds = axis.bounds(&states[k]);
+            self.rows.lower.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(-bounds - free));
+            self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(bounds - free));
         }
         self.limit_legs(surroundings);
         self.solver.start(&self.programs.over(horizon).factor, &gradient);
@@ -377,6 +424,12 @@ impl Predictive {
         self.plan.iterations = self.solver.iterations();
         self.plan.kept = false;
     }
+}
+
+/// Logarithms of weights and poles.
+fn logarithms(weights: &Weights) -> SVector<f64, 6> {
+    let Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole } = *weights;
+    SVector::from([position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole].map(libm::log))
 }
 
 impl Plan {

@@ -26,6 +26,7 @@ use super::expected::Forecast;
 use super::horizon::{BLOCKS, Horizon, reserved};
 use crate::cueing::strategy::law::{AxisState, Unsolvable};
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
+use crate::motion::min_max::max;
 
 /// Variables of an axis: dropped forces at the nodes \[m/s2\], then tilt accelerations of the
 /// blocks relative to their limit.
@@ -312,7 +313,37 @@ impl AxisProgram {
     }
 }
 
+/// Part by which a tilt or its rate has to be beyond its limit for the rows to give way.
+const BEYOND: f64 = 0.01;
+/// Times after which a tilt and its rate return to their limits \[s\], with half of what the limits
+/// of rate and acceleration allow.
+const TURN_TIMES: [f64; 2] = [0.3, 0.1];
+const RETURN_PART: f64 = 0.5;
+
 impl AxisProgram {
+    /// Bound of each row's magnitude: 1, and as much more at the nodes of a tilt that is beyond new
+    /// limits as it needs for its way back.
+    pub fn bounds(&self, state: &AxisState) -> SVector<f64, AXIS_ROWS> {
+        let AxisModel { angle_limit, rate_limit, acceleration_limit, .. } = self.model;
+        let mut bounds = SVector::repeat(1.0);
+        let AxisState { tilt, tilt_rate, tilt_acceleration, .. } = *state;
+        let approached = self.model.tilt_limits().approached(tilt, tilt_rate, tilt_acceleration);
+        let angle = max(approached[0].abs(), tilt.abs()) / angle_limit;
+        let rate = max(approached[1].abs(), tilt_rate.abs()) / (RATE_FRACTION * rate_limit);
+        let returns = [(2, angle, rate_limit / angle_limit), (3, rate, acceleration_limit / rate_limit)];
+        for ((row, beyond, fastest), turn_time) in returns.into_iter().zip(TURN_TIMES) {
+            if beyond <= 1.0 + BEYOND {
+                continue;
+            }
+            for (node, time) in self.horizon.ends().into_iter().enumerate() {
+                let returned = RETURN_PART * fastest * max(time - turn_time, 0.0);
+                bounds[4 * node + row] = max(beyond + BEYOND - returned, 1.0);
+            }
+        }
+        bounds[AXIS_ROWS - 1] = bounds[4 * (BLOCKS - 1) + 2];
+        bounds
+    }
+
     /// Position in the middle of a block after the first.
     ///
     /// It is that of the cubic through the nodes, and by the tilt acceleration a term of fourth

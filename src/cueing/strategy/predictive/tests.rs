@@ -221,12 +221,16 @@ fn retuning_is_construction_and_what_cannot_be_used_changes_nothing() {
     let models = [AxisModel { position_limit: 0.2, ..MODEL }, MODEL];
     let other = Tuning { weights: Weights { position: 2.0, ..tuning.weights }, ..tuning };
     predictive.retune(&models, &other).unwrap();
+    // The plan stays until the next one is made, and the weights glide.
+    assert!(predictive.due && predictive.plan == before.plan);
+    let hessian = |programs: &Programs| *programs.near.axes[0].hessian();
+    let begun = Programs::new(&models, &tuning.weights).unwrap();
+    assert!((hessian(&predictive.programs) - hessian(&begun)).amax() < 1e-9 * hessian(&begun).amax());
+    passed(&mut predictive, 10_000, 3.0);
     let made = Predictive::new(&models, &other).unwrap();
     assert_eq!((&predictive.programs, predictive.models, predictive.tuning), (&made.programs, models, other));
     let normals = |predictive: &Predictive| predictive.rows.normals[..2 * AXIS_ROWS].to_vec();
     assert_eq!(normals(&predictive), normals(&made));
-    // The plan stays until the next one is made.
-    assert!(predictive.due && predictive.plan == before.plan);
 }
 
 #[test]

@@ -92,27 +92,6 @@ fn soft_limits_brake_gently_at_their_extremes_and_between() {
 }
 
 #[test]
-fn a_scale_glides_over_two_seconds() {
-    let all = packets(20.0, |t| {
-        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
-    });
-    let slot = slot_of("scale.specificForce.x").unwrap();
-    let mut scales = Vec::new();
-    course(&Parameters::default(), &Settings::default(), &all, 19.0, |session| {
-        if (session.time() - 12.0).abs() < 0.5 * STEP {
-            session.choose(slot, 0.1);
-            session.retune().unwrap();
-        }
-        scales.push(session.washout().parameters().conditioning.force_scale.x);
-    });
-    let at = |t: f64| scales[(t / STEP).round() as usize];
-    assert_eq!(at(12.0), 1.0);
-    assert!(at(12.2) > 0.7 && (0.15..0.6).contains(&at(12.8)), "{} {}", at(12.2), at(12.8));
-    assert!((at(14.0) - 0.1).abs() < 0.02 && at(16.0) == 0.1, "{} {}", at(14.0), at(16.0));
-    assert!(scales.windows(2).all(|pair| pair[1] <= pair[0] && pair[1] >= 0.8 * pair[0]));
-}
-
-#[test]
 fn other_signs_and_switches_are_refused_in_motion_with_the_reason() {
     let all = packets(20.0, |t| {
         Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
