@@ -14,7 +14,7 @@ use super::place::WORDS;
 /// Names of the commands.
 pub const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
 /// Longest line that may be a command \[bytes\].
-const LONGEST: usize = 256;
+const MAX_COMMAND_LENGTH: usize = 256;
 
 /// Standard input, which never stops this program.
 #[cfg(unix)]
@@ -31,7 +31,7 @@ pub fn input() -> impl Read {
 /// Passes lines on as commands until the input ends.
 pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
     let mut bytes = [0; 4096];
-    let mut line = Vec::with_capacity(LONGEST);
+    let mut line = Vec::with_capacity(MAX_COMMAND_LENGTH);
     loop {
         let count = match input.read(&mut bytes) {
             Ok(0) => return,
@@ -46,7 +46,7 @@ pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
             if *byte == b'\n' {
                 take(&line, &mut commands);
                 line.clear();
-            } else if line.len() <= LONGEST {
+            } else if line.len() <= MAX_COMMAND_LENGTH {
                 line.push(*byte);
             }
         }

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 /// Failures in a row that are no loss yet: a system reports each refused packet once, with a later
 /// one, which may be sent.
-const FEW: u32 = 2;
+const TOLERATED_FAILURES: u32 = 2;
 /// Time without a failure after which a failure begins a new row.
-const QUIET: Duration = Duration::from_secs(1);
+const FAILURE_RESET_TIME: Duration = Duration::from_secs(1);
 
 /// Failures of sending.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ impl Contact {
     /// Contact with a controller that gets frames at this interval \[s\].
     pub fn new(interval: f64) -> Self {
         // Within 0.5 s, of which every other frame is refused.
-        let most = if interval > 0.05 { 1 } else { FEW + 1 };
+        let most = if interval > 0.05 { 1 } else { TOLERATED_FAILURES + 1 };
         Contact { most, failures: 0, last: Duration::ZERO, is_lost: false }
     }
 
@@ -45,7 +45,7 @@ impl Contact {
     /// Takes what has become of a frame. The reason, if the controller is lost with it.
     pub fn take(&mut self, sent: &io::Result<()>, now: Duration) -> Option<ErrorKind> {
         let kind = sent.as_ref().err()?.kind();
-        if now.saturating_sub(self.last) > QUIET {
+        if now.saturating_sub(self.last) > FAILURE_RESET_TIME {
             self.failures = 0;
         }
         self.last = now;

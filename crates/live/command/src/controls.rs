@@ -8,7 +8,7 @@ use moris_pages::ride::{RiderCommand, RoadPlace};
 use serde::Serialize;
 
 /// Time without word from the page after which the controls are released.
-const SILENT: Duration = Duration::from_millis(500);
+const CONTROLS_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Kind of a vehicle's controls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -61,7 +61,7 @@ impl Controls {
         check("brake", command.brake, 0.0..=1.0)?;
         check("stick", command.stick, -1.0..=1.0)?;
         let mut held = self.lock();
-        (held.command, held.until) = (*command, now + SILENT);
+        (held.command, held.until) = (*command, now + CONTROLS_TIMEOUT);
         Ok(())
     }
 

@@ -4,25 +4,25 @@ use std::fmt::{self, Display, Formatter};
 use std::time::Duration;
 
 /// Upper ends of the classes \[us\].
-const CLASSES: [u64; 10] = [20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000];
+const CLASS_LIMITS_US: [u64; 10] = [20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000];
 /// Width of a bin \[us\], and their number: up to 20 ms.
-const WIDTH: u64 = 5;
-const BINS: usize = 4_000;
+const BIN_WIDTH_US: u64 = 5;
+const BIN_COUNT: usize = 4_000;
 
 /// Counts of delays by their length.
 #[derive(Clone, Debug)]
 pub struct Lateness {
-    bins: [u32; BINS],
-    counts: [u64; CLASSES.len() + 1],
+    bins: [u32; BIN_COUNT],
+    counts: [u64; CLASS_LIMITS_US.len() + 1],
     largest: Duration,
 }
 
 /// The upper end of each class \[ms\], of the last the largest time, and its count.
-pub type Classes = [(f64, u64); CLASSES.len() + 1];
+pub type Classes = [(f64, u64); CLASS_LIMITS_US.len() + 1];
 
 impl Default for Lateness {
     fn default() -> Self {
-        Lateness { bins: [0; BINS], counts: Default::default(), largest: Duration::ZERO }
+        Lateness { bins: [0; BIN_COUNT], counts: Default::default(), largest: Duration::ZERO }
     }
 }
 
@@ -30,9 +30,9 @@ impl Lateness {
     /// Counts a delay.
     pub fn take(&mut self, late: Duration) {
         let micros = late.as_micros().min(u128::from(u64::MAX)) as u64;
-        let class = CLASSES.iter().position(|end| micros <= *end).unwrap_or(CLASSES.len());
+        let class = CLASS_LIMITS_US.iter().position(|end| micros <= *end).unwrap_or(CLASS_LIMITS_US.len());
         self.counts[class] += 1;
-        if let Some(bin) = self.bins.get_mut((micros / WIDTH) as usize) {
+        if let Some(bin) = self.bins.get_mut((micros / BIN_WIDTH_US) as usize) {
             *bin += 1;
         }
         self.largest = self.largest.max(late);
@@ -40,13 +40,15 @@ impl Lateness {
 
     /// Counts in classes, for printing.
     pub fn classes(&self) -> Classes {
-        let end = |class: usize| CLASSES.get(class).map_or(self.largest.as_secs_f64() * 1e3, |end| *end as f64 * 1e-3);
+        let end = |class: usize| {
+            CLASS_LIMITS_US.get(class).map_or(self.largest.as_secs_f64() * 1e3, |end| *end as f64 * 1e-3)
+        };
         std::array::from_fn(|class| (end(class), self.counts[class]))
     }
 
     /// Times longer than that of a step.
     pub fn overruns(&self) -> u64 {
-        let on_time = CLASSES.iter().filter(|end| **end <= 1_000).count();
+        let on_time = CLASS_LIMITS_US.iter().filter(|end| **end <= 1_000).count();
         self.counts[on_time..].iter().sum()
     }
 
@@ -57,7 +59,7 @@ impl Lateness {
         for (bin, of_bin) in self.bins.iter().enumerate() {
             count += f64::from(*of_bin);
             if count >= wanted {
-                return ((bin as u64 + 1) * WIDTH) as f64;
+                return ((bin as u64 + 1) * BIN_WIDTH_US) as f64;
             }
         }
         self.largest.as_secs_f64() * 1e6

@@ -1,7 +1,7 @@
 //! Lines in bytes that come in parts.
 
 /// Longest line \[bytes\]; a longer one is dropped.
-const LONGEST: usize = 512;
+const MAX_LINE_LENGTH: usize = 512;
 
 /// The beginning of a line whose end has not come yet.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +20,7 @@ impl Lines {
                 }
                 self.begun.clear();
                 self.is_too_long = false;
-            } else if self.begun.len() < LONGEST {
+            } else if self.begun.len() < MAX_LINE_LENGTH {
                 self.begun.push(*byte);
             } else {
                 self.is_too_long = true;

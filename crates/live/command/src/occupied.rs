@@ -40,7 +40,7 @@ pub struct Occupied {
 }
 
 /// The file's text during a session, and after one that has not parked.
-const LEFT: &str = "left";
+const NOT_PARKED_MARK: &str = "left";
 
 impl Occupied {
     /// Takes the controller that `--to` names.
@@ -62,7 +62,7 @@ impl Occupied {
     /// as it is.
     pub fn leave(&mut self, is_left: bool) {
         if let Some(file) = self.file.as_mut().filter(|_| self.is_own) {
-            let text = if is_left { LEFT } else { "" };
+            let text = if is_left { NOT_PARKED_MARK } else { "" };
             let _ = file.rewind().and_then(|()| file.set_len(0)).and_then(|()| file.write_all(text.as_bytes()));
         }
     }
@@ -75,9 +75,9 @@ impl Occupied {
         match lock(&path) {
             Ok(file) => {
                 let mut text = String::new();
-                let is_read = (&file).take(1 + LEFT.len() as u64).read_to_string(&mut text).is_ok();
-                taken.is_own = is_read && ["", LEFT].contains(&text.as_str());
-                taken.was_left = text == LEFT;
+                let is_read = (&file).take(1 + NOT_PARKED_MARK.len() as u64).read_to_string(&mut text).is_ok();
+                taken.is_own = is_read && ["", NOT_PARKED_MARK].contains(&text.as_str());
+                taken.was_left = text == NOT_PARKED_MARK;
                 taken.file = Some(file);
             }
             Err(TryLockError::WouldBlock) => return Err(occupied(target, &path)),

@@ -12,9 +12,9 @@ use super::journal::say;
 use super::page::Desk;
 
 /// Longest time that is looked ahead \[s\].
-const LONGEST: f64 = 120.0;
+const MAX_PARKING_TIME: f64 = 120.0;
 /// Time between looks for a session that parks.
-const LOOK: Duration = Duration::from_millis(20);
+const PARKING_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Says how long parking takes, for each copy of the session that begins to park.
 pub fn forecast(mut parking: Consumer<Session>, page: Option<&Desk>, shared: &Shared) {
@@ -23,10 +23,10 @@ pub fn forecast(mut parking: Consumer<Session>, page: Option<&Desk>, shared: &Sh
             && let Some(time) = time_of(session, shared)
         {
             // After the journal's line of the state.
-            thread::sleep(2 * LOOK);
+            thread::sleep(2 * PARKING_POLL_INTERVAL);
             say(&format!("parking takes {time:.0} s"), page);
         }
-        thread::sleep(LOOK);
+        thread::sleep(PARKING_POLL_INTERVAL);
     }
 }
 
@@ -35,7 +35,7 @@ fn time_of(mut session: Session, shared: &Shared) -> Option<f64> {
     let begin = session.time();
     while session.state() == State::Parking {
         session.step();
-        if session.time() - begin > LONGEST || shared.done.load(Ordering::Relaxed) {
+        if session.time() - begin > MAX_PARKING_TIME || shared.done.load(Ordering::Relaxed) {
             return None;
         }
     }

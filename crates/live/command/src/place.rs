@@ -5,15 +5,15 @@ use moris_live::Legs;
 use moris_live::frame::{Encoder, Frames};
 
 /// Time for which a report holds \[s\].
-const FRESH: f64 = 1.0;
+const REPORT_VALIDITY: f64 = 1.0;
 /// Time for which a start by itself waits for the first report \[s\].
-const PATIENCE: f64 = 0.5;
+const FIRST_REPORT_TIMEOUT: f64 = 0.5;
 /// Legs that have changed by less than this \[m\] over at least this time \[s\] are at rest.
-const STILL: f64 = 0.003;
-const REST: f64 = 0.3;
+const AT_REST_DISTANCE: f64 = 0.003;
+const AT_REST_TIME: f64 = 0.3;
 /// Way from the last frame to the lowest pose \[m\] from which on a person is asked to look again,
 /// and the time for it \[s\].
-const AWAY: f64 = 0.02;
+const RECHECK_DISTANCE: f64 = 0.02;
 const SECOND_LOOK: f64 = 20.0;
 /// Speed of a leg in a slow start, without another one \[m/s\].
 pub const SLOW_SPEED: f64 = 0.02;
@@ -84,14 +84,14 @@ impl LegPlace {
 
     /// True if a start by itself at this time \[s\] has nothing to wait for.
     pub fn is_ready(&self, now: f64) -> bool {
-        let waits = if self.report.is_some() { !self.is_at_rest() } else { now < PATIENCE };
+        let waits = if self.report.is_some() { !self.is_at_rest() } else { now < FIRST_REPORT_TIMEOUT };
         !self.wants_report() || !waits
     }
 
     /// True if the reports say that the legs are at rest.
     fn is_at_rest(&self) -> bool {
         // With rounding of the times.
-        self.report.zip(self.rest).is_some_and(|((last, _), (first, _))| last - first >= 0.999 * REST)
+        self.report.zip(self.rest).is_some_and(|((last, _), (first, _))| last - first >= 0.999 * AT_REST_TIME)
     }
 
     /// True if a person has given the place for the next start.
@@ -105,13 +105,13 @@ impl LegPlace {
     }
 
     fn fresh(&self, now: f64) -> Option<[f64; 6]> {
-        self.report.filter(|(at, _)| now - at <= FRESH).map(|(_, lengths)| lengths)
+        self.report.filter(|(at, _)| now - at <= REPORT_VALIDITY).map(|(_, lengths)| lengths)
     }
 
     /// The controller has reported these lengths \[m\].
     pub fn report(&mut self, now: f64, lengths: [f64; 6]) {
-        let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > STILL);
-        let was_long_ago = self.report.is_some_and(|(at, _)| now - at > FRESH);
+        let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > AT_REST_DISTANCE);
+        let was_long_ago = self.report.is_some_and(|(at, _)| now - at > REPORT_VALIDITY);
         if was_long_ago || self.rest.is_none_or(|(_, from)| moved(&from)) {
             self.rest = Some((now, lengths));
         }
@@ -123,7 +123,7 @@ impl LegPlace {
     /// twice: false the first time.
     pub fn give(&mut self, legs: Legs, now: f64, away: f64) -> bool {
         let was_doubted = self.doubted.take().is_some_and(|at| now - at <= SECOND_LOOK);
-        if legs == Legs::Settled && away > AWAY && !was_doubted && !self.is_own {
+        if legs == Legs::Settled && away > RECHECK_DISTANCE && !was_doubted && !self.is_own {
             self.doubted = Some(now);
             return false;
         }

@@ -8,9 +8,9 @@ use std::time::Duration;
 use moris_live::log::Entry;
 
 /// Entries that wait at most: those of seconds with a thousand samples a second.
-const WAITING: usize = 8192;
+const QUEUE_CAPACITY: usize = 8192;
 /// Time in which the last entries must be written.
-const LAST: Duration = Duration::from_secs(2);
+const FINAL_WRITE_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// A recording.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ impl Recorder {
     /// # Errors
     /// The system has no thread for it.
     pub fn new(file: impl Write + Send + 'static) -> io::Result<Self> {
-        let (entries, received) = sync_channel(WAITING);
+        let (entries, received) = sync_channel(QUEUE_CAPACITY);
         let (ends, ended) = sync_channel(1);
         let write = move || {
             let result = write(BufWriter::new(file), &received);
@@ -55,7 +55,7 @@ impl Recorder {
     /// The last entries cannot be written, or not in time.
     pub fn end(self) -> io::Result<()> {
         drop(self.entries);
-        self.ended.recv_timeout(LAST).unwrap_or_else(|_| Err(hangs()))
+        self.ended.recv_timeout(FINAL_WRITE_TIMEOUT).unwrap_or_else(|_| Err(hangs()))
     }
 }
 
@@ -101,7 +101,7 @@ mod tests {
         for (hangs, expected) in [(true, ErrorKind::TimedOut), (false, ErrorKind::StorageFull)] {
             let recorder = Recorder::new(Disk { hangs }).unwrap();
             let begin = Instant::now();
-            let mut taken = (0..4 * WAITING as u64).map(|step| {
+            let mut taken = (0..4 * QUEUE_CAPACITY as u64).map(|step| {
                 thread::sleep(Duration::from_micros(10));
                 recorder.take(Entry { step, happening: Happening::Retune })
             });

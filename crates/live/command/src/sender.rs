@@ -4,11 +4,11 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 /// Silence after which another sender is followed.
-const SILENT: Duration = Duration::from_millis(1500);
+const SENDER_TIMEOUT: Duration = Duration::from_millis(1500);
 /// Most addresses that are named.
-const MOST: usize = 16;
+const MAX_NAMED_ADDRESSES: usize = 16;
 /// Time between lines about dropped packets.
-const BETWEEN: Duration = Duration::from_secs(5);
+const DROPPED_PACKET_LOG_INTERVAL: Duration = Duration::from_secs(5);
 
 /// The sender that is followed. Two of them would be two vehicles in one.
 #[derive(Debug, Default)]
@@ -22,7 +22,7 @@ impl Followed {
     /// about it.
     pub fn accepts(&mut self, from: SocketAddr, now: Duration) -> Result<(), Option<String>> {
         match &mut self.sender {
-            Some((sender, last)) if *sender != from && now.saturating_sub(*last) < SILENT => {
+            Some((sender, last)) if *sender != from && now.saturating_sub(*last) < SENDER_TIMEOUT => {
                 let sender = *sender;
                 Err(self.first_of(from).then(|| {
                     format!(
@@ -39,7 +39,7 @@ impl Followed {
     }
 
     fn first_of(&mut self, from: SocketAddr) -> bool {
-        let is_new = !self.named.contains(&from) && self.named.len() < MOST;
+        let is_new = !self.named.contains(&from) && self.named.len() < MAX_NAMED_ADDRESSES;
         if is_new {
             self.named.push(from);
         }
@@ -58,7 +58,7 @@ impl Dropped {
     /// Takes one. True if there should be a line about it: at once, and then every 5 s.
     pub fn take(&mut self, now: Duration) -> Option<u64> {
         self.count += 1;
-        let is_due = self.last.is_none_or(|last| now.saturating_sub(last) >= BETWEEN);
+        let is_due = self.last.is_none_or(|last| now.saturating_sub(last) >= DROPPED_PACKET_LOG_INTERVAL);
         is_due.then(|| {
             self.last = Some(now);
             std::mem::take(&mut self.count)

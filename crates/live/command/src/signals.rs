@@ -10,7 +10,7 @@ use std::time::Duration;
 use anyhow::{Context, Result};
 
 /// Time after a signal in which another one is the same wish: a supervisor sends two.
-const SAME: Duration = Duration::from_millis(500);
+const REPEATED_SIGNAL_TIME: Duration = Duration::from_millis(500);
 
 /// Numbers of Linux's signals of real time.
 #[cfg(target_os = "linux")]
@@ -102,7 +102,7 @@ impl Interrupts {
         let terminated = self.signals.termination.swap(false, Ordering::Relaxed);
         match self.first {
             None if interrupted || terminated => self.first = Some(now),
-            Some(first) => self.again |= interrupted && now >= first + SAME,
+            Some(first) => self.again |= interrupted && now >= first + REPEATED_SIGNAL_TIME,
             None => (),
         }
     }

@@ -22,7 +22,7 @@ use super::telemetry_watch::TelemetryWatch;
 use super::watch::Part;
 
 /// Lateness from which on steps are not made up for: their motion would come at once \[s\].
-const LATEST: f64 = 0.02;
+const MAX_CATCH_UP_LATENESS: f64 = 0.02;
 /// Steps between looks at the telemetry's signs, sizes, losses and delay.
 const TELEMETRY_CHECK_STEPS: u64 = 1000;
 
@@ -107,7 +107,7 @@ impl Steps<'_> {
             pace::wait_until(deadline);
             let late = pace::now().saturating_sub(deadline);
             summary.lateness.take(late);
-            if late.as_secs_f64() > LATEST {
+            if late.as_secs_f64() > MAX_CATCH_UP_LATENESS {
                 zero += late;
                 summary.slips += 1;
                 self.record(Happening::Slip(late.as_secs_f64()), &mut summary);

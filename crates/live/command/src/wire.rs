@@ -10,15 +10,15 @@ use std::time::Duration;
 use moris_live::frame::Values;
 
 /// Change between two frames, in terms of the largest speed, from which on a frame begins a glide.
-const LARGEST: f64 = 1.15;
+const GLIDE_SPEED_FACTOR: f64 = 1.15;
 /// Time without frames from which on the actuators stand \[s\], and the same in intervals.
-const STANDS: f64 = 0.05;
+const STANDSTILL_TIME: f64 = 0.05;
 const STANDS_INTERVALS: f64 = 3.0;
 /// Speed of a glide in terms of the actuators' largest.
 const GLIDE_SPEED: f64 = 0.1;
 /// Speed of a glide to a controller that was lost, or without frames for so long \[m/s, s\].
 const LOST_SPEED: f64 = 0.05;
-const LONG: f64 = 0.5;
+const STANDSTILL_INTERVALS: f64 = 0.5;
 /// Acceleration of the legs that a glide may add \[m/s2\], of which a rider feels up to four times
 /// as much, and the same as a part of theirs.
 const GLIDE_ACCELERATION: f64 = 0.25;
@@ -26,20 +26,20 @@ const GLIDE_PART: f64 = 0.3;
 /// Rates at which a glide may go on: with all of its way ahead, and at its end \[1/s\].
 const GLIDE_PACES: [f64; 2] = [1.0, 4.5];
 /// Part of the actuators' acceleration with which a glide brakes before the stroke's end.
-const BRAKING: f64 = 1.2;
+const GLIDE_BRAKING_FRACTION: f64 = 1.2;
 /// Part of a glide that is too short to see.
 const NO_PART: f64 = 1e-7;
 /// Distance from a place from which on the actuators are there \[m\].
-const NEAR: f64 = 1e-4;
+const ARRIVAL_DISTANCE: f64 = 1e-4;
 /// Longest step of a glide \[s\].
-const STEP: f64 = 1e-3;
+const MAX_GLIDE_STEP: f64 = 1e-3;
 /// Time in which the speed falls to a third where there is no loop any more \[s\], and the part of
 /// the stroke's rest that the way may take.
 const REST_TIME: f64 = 0.15;
 const REST_WAY: f64 = 0.9;
 
 /// Numbers of a frame that a glide changes.
-const NUMBERS: usize = 17;
+const GLIDED_NUMBERS: usize = 17;
 
 /// Limits of the actuators.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,7 @@ impl Actuators {
     /// brake before its end.
     fn braked(&self, time: f64, last: f64, length: f64) -> f64 {
         let [shortest, longest] = self.stroke;
-        let by_braking = BRAKING * self.acceleration * time * time;
+        let by_braking = GLIDE_BRAKING_FRACTION * self.acceleration * time * time;
         // The speed of this step is that of which the rest of the stroke is the way to rest.
         let most = |room: f64| (by_braking * (by_braking + 2.0 * room.max(0.0))).sqrt() - by_braking;
         length.clamp((last - most(last - shortest)).max(shortest), (last + most(longest - last)).min(longest))
@@ -72,7 +72,7 @@ pub struct Wire {
     actuators: Actuators,
     last: Option<(Duration, Values)>,
     /// Change of the last frame's numbers per second.
-    change: [f64; NUMBERS],
+    change: [f64; GLIDED_NUMBERS],
     glide: Option<Glide>,
     /// The actuators have stopped since the last frame.
     is_lost: bool,
@@ -92,13 +92,13 @@ struct Glide {
 #[derive(Clone, Copy, Debug)]
 enum Beginning {
     /// Actuators that move, so far from the commands.
-    Beside([f64; NUMBERS]),
+    Beside([f64; GLIDED_NUMBERS]),
     /// Actuators that stand.
-    Rest([f64; NUMBERS]),
+    Rest([f64; GLIDED_NUMBERS]),
 }
 
 impl Glide {
-    fn difference(&self, commands: &[f64; NUMBERS]) -> [f64; NUMBERS] {
+    fn difference(&self, commands: &[f64; GLIDED_NUMBERS]) -> [f64; GLIDED_NUMBERS] {
         match self.from {
             Beginning::Beside(difference) => difference,
             Beginning::Rest(rest) => std::array::from_fn(|k| rest[k] - commands[k]),
@@ -107,7 +107,7 @@ impl Glide {
 
     /// Goes on by a time \[s\], if its whole way is so far \[m\].
     fn advance(&mut self, time: f64, far: f64, actuators: &Actuators) {
-        let steps = (time / STEP).ceil();
+        let steps = (time / MAX_GLIDE_STEP).ceil();
         let step = time / steps.max(1.0);
         let most = GLIDE_ACCELERATION.min(GLIDE_PART * actuators.acceleration);
         let [first, last] = GLIDE_PACES;
@@ -126,7 +126,7 @@ impl Glide {
 impl Wire {
     /// A way with frames at this interval \[s\] to these actuators.
     pub fn new(interval: f64, actuators: Actuators) -> Self {
-        Wire { interval, actuators, last: None, change: [0.0; NUMBERS], glide: None, is_lost: false }
+        Wire { interval, actuators, last: None, change: [0.0; GLIDED_NUMBERS], glide: None, is_lost: false }
     }
 
     /// The actuators are where the next frame has them, as a person or the controller says: it has
@@ -153,7 +153,7 @@ impl Wire {
 
     /// True if the last frame has the actuators where these values have them.
     pub fn is_at(&self, values: &Values) -> bool {
-        let is_near = |last: &Values| (0..6).all(|k| (last.length[k] - values.length[k]).abs() < NEAR);
+        let is_near = |last: &Values| (0..6).all(|k| (last.length[k] - values.length[k]).abs() < ARRIVAL_DISTANCE);
         self.last.is_none_or(|(_, last)| is_near(&last))
     }
 
@@ -164,15 +164,15 @@ impl Wire {
         if let Some((at, last)) = self.last {
             let gap = now.saturating_sub(at).as_secs_f64();
             let mut time = (commanded.time - last.time).clamp(0.0, self.interval);
-            if was_lost || gap > STANDS.max(STANDS_INTERVALS * self.interval) {
+            if was_lost || gap > STANDSTILL_TIME.max(STANDS_INTERVALS * self.interval) {
                 let speed = GLIDE_SPEED * self.actuators.speed;
-                let is_slow = was_lost || gap > LONG;
+                let is_slow = was_lost || gap > STANDSTILL_INTERVALS;
                 self.begin(Beginning::Rest(numbers(&last)), if is_slow { speed.min(LOST_SPEED) } else { speed });
                 time = 0.0;
             }
             values = self.with_glide(&last, commanded, time);
             let change = (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
-            if change > LARGEST * self.actuators.speed * self.interval {
+            if change > GLIDE_SPEED_FACTOR * self.actuators.speed * self.interval {
                 self.begin(Beginning::Beside(self.beside(&last, commanded)), GLIDE_SPEED * self.actuators.speed);
                 values = self.with_glide(&last, commanded, 0.0);
             }
@@ -188,7 +188,7 @@ impl Wire {
     }
 
     /// The difference to the commands of actuators that go on from the last frame at their speed.
-    fn beside(&self, last: &Values, commanded: &Values) -> [f64; NUMBERS] {
+    fn beside(&self, last: &Values, commanded: &Values) -> [f64; GLIDED_NUMBERS] {
         let fastest = self.actuators.speed;
         let mut from = *last;
         for (length, velocity) in from.length.iter_mut().zip(commanded.velocity) {
@@ -238,7 +238,7 @@ impl Wire {
             (end - last.length[k]).abs()
         };
         let fades = (0..6).map(|k| REST_WAY * room(k) / last.velocity[k].abs().max(1e-9)).fold(REST_TIME, f64::min);
-        let fades = fades.max(STEP);
+        let fades = fades.max(MAX_GLIDE_STEP);
         let speeds = last.velocity.iter().chain(&self.change[6..]);
         let left = (-time / fades).exp();
         let mut all = numbers(&last);
@@ -251,13 +251,13 @@ impl Wire {
     }
 }
 
-fn numbers(values: &Values) -> [f64; NUMBERS] {
+fn numbers(values: &Values) -> [f64; GLIDED_NUMBERS] {
     let all = values.length.iter().chain(&values.pose).chain(&values.own).chain([&values.heave, &values.heave_above]);
     let mut all = all.copied();
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-fn set(values: &mut Values, numbers: &[f64; NUMBERS]) {
+fn set(values: &mut Values, numbers: &[f64; GLIDED_NUMBERS]) {
     let places = values.length.iter_mut().chain(&mut values.pose).chain(&mut values.own);
     let places = places.chain([&mut values.heave, &mut values.heave_above]);
     places.zip(numbers).for_each(|(place, number)| *place = *number);

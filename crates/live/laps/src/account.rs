@@ -22,15 +22,15 @@ use serde::{Deserialize, Serialize};
 use crate::ticks::TICK;
 
 /// Proof that is needed without a debt \[s\].
-const PROOF: f64 = 1.5;
+const BASE_PROOF_TIME: f64 = 1.5;
 /// Debt that doubles the proof needed \[s\].
-const DOUBLING: f64 = 4.0;
+const DEBT_DOUBLING_TIME: f64 = 4.0;
 /// Part of the proof needed below which a preview ends.
-const KEPT: f64 = 0.5;
+const KEEPING_FRACTION: f64 = 0.5;
 /// Time constant of the mean squared force \[s\].
 const MEAN_TIME: f64 = 60.0;
 /// Squared force added to its mean \[(m/s2)^2\].
-const FLOOR: f64 = 0.05;
+const FORCE_FLOOR: f64 = 0.05;
 
 /// Squared errors without memory less those of the forecasts \[(m/s2)^2\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -58,7 +58,7 @@ impl Account {
         let keep = 1.0 - TICK / MEAN_TIME;
         self.squares = keep * self.squares + force[0] * force[0] + force[1] * force[1];
         self.weights = keep * self.weights + 1.0;
-        let square = self.squares / self.weights + FLOOR;
+        let square = self.squares / self.weights + FORCE_FLOOR;
         let time = |gain: f64| TICK * (gain / square).min(1.0);
         let given = time(gains[0].given + gains[1].given);
         self.debt = (self.debt - given).max(0.0);
@@ -68,12 +68,12 @@ impl Account {
 
     /// Proof that is needed \[s\].
     fn needed(&self) -> f64 {
-        PROOF * libm::exp2(self.debt / DOUBLING)
+        BASE_PROOF_TIME * libm::exp2(self.debt / DEBT_DOUBLING_TIME)
     }
 
     /// True where the proof is enough for a preview to begin, or to stay.
     pub fn allows(&self, is_given: bool) -> bool {
-        self.proof >= if is_given { KEPT } else { 1.0 } * self.needed()
+        self.proof >= if is_given { KEEPING_FRACTION } else { 1.0 } * self.needed()
     }
 }
 
@@ -90,7 +90,7 @@ mod tests {
         for _ in 0..(3600.0 / TICK) as usize {
             since = if is_given { since + TICK } else { 0.0 };
             let part = if is_given && since > patience { -lost } else { earned };
-            let gain = part * (4.0 + FLOOR);
+            let gain = part * (4.0 + FORCE_FLOOR);
             let gain = if is_given { Gain { given: gain, made: 0.0 } } else { Gain { given: 0.0, made: gain } };
             net += if is_given { TICK * part.min(1.0) } else { 0.0 };
             account.tick([2.0, 0.0], [gain, Gain::default()]);
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn the_loss_of_an_hour_is_bounded_whatever_the_preview_meets() {
-        let bound = DOUBLING * (1.0 + f64::log2(3600.0 / PROOF));
+        let bound = DEBT_DOUBLING_TIME * (1.0 + f64::log2(3600.0 / BASE_PROOF_TIME));
         for earned in [0.02, 0.3, 1.0, 30.0] {
             for lost in [0.01, 0.5, 4.0] {
                 for patience in [0.0, 1.0, 60.0] {
@@ -123,15 +123,15 @@ mod tests {
     fn gains_pay_the_debt() {
         let mut account = Account::default();
         let mut ticks = |seconds: f64, given: f64, made: f64| {
-            let gain = Gain { given: given * (1.0 + FLOOR), made: made * (1.0 + FLOOR) };
+            let gain = Gain { given: given * (1.0 + FORCE_FLOOR), made: made * (1.0 + FORCE_FLOOR) };
             (0..(seconds / TICK).round() as usize).for_each(|_| account.tick([1.0, 0.0], [gain, Gain::default()]));
             (account.debt, account.allows(false))
         };
-        assert!(!ticks(PROOF - 0.1, 0.0, 1.0).1);
+        assert!(!ticks(BASE_PROOF_TIME - 0.1, 0.0, 1.0).1);
         assert!(ticks(0.15, 0.0, 1.0).1);
         let (debt, is_allowed) = ticks(2.0, -4.0, 0.0);
         assert!((debt - 8.0).abs() < 1e-9 && !is_allowed);
-        assert!(!ticks(4.0 * PROOF - 0.1, 0.0, 1.0).1, "two doublings");
+        assert!(!ticks(4.0 * BASE_PROOF_TIME - 0.1, 0.0, 1.0).1, "two doublings");
         assert!(ticks(0.15, 0.0, 1.0).1);
         assert!((ticks(5.0, 1.0, 0.0).0 - 3.0).abs() < 1e-9);
         assert_eq!(ticks(5.0, 1.0, 0.0), (0.0, true));

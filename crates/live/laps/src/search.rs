@@ -12,7 +12,7 @@ pub const LEAST_AGE: u64 = 160;
 /// Points by which two passes are apart, at least.
 pub const APART: f64 = 100.0;
 /// Ticks from the beginning of a search to that of the next one.
-const TICKS: usize = 10;
+const SEARCH_INTERVAL_TICKS: usize = 10;
 
 /// A search: a row of cells at each of the first ticks, and then one of its passes at a tick.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,7 +28,7 @@ pub struct Search {
 impl Search {
     /// Goes on by a tick. Returns the present point of a pass that is not followed yet.
     pub fn tick(&mut self, line: &Line, place: &RoadPoint, followed: &[Option<Pass>; PASSES]) -> Option<u64> {
-        if self.ticks == TICKS {
+        if self.ticks == SEARCH_INTERVAL_TICKS {
             *self = Search::default();
         }
         if self.ticks == 0 {
@@ -77,4 +77,4 @@ impl Search {
     }
 }
 
-const _: () = assert!(ROWS + PASSES <= TICKS);
+const _: () = assert!(ROWS + PASSES <= SEARCH_INTERVAL_TICKS);

@@ -5,29 +5,29 @@
 //! is late, with the time at which it was true; a lag that lasts is the clock's own.
 
 /// Packets whose clock leaps ahead of their arrivals by more show a clock that was set \[s\].
-const LEAP: f64 = 0.25;
+const CLOCK_SET_THRESHOLD: f64 = 0.25;
 /// A clock that goes back by less has two packets in the wrong order; by more, it has been started
 /// again \[s\].
-const REORDERED: f64 = 0.5;
+const MAX_REORDERING: f64 = 0.5;
 /// A sample that would have to be so much later than its arrival, to be later than the one before
 /// it, is one of too many \[s\].
-const AHEAD: f64 = 0.005;
+const MAX_SAMPLE_LEAD: f64 = 0.005;
 /// Time of a window in which the least lag is taken, and number of windows \[s\].
-const WINDOW: f64 = 0.1;
-const WINDOWS: usize = 10;
-/// A lag that has been longer by this for [`LASTING`] windows is the clock's own \[s\].
-const STOPPED: f64 = 0.05;
-const LASTING: usize = 3;
+const LAG_WINDOW: f64 = 0.1;
+const LAG_WINDOW_COUNT: usize = 10;
+/// A lag that has been longer by this for [`CLOCK_STOP_WINDOWS`] windows is the clock's own \[s\].
+const CLOCK_STOP_THRESHOLD: f64 = 0.05;
+const CLOCK_STOP_WINDOWS: usize = 3;
 /// Largest speed at which the lag follows a longer one.
-const FOLLOWS: f64 = 0.05;
+const MAX_LAG_RATE: f64 = 0.05;
 /// Longest time after a packet for which the lag follows \[s\].
 const LONGEST_STEP: f64 = 0.05;
 /// Gain of the rate on the slope of the least lag, for each window.
-const GAIN: f64 = 0.08;
+const RATE_GAIN: f64 = 0.08;
 /// Slowest and fastest clocks, as seconds of the session in one of theirs.
-const RATES: [f64; 2] = [0.2, 20.0];
+const CLOCK_RATE_RANGE: [f64; 2] = [0.2, 20.0];
 /// Part of the usual interval of arrivals below which packets come in a burst.
-const CROWDED: f64 = 0.3;
+const BURST_INTERVAL_FRACTION: f64 = 0.3;
 
 /// Time of a sample as the clock sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,15 +69,15 @@ struct Lag {
     /// The lag \[s\].
     lag: f64,
     /// Least lags of the last windows, the newest last; those not yet known are infinite.
-    least: [f64; WINDOWS],
+    least: [f64; LAG_WINDOW_COUNT],
     /// Arrival at which the newest window began \[s\].
     since: f64,
 }
 
 impl Lag {
     fn new(arrival: f64, rate: f64) -> Lag {
-        let mut least = [f64::INFINITY; WINDOWS];
-        least[WINDOWS - 1] = 0.0;
+        let mut least = [f64::INFINITY; LAG_WINDOW_COUNT];
+        least[LAG_WINDOW_COUNT - 1] = 0.0;
         Lag { rate, clock: arrival, lag: 0.0, least, since: arrival }
     }
 
@@ -85,38 +85,39 @@ impl Lag {
     fn take(&mut self, arrival: f64, advance: f64, passed: f64) {
         self.clock += self.rate * advance;
         let behind = arrival - self.clock;
-        if passed > WINDOW * WINDOWS as f64 {
-            self.least = [f64::INFINITY; WINDOWS];
+        if passed > LAG_WINDOW * LAG_WINDOW_COUNT as f64 {
+            self.least = [f64::INFINITY; LAG_WINDOW_COUNT];
         }
-        if arrival - self.since >= WINDOW {
+        if arrival - self.since >= LAG_WINDOW {
             self.since = arrival;
             self.adjust();
             self.least.rotate_left(1);
-            self.least[WINDOWS - 1] = behind;
+            self.least[LAG_WINDOW_COUNT - 1] = behind;
         }
-        let newest = &mut self.least[WINDOWS - 1];
+        let newest = &mut self.least[LAG_WINDOW_COUNT - 1];
         *newest = newest.min(behind);
         if behind <= self.lag {
             self.lag = behind;
             return;
         }
-        let lasting = least(&self.least[WINDOWS - LASTING..]);
-        let is_known = self.least[WINDOWS - LASTING].is_finite();
-        if is_known && lasting > self.lag + STOPPED {
+        let lasting = least(&self.least[LAG_WINDOW_COUNT - CLOCK_STOP_WINDOWS..]);
+        let is_known = self.least[LAG_WINDOW_COUNT - CLOCK_STOP_WINDOWS].is_finite();
+        if is_known && lasting > self.lag + CLOCK_STOP_THRESHOLD {
             self.lag = lasting;
             return;
         }
         let longer = least(&self.least) - self.lag;
-        self.lag += longer.clamp(0.0, FOLLOWS * passed.clamp(0.0, LONGEST_STEP));
+        self.lag += longer.clamp(0.0, MAX_LAG_RATE * passed.clamp(0.0, LONGEST_STEP));
     }
 
     /// Adjusts the rate to the slope of the least lags.
     fn adjust(&mut self) {
-        let half = WINDOWS / 2;
+        let half = LAG_WINDOW_COUNT / 2;
         let [old, new] = [least(&self.least[..half]), least(&self.least[half..])];
         if old.is_finite() && new.is_finite() {
-            let slope = (new - old) / (half as f64 * WINDOW);
-            let rate = (self.rate * (1.0 + GAIN * slope.clamp(-0.5, 2.0))).clamp(RATES[0], RATES[1]);
+            let slope = (new - old) / (half as f64 * LAG_WINDOW);
+            let rate = (self.rate * (1.0 + RATE_GAIN * slope.clamp(-0.5, 2.0)))
+                .clamp(CLOCK_RATE_RANGE[0], CLOCK_RATE_RANGE[1]);
             self.rate = rate;
         }
     }
@@ -152,9 +153,9 @@ impl Clock {
         let passed = arrival - last.arrival;
         let mut next = Last { arrival, clock, ..last };
         let stamp = match [clock, last.clock] {
-            [Some(now), Some(before)] if now <= before && now > before - REORDERED => return Stamp::Repeated,
+            [Some(now), Some(before)] if now <= before && now > before - MAX_REORDERING => return Stamp::Repeated,
             [Some(now), Some(before)]
-                if now < before || last.lag.rate * (now - before) - passed > LEAP + behind(&last) =>
+                if now < before || last.lag.rate * (now - before) - passed > CLOCK_SET_THRESHOLD + behind(&last) =>
             {
                 next.lag = Lag::new(arrival, last.lag.rate);
                 Stamp::Restarted(arrival.max(last.stamp + 1e-3))
@@ -165,7 +166,7 @@ impl Clock {
             }
             [_, before] => {
                 next.lag = Lag::new(arrival, 1.0);
-                let is_crowded = before.is_none() && passed < CROWDED * last.interval;
+                let is_crowded = before.is_none() && passed < BURST_INTERVAL_FRACTION * last.interval;
                 let gain = if is_crowded { 0.005 } else { 0.1 };
                 next.interval += if passed < 0.5 { gain * (passed - last.interval) } else { 0.0 };
                 // Of a burst the newest counts: when the others were true is unknown.
@@ -174,7 +175,7 @@ impl Clock {
         };
         match stamp {
             Stamp::Instead => (),
-            Stamp::At(stamp) | Stamp::Restarted(stamp) if stamp <= arrival + AHEAD => {
+            Stamp::At(stamp) | Stamp::Restarted(stamp) if stamp <= arrival + MAX_SAMPLE_LEAD => {
                 next.stamp = stamp;
             }
             _ => return Stamp::Repeated,

@@ -3,43 +3,43 @@
 use crate::resampler::LONGEST;
 
 /// Width of a class \[s\].
-const WIDTH: f64 = 1e-3;
+const CLASS_WIDTH: f64 = 1e-3;
 /// Number of classes: up to [`LONGEST`].
-const CLASSES: usize = 250;
+const CLASS_COUNT: usize = 250;
 /// Reserve of the delay beyond the time between samples.
-const RESERVE: f64 = 1.1;
+const DELAY_RESERVE: f64 = 1.1;
 /// Time constant with which gaps are forgotten \[s\].
-const MEMORY: f64 = 5.0;
+const GAP_TIME_CONSTANT: f64 = 5.0;
 /// Gaps from which on the longest alone does not count.
-const FEW: f64 = 20.0;
+const MIN_COUNTED_GAPS: f64 = 20.0;
 /// Weight from which on all are made smaller.
-const HEAVY: f64 = 1e9;
+const MAX_WEIGHT: f64 = 1e9;
 
 /// Numbers of gaps, by their length, older ones with less weight. Gaps from 0.25 s on are holes
 /// that no delay covers, and are left out.
 #[derive(Clone, Debug)]
 pub struct Gaps {
-    weights: [f64; CLASSES],
+    weights: [f64; CLASS_COUNT],
     /// Weight of the next gap.
     weight: f64,
 }
 
 impl Default for Gaps {
     fn default() -> Self {
-        Gaps { weights: [0.0; CLASSES], weight: 1.0 }
+        Gaps { weights: [0.0; CLASS_COUNT], weight: 1.0 }
     }
 }
 
 impl Gaps {
     /// Takes a gap, so long after the one before it.
     pub fn take(&mut self, gap: f64, passed: f64) {
-        self.weight *= libm::exp(passed.clamp(0.0, MEMORY) / MEMORY);
-        if self.weight > HEAVY {
+        self.weight *= libm::exp(passed.clamp(0.0, GAP_TIME_CONSTANT) / GAP_TIME_CONSTANT);
+        if self.weight > MAX_WEIGHT {
             self.weights.iter_mut().for_each(|weight| *weight /= self.weight);
             self.weight = 1.0;
         }
         if gap < LONGEST {
-            self.weights[((gap.max(0.0) / WIDTH) as usize).min(CLASSES - 1)] += self.weight;
+            self.weights[((gap.max(0.0) / CLASS_WIDTH) as usize).min(CLASS_COUNT - 1)] += self.weight;
         }
     }
 
@@ -48,7 +48,7 @@ impl Gaps {
         let all = self.weights.iter().sum::<f64>();
         let mut wanted = part.clamp(0.0, 1.0) * all;
         // A loading screen at the beginning is one gap of few.
-        if part < 1.0 && all > FEW * self.weight {
+        if part < 1.0 && all > MIN_COUNTED_GAPS * self.weight {
             wanted = wanted.min(all - 1.01 * self.weight);
         }
         let mut sum = 0.0;
@@ -56,7 +56,7 @@ impl Gaps {
             sum += weight;
             if sum > 0.0 && sum >= wanted * (1.0 - 1e-12) {
                 // Samples that come before their time need none.
-                return if class == 0 { 0.0 } else { (RESERVE * (class + 1) as f64 * WIDTH).min(LONGEST) };
+                return if class == 0 { 0.0 } else { (DELAY_RESERVE * (class + 1) as f64 * CLASS_WIDTH).min(LONGEST) };
             }
         }
         0.0

@@ -6,7 +6,7 @@ use moris_washout::platform::{Geometry, Pose, forward_kinematics, leg_lengths};
 use crate::session::Refusal;
 
 /// Reported lengths may lie outside of the stroke by this part of it: a sensor is not exact.
-const TOLERANCE: f64 = 0.02;
+const STROKE_TOLERANCE: f64 = 0.02;
 
 /// Where the legs are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl Legs {
 /// The first that is none of this rig.
 pub fn lengths_within(rig: &Rig, lengths: [f64; 6]) -> Result<[f64; 6], Refusal> {
     let [shortest, longest] = [rig.min_length, rig.max_length];
-    let tolerance = TOLERANCE * (longest - shortest);
+    let tolerance = STROKE_TOLERANCE * (longest - shortest);
     let range = shortest - tolerance..=longest + tolerance;
     match lengths.iter().position(|length| !range.contains(length)) {
         Some(leg) => Err(Refusal::Length { leg, length: lengths[leg], shortest, longest }),

@@ -17,11 +17,11 @@ use crate::session::{Commands, Session, Settings};
 use crate::transitions::Event;
 
 /// First line of a recorded session.
-const FIRST: &str = "moris-live-session,1";
+const HEADER_LINE: &str = "moris-live-session,1";
 /// Beginning of a line of the road that is known at first.
-const ROAD: &str = "road,";
+const ROAD_PREFIX: &str = "road,";
 /// Most steps of a session: eleven days.
-const MOST: u64 = 1_000_000_000;
+const MAX_STEPS: u64 = 1_000_000_000;
 
 /// Something from outside that a session has received before a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,13 +75,13 @@ impl Digest {
 
 /// The lines before the events. `laps` are those that a session knows that learns the road.
 pub fn header(parameters: &Parameters, settings: &Settings, laps: Option<&Laps>) -> String {
-    let mut text = format!("{FIRST}\nsettings,{}\n", serde_json::to_string(settings).unwrap_or_default());
+    let mut text = format!("{HEADER_LINE}\nsettings,{}\n", serde_json::to_string(settings).unwrap_or_default());
     for (slot, value) in slots_of(parameters).iter().enumerate() {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "parameter,{},{value:?}", name_of(slot));
     }
     for line in laps.map(Laps::text).unwrap_or_default().lines() {
-        text += &format!("{ROAD}{line}\n");
+        text += &format!("{ROAD_PREFIX}{line}\n");
     }
     text
 }
@@ -220,7 +220,7 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
     // A full disk cuts the last line off.
     let whole = text.rfind('\n').map_or(text, |end| &text[..end]);
     let mut lines = whole.lines().enumerate().map(|(place, line)| (place + 1, line)).peekable();
-    let first = lines.next().filter(|(_, line)| *line == FIRST).ok_or(ReplayError::Line(1))?;
+    let first = lines.next().filter(|(_, line)| *line == HEADER_LINE).ok_or(ReplayError::Line(1))?;
     let settings = lines.next().and_then(|(_, line)| line.strip_prefix("settings,"));
     let settings: Settings =
         settings.and_then(|text| serde_json::from_str(text).ok()).ok_or(ReplayError::Line(first.0 + 1))?;
@@ -237,9 +237,9 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
     }
     let mut session = Session::new(&Parameters::read(&mut Reader::new(&slots)), &settings)?;
     let (mut road, mut begin) = (String::new(), 0);
-    while let Some((place, line)) = lines.next_if(|(_, line)| line.starts_with(ROAD)) {
+    while let Some((place, line)) = lines.next_if(|(_, line)| line.starts_with(ROAD_PREFIX)) {
         begin = if road.is_empty() { place } else { begin };
-        road.extend([&line[ROAD.len()..], "\n"]);
+        road.extend([&line[ROAD_PREFIX.len()..], "\n"]);
     }
     if !road.is_empty() {
         session.learn(Laps::of_text(&road).map_err(|none| ReplayError::Line(begin + none.line - 1))?);
@@ -248,7 +248,7 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
     let mut steps = 0;
     for (place, line) in lines {
         let entry = Entry::of_line(line)
-            .filter(|entry| (steps..=MOST).contains(&entry.step))
+            .filter(|entry| (steps..=MAX_STEPS).contains(&entry.step))
             .ok_or(ReplayError::Line(place))?;
         while steps < entry.step {
             digest.take(session.step());

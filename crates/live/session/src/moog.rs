@@ -45,8 +45,8 @@ pub const CONFIRMING_ANSWERS: u32 = 3;
 /// Largest number of a packet's pose that counts as neutral \[m, rad\].
 const NEUTRAL_TOLERANCE: f64 = 1e-4;
 /// Length of an answer, and of a packet \[bytes\].
-const ANSWER: usize = 40;
-const PACKET: usize = 32;
+const ANSWER_LENGTH: usize = 40;
+const PACKET_LENGTH: usize = 32;
 
 /// Word of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub enum Base {
 impl Base {
     /// The state in an answer; none in other packets.
     pub fn of(answer: &[u8]) -> Option<Base> {
-        let word = answer.get(8..12).filter(|_| answer.len() == ANSWER)?;
+        let word = answer.get(8..12).filter(|_| answer.len() == ANSWER_LENGTH)?;
         Some(match word[3] & 0x0F {
             0x0 => Base::PowerUp,
             0x1 => Base::Idle,
@@ -166,7 +166,7 @@ impl Moog {
 
     /// The next packet, and a fault if the base is silent. `is_up`: the base is wanted at neutral
     /// or moving. The values are those of [`Moog::faded`] within the limits of the legs.
-    pub fn send(&mut self, is_up: bool, values: &Values) -> ([u8; PACKET], Option<Event>) {
+    pub fn send(&mut self, is_up: bool, values: &Values) -> ([u8; PACKET_LENGTH], Option<Event>) {
         self.unanswered = self.unanswered.saturating_add(1);
         let silent = self.unanswered == ANSWER_TIMEOUT_PACKETS;
         if silent {
@@ -189,7 +189,7 @@ impl Moog {
     }
 
     /// The packet at the end: home, under power, from the last packet's pose.
-    pub fn last(values: &Values) -> [u8; PACKET] {
+    pub fn last(values: &Values) -> [u8; PACKET_LENGTH] {
         packet(Command::Park, values)
     }
 
@@ -206,8 +206,8 @@ fn pose_numbers(values: &Values) -> [f64; 6] {
     [roll, -pitch, -values.heave_above, x, -yaw, -y]
 }
 
-fn packet(command: Command, values: &Values) -> [u8; PACKET] {
-    let mut packet = [0; PACKET];
+fn packet(command: Command, values: &Values) -> [u8; PACKET_LENGTH] {
+    let mut packet = [0; PACKET_LENGTH];
     packet[..4].copy_from_slice(&(command as u32).to_be_bytes());
     for (place, value) in packet[4..28].chunks_exact_mut(4).zip(pose_numbers(values)) {
         // Zero of either sign is neutral.
@@ -240,7 +240,7 @@ mod tests {
         (0..CONFIRMING_ANSWERS).fold(None, |event, _| moog.receive(&answer(state)).or(event))
     }
 
-    fn sent(moog: &mut Moog, is_up: bool) -> [u8; PACKET] {
+    fn sent(moog: &mut Moog, is_up: bool) -> [u8; PACKET_LENGTH] {
         let faded = moog.faded(&values());
         moog.send(is_up, &faded).0
     }

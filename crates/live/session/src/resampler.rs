@@ -9,20 +9,20 @@ use crate::motion::{ANGLES, Channels, Motion};
 use nalgebra::Vector3;
 
 /// Samples that are kept: 0.6 s at 400 Hz.
-const KEPT: usize = 256;
+const SAMPLE_CAPACITY: usize = 256;
 /// Longest delay \[s\].
 pub const LONGEST: f64 = 0.25;
 /// Delay from which on a person is warned \[s\].
 pub const LONG: f64 = 0.06;
 /// Packets that arrive within this time after another came with it \[s\].
-const TOGETHER: f64 = 1e-3;
+const BURST_TIME: f64 = 1e-3;
 /// A change of an angle within a sample that may be one of its description alone \[rad\].
-const WIDE: f64 = 0.5;
+const MAX_ANGLE_CHANGE: f64 = 0.5;
 
 /// The samples of the last moments.
 #[derive(Clone, Debug)]
 pub struct Resampler {
-    samples: [Stamped; KEPT],
+    samples: [Stamped; SAMPLE_CAPACITY],
     /// Place of the newest.
     newest: usize,
     count: usize,
@@ -58,7 +58,7 @@ pub struct At {
 impl Default for Resampler {
     fn default() -> Self {
         Resampler {
-            samples: [Stamped::default(); KEPT],
+            samples: [Stamped::default(); SAMPLE_CAPACITY],
             newest: 0,
             count: 0,
             ahead: 0,
@@ -74,15 +74,15 @@ impl Resampler {
         let motion = self.continued(motion);
         if self.count > 0 {
             let passed = arrival - self.arrival;
-            if passed >= TOGETHER {
+            if passed >= BURST_TIME {
                 self.gaps.take(arrival - self.sample(0).time, passed);
             }
         }
         self.arrival = arrival;
-        self.newest = (self.newest + 1) % KEPT;
+        self.newest = (self.newest + 1) % SAMPLE_CAPACITY;
         self.samples[self.newest] = Stamped { time, motion, position };
-        self.count = (self.count + 1).min(KEPT);
-        self.ahead = (self.ahead + 1).min(KEPT);
+        self.count = (self.count + 1).min(SAMPLE_CAPACITY);
+        self.ahead = (self.ahead + 1).min(SAMPLE_CAPACITY);
     }
 
     /// Puts a motion in the place of the newest sample's.
@@ -140,7 +140,7 @@ impl Resampler {
             if before.time <= time {
                 let slope = (after.motion.0 - before.motion.0) / (after.time - before.time);
                 let mut motion = Motion(before.motion.0 + slope * (time - before.time));
-                if ANGLES.take(3).any(|k| (after.motion.0[k] - before.motion.0[k]).abs() > WIDE) {
+                if ANGLES.take(3).any(|k| (after.motion.0[k] - before.motion.0[k]).abs() > MAX_ANGLE_CHANGE) {
                     let part = (time - before.time) / (after.time - before.time);
                     motion.set_angles(between(&before.motion.angles(), &after.motion.angles(), part));
                 }
@@ -152,7 +152,7 @@ impl Resampler {
     }
 
     fn sample(&self, age: usize) -> &Stamped {
-        &self.samples[(self.newest + KEPT - age) % KEPT]
+        &self.samples[(self.newest + SAMPLE_CAPACITY - age) % SAMPLE_CAPACITY]
     }
 }
 

@@ -13,30 +13,30 @@ use crate::relation::{Relation, Sums};
 /// Time for which samples are taken \[s\].
 pub const TIME: f64 = 60.0;
 /// Shortest and longest time between samples that are compared \[s\].
-const INTERVAL: [f64; 2] = [1e-3, 0.2];
+const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
 /// Correlation from which on a check decides.
-const DECIDES: f64 = 0.5;
+const DECISIVE_CORRELATION: f64 = 0.5;
 /// Samples from which on it decides, and the time of motion after which signs may agree \[s\].
 /// Within less, two channels that have nothing to do with each other may go together.
-const ENOUGH: f64 = 40.0;
+const MIN_SAMPLES: f64 = 40.0;
 const AGREEING_TIME: f64 = 2.0;
 /// Largest factor between the sizes of two channels that agree.
 const AGREEING_FACTOR: f64 = 3.0;
 /// Part of a turn's acceleration that gravity makes up for in a vehicle that leans into it.
-const LEANING: f64 = 0.5;
+const LEANING_FRACTION: f64 = 0.5;
 /// Angles up to which a body's rates are those of its angles, about \[rad\].
-const LEVEL: f64 = 0.3;
+const MAX_LEVEL_ANGLE: f64 = 0.3;
 
 /// Largest part of a force that a slope may cause \[m/s2\], without an attitude and with one.
-const SLOPES: [f64; 2] = [2.5, 0.5];
+const MAX_SLOPE_FORCES: [f64; 2] = [2.5, 0.5];
 /// Time over which a change of speed is compared with the force \[s\].
-const WINDOW: f64 = 0.1;
-/// Part of [`ENOUGH`] from which on the change of speed decides.
-const BRAKING: f64 = 0.5;
+const SPEED_CHANGE_WINDOW: f64 = 0.1;
+/// Part of [`MIN_SAMPLES`] from which on the change of speed decides.
+const BRAKING_SAMPLE_FRACTION: f64 = 0.5;
 /// Speed below which a vehicle may be reversing, if its speed has no sign \[m/s\].
-const REVERSING: f64 = 8.0;
+const MAX_REVERSING_SPEED: f64 = 8.0;
 /// Speed from which on a negative one is a sign \[m/s\].
-const REVERSES: f64 = 0.3;
+const MIN_SIGNED_SPEED: f64 = 0.3;
 
 /// A check of one sign or axis of the telemetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,7 +124,7 @@ impl Signs {
         let before = self.last.replace((time, *sample));
         let Some((earlier, before)) = before else { return };
         let interval = time - earlier;
-        if !(INTERVAL[0]..=INTERVAL[1]).contains(&interval) {
+        if !(SAMPLE_INTERVAL_RANGE[0]..=SAMPLE_INTERVAL_RANGE[1]).contains(&interval) {
             self.window = Window::default();
             return;
         }
@@ -132,8 +132,8 @@ impl Signs {
         let (now, then) = (&sample.motion, &before.motion);
         let mean = 0.5 * (now.0 + then.0);
         let slope = (now.0 - then.0) / interval;
-        self.has_sign |= now.speed() < -REVERSES;
-        let is_slow = !self.has_sign && mean[9].abs() < REVERSING;
+        self.has_sign |= now.speed() < -MIN_SIGNED_SPEED;
+        let is_slow = !self.has_sign && mean[9].abs() < MAX_REVERSING_SPEED;
         // Columns of zeros are no attitude.
         let has_attitude = sample.has_angles && (mean[6] != 0.0 || mean[7] != 0.0);
         let gravity = if has_attitude { STANDARD_GRAVITY } else { 0.0 };
@@ -144,20 +144,21 @@ impl Signs {
         // Nose up, gravity's reaction is forward.
         window.gravity -= gravity * libm::sin(mean[7]) * interval;
         window.gained += now.speed() - then.speed();
-        if window.time >= WINDOW {
+        if window.time >= SPEED_CHANGE_WINDOW {
             let Window { time, surge, gravity, gained, has_attitude } = std::mem::take(window);
-            let [most, gravity] = if has_attitude { [SLOPES[1], gravity] } else { [SLOPES[0], 0.0] };
+            let [most, gravity] =
+                if has_attitude { [MAX_SLOPE_FORCES[1], gravity] } else { [MAX_SLOPE_FORCES[0], 0.0] };
             self.add(Check::Braking, surge / time, (gained + gravity) / time, most, is_slow);
         }
         let turn = mean[9] * mean[5];
         // A motorcycle leans until nothing pushes; what is left says nothing of the turn.
-        let leans = sample.has_angles && STANDARD_GRAVITY * libm::sin(mean[6]).abs() > LEANING * turn.abs();
+        let leans = sample.has_angles && STANDARD_GRAVITY * libm::sin(mean[6]).abs() > LEANING_FRACTION * turn.abs();
         if !leans {
             let banked = gravity * libm::sin(mean[6]) * libm::cos(mean[7]);
-            let most = if has_attitude { SLOPES[1] } else { SLOPES[0] };
+            let most = if has_attitude { MAX_SLOPE_FORCES[1] } else { MAX_SLOPE_FORCES[0] };
             self.add(Check::LeftTurn, mean[1], turn + banked, most, is_slow);
         }
-        let level = mean[6].abs() < LEVEL && mean[7].abs() < LEVEL;
+        let level = mean[6].abs() < MAX_LEVEL_ANGLE && mean[7].abs() < MAX_LEVEL_ANGLE;
         if sample.has_angles && level {
             self.add(Check::Roll, mean[3], slope[6], 0.0, false);
             self.add(Check::Pitch, mean[4], slope[7], 0.0, false);
@@ -191,18 +192,19 @@ impl Signs {
     fn decided(&self, check: Check) -> Verdict {
         let [all, apart, slow] = [&self.all, &self.apart, &self.slow].map(|sums| sums[check as usize]);
         let least = check.least();
-        let enough = if check == Check::Braking { ENOUGH * BRAKING } else { ENOUGH };
+        let enough = if check == Check::Braking { MIN_SAMPLES * BRAKING_SAMPLE_FRACTION } else { MIN_SAMPLES };
         let known = |sums: &Sums, enough: f64| {
             let relation = sums.relation();
             let is_known = relation.count >= enough && (0..2).all(|k| relation.sizes[k].powi(2) >= least[k]);
             is_known.then_some(relation)
         };
         let agrees = |sums: &Sums| {
-            let is_near = |relation: Relation| relation.is_near(1.0, AGREEING_FACTOR, DECIDES);
+            let is_near = |relation: Relation| relation.is_near(1.0, AGREEING_FACTOR, DECISIVE_CORRELATION);
             self.time >= AGREEING_TIME && known(sums, enough).is_some_and(is_near)
         };
-        let contradicts =
-            |sums: &Sums, enough: f64| known(sums, enough).is_some_and(|found| found.correlation < -DECIDES);
+        let contradicts = |sums: &Sums, enough: f64| {
+            known(sums, enough).is_some_and(|found| found.correlation < -DECISIVE_CORRELATION)
+        };
         if agrees(&all) || agrees(&slow) && !contradicts(&all, enough) {
             Verdict::Agrees
         } else if contradicts(&all, enough) && contradicts(&apart, enough) {

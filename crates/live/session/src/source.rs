@@ -15,10 +15,10 @@ pub const SILENT: f64 = 0.5;
 /// Time without a good sample after which it is stale \[s\].
 pub const STALE: f64 = 1.5;
 /// A place that differs from the expected one by more than this is another place \[m\].
-const JUMP: f64 = 10.0;
+const MAX_PLACE_DEVIATION: f64 = 10.0;
 /// An attitude that turns by more within a sample than its rates say is that of another place
 /// \[rad\].
-const TURN: f64 = 0.7;
+const MAX_ATTITUDE_DEVIATION: f64 = 0.7;
 /// Samples that follow from each other with which a vehicle runs: random bytes do not.
 const CONFIRMING_SAMPLES: u32 = 5;
 
@@ -272,7 +272,8 @@ fn is_elsewhere(before: &Sample, after: &Sample, time: f64) -> bool {
     let moved = before.position.zip(after.position).map_or(0.0, |(before, after)| (after - before).norm());
     let rate = before.motion.rates().norm().max(after.motion.rates().norm());
     let turned = || angle_between(&before.motion.angles(), &after.motion.angles());
-    moved > JUMP + 2.0 * speed * time || time < 0.1 && turned() > TURN + 2.0 * rate * time
+    moved > MAX_PLACE_DEVIATION + 2.0 * speed * time
+        || time < 0.1 && turned() > MAX_ATTITUDE_DEVIATION + 2.0 * rate * time
 }
 
 #[cfg(test)]

@@ -4,11 +4,12 @@
 use crate::motion::{CHANNELS, Channels, Sample};
 
 /// Least deviation of a spike, as for recordings: forces, rates, angles, speed.
-const LEAST: [f64; CHANNELS] = [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY, 5.0];
+const MIN_SPIKE_DEVIATION: [f64; CHANNELS] =
+    [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY, 5.0];
 /// Usual changes from sample to sample beyond which one is a spike.
-const CHANGES: f64 = 10.0;
+const SPIKE_CHANGE_FACTOR: f64 = 10.0;
 /// Samples over which the usual change is averaged.
-const AVERAGE: f64 = 100.0;
+const AVERAGED_SAMPLES: f64 = 100.0;
 /// Time after which a sample says nothing of the next \[s\].
 const LONG_AGO: f64 = 0.2;
 
@@ -53,12 +54,14 @@ impl Spikes {
         let previous = doubtful.map_or(last.motion.0, |(_, doubtful)| doubtful.motion.0);
         let change = (sample.motion.0 - previous).abs();
         // A spike counts little among the usual changes.
-        let bounded = Channels::from_fn(|k, _| change[k].min(1.3 * self.usual[k] + 0.2 * LEAST[k].min(1.0)));
+        let bounded =
+            Channels::from_fn(|k, _| change[k].min(1.3 * self.usual[k] + 0.2 * MIN_SPIKE_DEVIATION[k].min(1.0)));
         let deviation = (sample.motion.0 - last.motion.0).abs();
         // What the ride does within a sample, it may do in each that has been lost.
         let gap = ((time - before) / 0.01).clamp(1.0, 10.0);
-        let is_far = (0..CHANNELS).any(|k| deviation[k] > LEAST[k].max(CHANGES * self.usual[k]) * gap.sqrt());
-        self.usual += (bounded - self.usual) / AVERAGE;
+        let is_far = (0..CHANNELS)
+            .any(|k| deviation[k] > MIN_SPIKE_DEVIATION[k].max(SPIKE_CHANGE_FACTOR * self.usual[k]) * gap.sqrt());
+        self.usual += (bounded - self.usual) / AVERAGED_SAMPLES;
         if !is_far {
             self.last = Some((time, *sample));
             return (Judgement::Used(None), doubtful.is_some());
@@ -67,8 +70,8 @@ impl Spikes {
         let confirms = doubtful.is_some_and(|(_, doubtful)| {
             let scaled = |from: &Channels, to: &Channels| {
                 (0..CHANNELS)
-                    .filter(|k| LEAST[*k].is_finite())
-                    .map(|k| ((from - to)[k] / LEAST[k]).abs())
+                    .filter(|k| MIN_SPIKE_DEVIATION[*k].is_finite())
+                    .map(|k| ((from - to)[k] / MIN_SPIKE_DEVIATION[k]).abs())
                     .fold(0.0, f64::max)
             };
             scaled(&sample.motion.0, &doubtful.motion.0) < 0.5 * scaled(&doubtful.motion.0, &last.motion.0)

@@ -3,9 +3,9 @@
 use crate::session::STEP;
 
 /// Units of the way: sums of whole numbers are exact, so that both ends are reached.
-const WHOLE: i64 = 1 << 40;
+const WHOLE_DISTANCE: i64 = 1 << 40;
 /// Steps over which the ramp is averaged, twice.
-const WINDOW: usize = 400;
+const RAMP_WINDOW_STEPS: usize = 400;
 
 /// Part of the way from the lengths at rest, 0, to neutral, 1: a ramp of constant speed, averaged
 /// twice over 0.4 s. Both ends are reached exactly, without overshoot. The acceleration is
@@ -20,22 +20,22 @@ pub struct Travel {
 /// Mean of the last values.
 #[derive(Clone, Debug, PartialEq)]
 struct Average {
-    values: [i64; WINDOW],
+    values: [i64; RAMP_WINDOW_STEPS],
     next: usize,
     sum: i64,
 }
 
 impl Default for Average {
     fn default() -> Self {
-        Average { values: [0; WINDOW], next: 0, sum: 0 }
+        Average { values: [0; RAMP_WINDOW_STEPS], next: 0, sum: 0 }
     }
 }
 
 impl Average {
     fn take(&mut self, value: i64) -> i64 {
         self.sum += value - std::mem::replace(&mut self.values[self.next], value);
-        self.next = (self.next + 1) % WINDOW;
-        self.sum / WINDOW as i64
+        self.next = (self.next + 1) % RAMP_WINDOW_STEPS;
+        self.sum / RAMP_WINDOW_STEPS as i64
     }
 
     fn is(&self, value: i64) -> bool {
@@ -45,12 +45,12 @@ impl Average {
 
 impl Travel {
     /// Time of each average \[s\].
-    pub const SMOOTHING: f64 = WINDOW as f64 * STEP;
+    pub const SMOOTHING: f64 = RAMP_WINDOW_STEPS as f64 * STEP;
 
     /// Advances by a step of at most `part` of the way towards 1 if `up`, else towards 0.
     pub fn advance(&mut self, up: bool, part: f64) {
-        let most = (part.clamp(0.0, 1.0) * WHOLE as f64) as i64;
-        let target = if up { WHOLE } else { 0 };
+        let most = (part.clamp(0.0, 1.0) * WHOLE_DISTANCE as f64) as i64;
+        let target = if up { WHOLE_DISTANCE } else { 0 };
         self.ramp += (target - self.ramp).clamp(-most, most);
         let averaged = self.first.take(self.ramp);
         self.second.take(averaged);
@@ -63,12 +63,12 @@ impl Travel {
 
     /// The part of the way that is gone.
     pub fn fraction(&self) -> f64 {
-        self.second.sum as f64 / (WHOLE * WINDOW as i64) as f64
+        self.second.sum as f64 / (WHOLE_DISTANCE * RAMP_WINDOW_STEPS as i64) as f64
     }
 
     /// True at neutral, and at rest there.
     pub fn is_up(&self) -> bool {
-        self.ramp == WHOLE && self.first.is(WHOLE) && self.second.is(WHOLE)
+        self.ramp == WHOLE_DISTANCE && self.first.is(WHOLE_DISTANCE) && self.second.is(WHOLE_DISTANCE)
     }
 
     /// True at the lengths at rest, and at rest there.

@@ -65,7 +65,7 @@ pub struct Sender<'a> {
 const MOST_ANSWERS: u32 = 64;
 
 /// Time between questions for the legs' lengths.
-const ASKS: Duration = Duration::from_millis(200);
+const POSITION_REQUEST_INTERVAL: Duration = Duration::from_millis(200);
 
 /// Longest time to the lowest pose: the slowest way over the longest stroke.
 const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
@@ -238,7 +238,7 @@ impl<'a> Sender<'a> {
             return;
         }
         let now = pace::now();
-        if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= ASKS) {
+        if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= POSITION_REQUEST_INTERVAL) {
             self.asked = Some(now);
             self.sink.reopen();
             self.device.ask(&mut self.bytes);

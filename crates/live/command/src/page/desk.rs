@@ -21,7 +21,7 @@ use crate::frames::Loss;
 use crate::{Shared, pace};
 
 /// Time between messages.
-const INTERVAL: Duration = Duration::from_millis(40);
+const MESSAGE_INTERVAL: Duration = Duration::from_millis(40);
 /// Most lines of the journal that are kept.
 const MOST_LINES: usize = 50;
 
@@ -201,7 +201,7 @@ impl Desk {
             if ended {
                 return;
             }
-            std::thread::sleep(INTERVAL);
+            std::thread::sleep(MESSAGE_INTERVAL);
         }
     }
 

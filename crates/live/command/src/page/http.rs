@@ -148,13 +148,13 @@ impl Access {
 }
 
 /// Headers of every answer.
-const HEADERS: &str = "Cache-Control: no-store\r\nReferrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\n\
+const COMMON_HEADERS: &str = "Cache-Control: no-store\r\nReferrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\n\
     X-Frame-Options: DENY\r\nCross-Origin-Resource-Policy: same-origin\r\nConnection: close\r\n";
 
 /// Answers a request with a text.
 pub fn answer(stream: &mut TcpStream, number: u16, kind: &str, text: &str) {
     let head = format!(
-        "HTTP/1.1 {number} {number}\r\nContent-Type: {kind}; charset=utf-8\r\nContent-Length: {}\r\n{HEADERS}\r\n",
+        "HTTP/1.1 {number} {number}\r\nContent-Type: {kind}; charset=utf-8\r\nContent-Length: {}\r\n{COMMON_HEADERS}\r\n",
         text.len()
     );
     // The browser may be gone.
@@ -163,7 +163,7 @@ pub fn answer(stream: &mut TcpStream, number: u16, kind: &str, text: &str) {
 
 /// Begins an answer of events. False if the browser is gone.
 pub fn begin_events(stream: &mut TcpStream) -> bool {
-    let head = format!("HTTP/1.1 200 200\r\nContent-Type: text/event-stream\r\n{HEADERS}\r\n");
+    let head = format!("HTTP/1.1 200 200\r\nContent-Type: text/event-stream\r\n{COMMON_HEADERS}\r\n");
     stream.write_all(head.as_bytes()).is_ok()
 }
 

@@ -14,18 +14,18 @@ use crate::lateness::{Classes, Lateness};
 /// Steps between what is shown.
 pub const EVERY: u64 = 10;
 /// Lines of the journal that a message has.
-const LINES: usize = 8;
+const MAX_JOURNAL_LINES: usize = 8;
 
 /// Names of the numbers in a row, in order.
 pub const NAMES: &str = "time desired_x desired_y desired_z wx wy wz roll pitch yaw speed felt_x felt_y felt_z \
     platform_x platform_y platform_z platform_roll platform_pitch platform_yaw leg1 leg2 leg3 leg4 leg5 leg6 \
     tilt soft safety stroke leg_speed leg_acceleration scale";
-const COUNT: usize = 33;
+const ROW_LENGTH: usize = 33;
 
 /// A moment of the session.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown {
-    numbers: [f64; COUNT],
+    numbers: [f64; ROW_LENGTH],
     pub state: State,
     health: Health,
     delay: f64,
@@ -81,7 +81,7 @@ pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Optio
     let number = |number: &f64| if number.is_finite() { format!("{number:.5}") } else { "0".to_owned() };
     let row = |moment: &Shown| format!("[{}]", moment.numbers.each_ref().map(number).join(","));
     let rows = moments.iter().map(row).collect::<Vec<_>>().join(",");
-    let lines: Vec<&String> = lines.iter().rev().take(LINES).collect();
+    let lines: Vec<&String> = lines.iter().rev().take(MAX_JOURNAL_LINES).collect();
     let lines = serde_json::to_string(&lines).unwrap_or_default();
     let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
     let (is_lost, is_located) = (last.is_lost, last.is_located);
@@ -110,7 +110,7 @@ mod tests {
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         let row: Vec<f64> = serde_json::from_value(value["rows"][1].clone()).unwrap();
         let of = |name: &str| row[NAMES.split(' ').position(|known| known == name).unwrap()];
-        assert_eq!((row.len(), NAMES.split(' ').count()), (COUNT, COUNT));
+        assert_eq!((row.len(), NAMES.split(' ').count()), (ROW_LENGTH, ROW_LENGTH));
         let commands = session.commands();
         assert_eq!((of("time"), of("desired_z")), (0.001, 9.80665));
         for (name, expected) in [

@@ -3,9 +3,9 @@
 use moris_laps::Laps;
 
 /// Distance of the places, at least \[m\].
-const SPACING: f64 = 5.0;
+const MIN_PLACE_DISTANCE: f64 = 5.0;
 /// Largest number of places kept.
-const MOST: usize = 6000;
+const MAX_TRACK_PLACES: usize = 6000;
 
 /// Places of the road along x and y \[m\]; none where it is interrupted.
 pub type Track = Vec<Option<[f64; 2]>>;
@@ -18,13 +18,13 @@ pub fn track(laps: &Laps) -> Track {
         let [x, y, _] = point.position.map(|number| (10.0 * number).round() / 10.0);
         match before {
             Some((run, _)) if run != point.run => places.push(None),
-            Some((_, [last_x, last_y])) if (x - last_x).hypot(y - last_y) < SPACING => continue,
+            Some((_, [last_x, last_y])) if (x - last_x).hypot(y - last_y) < MIN_PLACE_DISTANCE => continue,
             _ => (),
         }
         before = Some((point.run, [x, y]));
         places.push(Some([x, y]));
     }
-    places.split_off(places.len().saturating_sub(MOST))
+    places.split_off(places.len().saturating_sub(MAX_TRACK_PLACES))
 }
 
 #[cfg(test)]
@@ -43,7 +43,7 @@ mod tests {
             laps.step(&Sample { step: 0.05, position: [x, 0.0, 0.0], speed: Some(20.0), force: [0.0; 2] });
         }
         let places = track(&laps);
-        assert_eq!((places.len(), places.iter().filter(|place| place.is_none()).count()), (MOST, 1));
+        assert_eq!((places.len(), places.iter().filter(|place| place.is_none()).count()), (MAX_TRACK_PLACES, 1));
         let last = places.last().copied().flatten().unwrap();
         assert!((32_880.0..32_900.0).contains(&last[0]), "{last:?}");
         assert!(places.windows(2).all(|pair| pair[0].zip(pair[1]).is_none_or(|(one, other)| other[0] - one[0] >= 5.0)));

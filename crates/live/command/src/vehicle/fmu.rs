@@ -14,9 +14,9 @@ use serde::Deserialize;
 use super::{Features, Handling, Vehicle, shape};
 
 /// Words of a map that are not those of a table of fields.
-const OWN: [&str; 3] = ["start", "step", "controls"];
+const MAP_KEYS: [&str; 3] = ["start", "step", "controls"];
 /// Keys of a table of fields that a map may leave out, with their values.
-const DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
+const MAP_DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
 
 /// A control of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
@@ -61,8 +61,8 @@ impl Fmu {
     pub fn open(file: &Path, map: &Path) -> Result<Self> {
         let text = moris_fmu_host::files::text(map, TEXT).with_context(|| map.display().to_string())?;
         let mut table: toml::Table = text.parse().with_context(|| map.display().to_string())?;
-        let [start, step, controls] = OWN.map(|word| table.remove(word));
-        for (word, value) in DEFAULTS {
+        let [start, step, controls] = MAP_KEYS.map(|word| table.remove(word));
+        for (word, value) in MAP_DEFAULTS {
             table.entry(word).or_insert_with(|| value.into());
         }
         let fields: Format = table.to_string().parse().with_context(|| map.display().to_string())?;

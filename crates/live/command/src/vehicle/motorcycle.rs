@@ -9,7 +9,7 @@ use moris_pages::ride::{Ridden, RiderCommand, RoadPlace, STEP};
 use super::{Features, Handling, Vehicle};
 
 /// Steps of the motorcycle to a sample.
-const DIVISIONS: u32 = 5;
+const STEPS_PER_SAMPLE: u32 = 5;
 
 /// The motorcycle of `moris ride`.
 pub struct Motorcycle {
@@ -30,7 +30,7 @@ impl Motorcycle {
 
 impl Vehicle for Motorcycle {
     fn step(&self) -> f64 {
-        STEP * f64::from(DIVISIONS)
+        STEP * f64::from(STEPS_PER_SAMPLE)
     }
 
     fn features(&self) -> Features {
@@ -48,7 +48,7 @@ impl Vehicle for Motorcycle {
     }
 
     fn advance(&mut self, command: &RiderCommand) -> Result<()> {
-        (0..DIVISIONS).for_each(|_| self.ridden.step(command));
+        (0..STEPS_PER_SAMPLE).for_each(|_| self.ridden.step(command));
         Ok(())
     }
 

@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use super::line::Line;
 use super::{
-    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Player, QUANTITIES, QUATERNION, Quantity,
-    SHIPPED, Unit,
+    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Player, QUANTITY_COUNT, QUATERNION,
+    Quantity, SHIPPED, Unit,
 };
 use crate::motion::{Motion, Sample};
 
@@ -122,7 +122,7 @@ impl Format {
     }
 
     fn sample_of(&self, record: &Record, length: usize) -> Result<Sample, Dropped> {
-        let mut values = [None; QUANTITIES];
+        let mut values = [None; QUANTITY_COUNT];
         let player = match &self.player {
             Some(player) => Some(self.player_of(player, record).ok_or(Dropped::Player)?),
             None => None,
@@ -206,7 +206,7 @@ impl Format {
         !is_plain && self.decode(packet).is_ok_and(|sample| sample.is_plausible())
     }
 
-    fn sample(&self, values: &[Option<f64>; QUANTITIES]) -> Sample {
+    fn sample(&self, values: &[Option<f64>; QUANTITY_COUNT]) -> Sample {
         use Quantity::*;
         let of = |quantity: Quantity| values[quantity as usize];
         let vector = |names: [Quantity; 3]| Vector3::from_fn(|k, _| of(names[k]).unwrap_or(0.0));

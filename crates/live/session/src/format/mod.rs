@@ -34,7 +34,7 @@ use serde::Deserialize;
 pub use decode::Dropped;
 
 /// Most fields of a table, and largest offset.
-const MOST: usize = 4096;
+const MAX_FIELDS: usize = 4096;
 
 /// A table of a packet's fields.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -240,7 +240,7 @@ words! {
 }
 
 /// Number of quantities.
-const QUANTITIES: usize = Quantity::Qz as usize + 1;
+const QUANTITY_COUNT: usize = Quantity::Qz as usize + 1;
 
 /// Quantities of an attitude as a quaternion of any size, which turns the body's axes to the
 /// world's.
@@ -289,7 +289,7 @@ impl FromStr for Format {
             let refuse = |reason| Err(FormatError::Field(*quantity, reason));
             match (&field.at, format.layout) {
                 (FieldAddress::Key(_), Layout::Json | Layout::Csv) => (),
-                (FieldAddress::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MOST => (),
+                (FieldAddress::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MAX_FIELDS => (),
                 (_, Layout::Json) => return refuse("`at` must be a key"),
                 _ => return refuse("`at` must be a number below 4096"),
             }
@@ -308,7 +308,7 @@ impl FromStr for Format {
             return Err(FormatError::Whole("a quaternion needs qw, qx, qy and qz"));
         }
         if let Some(Player { at: FieldAddress::Index(at), stride, .. }) = &format.player
-            && (*at >= MOST || !(1..MOST).contains(stride) || format.layout == Layout::Json)
+            && (*at >= MAX_FIELDS || !(1..MAX_FIELDS).contains(stride) || format.layout == Layout::Json)
         {
             return Err(FormatError::Whole("player needs `at` and `stride` below 4096; in JSON `at` is a key"));
         }

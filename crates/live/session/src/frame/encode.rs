@@ -12,13 +12,13 @@ use crate::session::Commands;
 pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
     velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave own_x own_y own_z";
 /// Places of the lengths and velocities among them.
-const LENGTHS: Range<usize> = 1..13;
+const LENGTH_PLACES: Range<usize> = 1..13;
 /// Most bytes of a template.
-const MOST: usize = 4096;
+const MAX_TEMPLATE_BYTES: usize = 4096;
 /// Ends of the numbers of actuators where a template has none, but for signed ones.
 const SIXTEEN_BITS: [i64; 2] = [0, 65_535];
 /// Most decimals of a quantity.
-const DECIMALS: usize = 15;
+const MAX_DECIMALS: usize = 15;
 
 /// Values of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -207,7 +207,7 @@ impl Encoder {
         self.frame.iter().any(|token| match token {
             Token::Binary { .. } | Token::Decimal { .. } => true,
             Token::Quantity { place, .. } | Token::Float { place, .. } | Token::Scaled { place, .. } => {
-                LENGTHS.contains(place)
+                LENGTH_PLACES.contains(place)
             }
             Token::Bytes(_) | Token::Count(_) | Token::Checksum { .. } => false,
         })
@@ -301,7 +301,7 @@ fn wrapped(number: i64, whole: Whole) -> i64 {
 fn tokens(template: &str) -> Result<Vec<Token>, FramesError> {
     let mut tokens = Vec::new();
     let mut rest = template.trim_start();
-    if template.len() > MOST {
+    if template.len() > MAX_TEMPLATE_BYTES {
         return Err(FramesError::Range("a template has at most 4096 characters"));
     }
     while !rest.is_empty() {
@@ -346,7 +346,7 @@ fn token(word: &str) -> Option<Token> {
         if let Some(whole) = Whole::of(kind) {
             return Some(Token::Scaled { place, factor, whole });
         }
-        let decimals = kind.parse().ok().filter(|count| *count <= DECIMALS)?;
+        let decimals = kind.parse().ok().filter(|count| *count <= MAX_DECIMALS)?;
         return Some(Token::Quantity { place, factor, decimals });
     };
     let leg = leg.parse::<usize>().ok().filter(|leg| (1..=6).contains(leg))? - 1;
