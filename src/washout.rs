@@ -134,8 +134,8 @@ const FADE_SLOPE: f64 = 0.5;
 /// unwind, and may push against them for ever. Without them it returns in its time constants.
 const SOFT_LIMITS_HOLD: f64 = 30.0;
 
-/// Part of their pace at which gentler soft limits have to stop the platform before they come into
-/// force, and the speed up to which it may come to rest anywhere \[m/s\].
+/// Fraction of their pace at which gentler soft limits must be able to stop the platform before
+/// they come into force. It may come to rest anywhere below the speed \[m/s\].
 const GENTLE_PART: f64 = 0.8;
 const GENTLE_SPEED: f64 = 0.01;
 

@@ -21,8 +21,8 @@ pub struct GlidingOffset<const N: usize> {
     glides: bool,
 }
 
-/// Break frequency of each lag \[rad/s\]: 1 % of a correction is left after 2 s, and its slope is at
-/// most 1.1 times the correction a second.
+/// Break frequency of each lag \[rad/s\]: 1 % of a correction is left after 2 s, and its slope is
+/// at most 1.1 times the correction a second.
 const GLIDE_PACE: f64 = 5.0;
 /// Corrections below this become zero.
 const GLIDE_END: f64 = 1e-12;

@@ -295,7 +295,7 @@ fn smooth_rides_with_all_axes_at_once_do_not_jolt() {
     let hard = [(6.0, [0.46, 0.14, 0.38], 4.16), (4.4128, [0.4125, 0.206, 0.9075], 2.8689)]
         .map(|(size, frequencies, phase)| Swell { size, frequencies, phase });
     let rides = hard.into_iter().chain((0..).map(|_| Swell::random(&mut random)));
-    let mut worst = (f64::MIN, String::new());
+    let mut beyond = Vec::new();
     for (number, ride) in rides.take(crate::cases::cases(1500, 25)).enumerate() {
         let strategy = [Predictive, Classical, Adaptive, Optimal, Robust][number % 5];
         // The default rig's stroke, and from 30 mm to 1.25 m in equal ratios.
@@ -304,9 +304,9 @@ fn smooth_rides_with_all_axes_at_once_do_not_jolt() {
             _ => 0.03 * (1.25_f64 / 0.03).powf((number * 7 % 41) as f64 / 40.0),
         };
         let jolt = ride.jolt(&on_stroke(stroke, number % 3 == 1, strategy));
-        if jolt > worst.0 {
-            worst = (jolt, format!("ride {number}, {strategy:?}, {stroke:.3} m, {ride:?}"));
+        if jolt > 0.7 {
+            beyond.push(format!("{jolt:.3} m/s2 on ride {number}, {strategy:?}, {stroke:.3} m, {ride:?}"));
         }
     }
-    assert!(worst.0 < 0.7, "jolt of {} m/s2: {}", worst.0, worst.1);
+    assert!(beyond.is_empty(), "{}", beyond.join("\n"));
 }

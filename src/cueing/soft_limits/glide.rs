@@ -19,7 +19,8 @@ pub struct SoftLimitGlide {
 
 /// Relative rate of the pace \[1/s\]: from one end of its usual range to the other in 2 s.
 const PACE_RATE: f64 = 1.5;
-/// Rate of the margin and of the limits of position \[m/s\]: at the default pace, 5 m/s3 at a limit.
+/// Rate of the margin and of the limits of position \[m/s\]: at the default
+/// pace, 5 m/s3 at a limit.
 const POSITION_RATE: f64 = 0.2;
 /// Slowest pace but none \[rad/s\].
 const SLOWEST: f64 = 1e-3;

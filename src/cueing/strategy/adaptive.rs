@@ -132,8 +132,8 @@ impl Adaptive {
 }
 
 impl Adaptive {
-    /// The parameters in force after a step. Frequency and damping do not glide: what they change at
-    /// once is a correction of the dropped force.
+    /// The parameters in force after a step. Frequency and damping do not glide: what they change
+    /// at once is a correction of the dropped force.
     #[cold]
     fn gliding(&mut self, step: f64) -> AdaptiveParameters {
         self.glide.advance(step);

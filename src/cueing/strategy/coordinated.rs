@@ -81,8 +81,8 @@ impl Coordinated {
         }))
     }
 
-    /// Takes other parameters, where this is the platform's motion. The dropped forces fade to those
-    /// of the new parameters.
+    /// Takes other parameters, where this is the platform's motion. The dropped forces fade to
+    /// those of the new parameters.
     ///
     /// # Errors
     /// The strategy's weights cannot be used. Nothing has changed then.

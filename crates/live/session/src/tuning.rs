@@ -1,7 +1,7 @@
 //! Parameters that are chosen in motion.
 //!
-//! The washout fades changes in. Tighter limits of tilt and of the safety units would be in force at
-//! once, and wait here until the platform keeps them gently.
+//! The washout fades changes in. Tighter limits of tilt and of the safety units would be in force
+//! at once, and wait here until the platform keeps them gently.
 
 use moris_interface::{Group as _, Reader, refuse};
 use moris_washout::interface::{SafetyParameters, TiltParameters};

@@ -215,8 +215,8 @@ impl Predictive {
         })
     }
 
-    /// Changes the parameters. The plan stays; the next one is made with them. In motion, weights and
-    /// poles glide to their values.
+    /// Changes the parameters. The plan stays; the next one is made with them. In motion, weights
+    /// and poles glide to their values.
     ///
     /// # Errors
     /// The weights cannot be used. Nothing has changed then.
