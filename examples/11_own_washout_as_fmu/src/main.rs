@@ -24,8 +24,8 @@ const PLATFORM: &str = if cfg!(windows) {
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // cargo puts the library beside this program.
-    let library = std::env::current_exe()?.with_file_name(format!("{DLL_PREFIX}ReidNahon{DLL_SUFFIX}"));
+    // cargo puts the library into this folder beside the program.
+    let library = std::env::current_exe()?.with_file_name("deps").join(format!("{DLL_PREFIX}ReidNahon{DLL_SUFFIX}"));
     fs::create_dir_all("target/fmu")?;
     let mut fmu = ZipWriter::new(File::create("target/fmu/ReidNahon.fmu")?);
     fmu.start_file("modelDescription.xml", SimpleFileOptions::default())?;

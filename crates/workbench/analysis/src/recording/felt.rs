@@ -22,6 +22,14 @@ pub struct Names<const N: usize> {
     of: fn(&ForeignMotion) -> &Series<N>,
 }
 
+impl<const N: usize> Names<N> {
+    /// The names of this project's outputs alone. In a recording the shorter
+    /// ones are the vehicle's.
+    pub fn of_outputs(self) -> Self {
+        Names { sets: &self.sets[..1], ..self }
+    }
+}
+
 /// A row for each sample; none if the table has no such columns.
 type Series<const N: usize> = Option<Vec<[f64; N]>>;
 

@@ -120,7 +120,8 @@ fn an_optional_column_that_begins_late_leaves_the_ride_as_long_as_it_is() {
     assert_eq!(speeds, [4.0, 4.0, 6.0, 8.0].map(|time| car(time)[3]));
     let said = words::warnings(&late);
     let held = "Column speed begins at 4.00 s and ends at 8.00 s; its first and last values are used beyond.";
-    let of_speed = |said: &[String]| said.iter().filter(|line| line.contains("peed")).cloned().collect::<Vec<_>>();
+    let of_speed =
+        |said: &[String]| said.iter().filter(|line| line.contains("Column speed")).cloned().collect::<Vec<_>>();
     assert_eq!(of_speed(&said), [held], "and the channels agree where all are measured");
     assert_eq!(of_speed(&words::warnings(&ride(0..2000, 0..2000))), [""; 0]);
     let bounded = ride(100..1001, 0..2000);
