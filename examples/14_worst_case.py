@@ -30,6 +30,7 @@ FELT = [f"rider.specificForce.{axis}" for axis in "xyz"]
 MASSES = ["platform.mass", "rider.mass", "payload.mass"]
 INERTIAS = [f"{part}.inertia.{element}" for part in ("platform", "rider") for element in ("xx", "yy", "zz", "xy", "xz", "yz")]
 ERROR, SHAKE, JOLT = range(3)
+OF_RIG = ("rig.", "head.", "actuator.minLength", "actuator.maxLength")  # parameters that the washout's rig gives the platform
 
 
 class Machine:
@@ -116,7 +117,7 @@ def on_machine(task):
     files, strategy, rig, platform = task
     rides, limited = [], np.zeros(2, bool)
     for recording, simulation in commanded(files, strategy, rig):
-        machine = Machine({name: value for name, value in simulation.parameters.items() if name.startswith(("rig.", "head."))} | platform)
+        machine = Machine({name: value for name, value in simulation.parameters.items() if name.startswith(OF_RIG)} | platform)
         felt, found = machine.felt(simulation["actuator.length"], simulation["rider.lean"], 1 / COMMAND_RATE)
         machine.close()
         rides.append((recording, simulation["vehicle.specificForce"], felt))
@@ -167,7 +168,7 @@ def main():
     if unknown := given.keys() - platform.keys():
         raise SystemExit(f"{options.platform}: StewartPlatform.fmu has no parameter {', '.join(sorted(unknown))}; write whole names, in quotes")
     # Rig and head are the washout's.
-    platform = {name: value for name, value in (platform | given).items() if not name.startswith(("rig.", "head."))}
+    platform = {name: value for name, value in (platform | given).items() if not name.startswith(OF_RIG)}
     points = machines(platform, options.points, options.seed)
     print(f"{len(files)} recordings, {len(points)} machines\n")
     results, own = {}, {}
