@@ -68,7 +68,7 @@ fn outputs_time_and_fixed_parameters_cannot_be_set_during_the_ride() {
     let start = start_values::<Washout>(&[]);
     for (mut instance, fixed_too) in instances() {
         let before = bytes(&mut instance);
-        for slot in 0..IDENTITY.slots.len() {
+        for (slot, value) in start.iter().enumerate() {
             let (row, name) = (IDENTITY.row(slot), IDENTITY.variable_name(slot));
             let settable = match row.causality {
                 Causality::Input => true,
@@ -77,7 +77,7 @@ fn outputs_time_and_fixed_parameters_cannot_be_set_during_the_ride() {
             };
             if !settable {
                 // A fixed parameter takes the value that it has.
-                let other = if start[slot] == 1.0 { 2.0 } else { 1.0 };
+                let other = if *value == 1.0 { 2.0 } else { 1.0 };
                 assert_eq!(set(&mut instance, slot, other), Status::Error, "{name}");
                 let message = instance.take_messages().pop().unwrap();
                 assert!(message.text.contains(&format!("'{name}'")), "{}", message.text);
