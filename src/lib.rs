@@ -20,7 +20,7 @@
 //! let mut washout = Washout::new(&parameters)?;
 //! washout.step(&Input::default(), 0.001);
 //! let error = parameters.set("tilt.rateLimit", -1.0).unwrap_err();
-//! assert_eq!(error.to_string(), "tilt.rateLimit: is -1, but must be from 0.000000001 to 10");
+//! assert_eq!(error.to_string(), "tilt.rateLimit: is -1, but must be from 1e-9 to 10");
 //! # Ok::<(), moris_washout::ParameterError>(())
 //! ```
 //!

@@ -36,8 +36,8 @@ fn of_file(file: &Path) -> Result<Response, RecordingError> {
     let recording = Recording::read(file, &Conventions::default())?;
     let table = FeltTable::read(file)?;
     let mut notes = Vec::new();
-    let force = table.part(&FORCE.of_outputs(), &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
-    let rate = table.part(&RATE.of_outputs(), &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
+    let force = table.measured_part(&FORCE, &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
+    let rate = table.measured_part(&RATE, &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
     let felt = force.iter().zip(&rate).map(|([x, y, z], [p, q, r])| [*x, *y, *z, *p, *q, *r]).collect::<Vec<_>>();
     let desired: Vec<[f64; CHANNELS]> = recording
         .inputs()

@@ -22,14 +22,6 @@ pub struct Names<const N: usize> {
     of: fn(&ForeignMotion) -> &Series<N>,
 }
 
-impl<const N: usize> Names<N> {
-    /// The names of this project's outputs alone. In a recording the shorter
-    /// ones are the vehicle's.
-    pub fn of_outputs(self) -> Self {
-        Names { sets: &self.sets[..1], ..self }
-    }
-}
-
 /// A row for each sample; none if the table has no such columns.
 type Series<const N: usize> = Option<Vec<[f64; N]>>;
 
@@ -231,6 +223,26 @@ impl FeltTable {
             let titles = self.titles.join(", ");
             format!("{}: there are no columns {}; there are {titles}", names.argument, names.shown())
         })
+    }
+
+    /// As [`FeltTable::part`], by the names of this project's outputs alone. In a recording the
+    /// shorter ones are the vehicle's.
+    ///
+    /// # Errors
+    /// There are no such columns, or they do not cover the recording.
+    pub fn measured_part<const N: usize>(
+        &self,
+        names: &Names<N>,
+        recording: &Recording,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<[f64; N]>, String> {
+        let outputs = &names.sets[0];
+        let is_there = |name: &str| self.titles.iter().any(|title| title.split([' ', '[']).next() == Some(name));
+        if outputs.iter().all(|name| is_there(name)) {
+            return self.part(names, recording, notes);
+        }
+        let titles = self.titles.join(", ");
+        Err(format!("there are no columns {} to {}; there are {titles}", outputs[0], outputs[N - 1]))
     }
 
     fn placed<const N: usize>(
