@@ -1,6 +1,7 @@
 """The table of environments in which README's commands are tried: its use in the workflow, and what is refused in one line."""
 
 import re
+import shutil
 import subprocess
 import sys
 
@@ -23,6 +24,7 @@ def test_the_workflow_runs_every_environment():
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="needs Linux: the environments are made there")
+@pytest.mark.skipif(not (ROOT / ".git").exists() or not shutil.which("git"), reason="needs git and a clone: environments are clones")
 @pytest.mark.parametrize("name", ["no-ensurepip", "no-cargo"])
 def test_what_the_tests_cannot_do_without_is_refused_in_one_line(name, tmp_path):
     assert name in REFUSED
