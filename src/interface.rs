@@ -19,7 +19,7 @@
 //! # Ok::<(), moris_washout::ParameterError>(())
 //! ```
 
-use std::ops::RangeInclusive;
+use core::ops::RangeInclusive;
 
 use moris_interface::units::{ANGULAR_FREQUENCY, M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
 use moris_interface::{enumeration, interface, interface_tree};

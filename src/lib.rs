@@ -32,8 +32,13 @@
 //! computes the same bits.
 //!
 //! A step allocates nothing, does no I/O and does not panic, whatever its input.
+//!
+//! Without the feature `std`, which is on by default, the crate needs `core` and `alloc` alone.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
 
 #[cfg(test)]
 #[path = "../tests/cases/mod.rs"]

@@ -1,5 +1,7 @@
 //! The washout as a model with variables.
 
+use alloc::{string::String, vec::Vec};
+
 use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterError, variables};
 
 use crate::interface::{Inputs, Output, Parameters};

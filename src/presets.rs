@@ -10,6 +10,8 @@
 //! # Ok::<(), moris_washout::ParameterError>(())
 //! ```
 
+use alloc::{vec, vec::Vec};
+
 use moris_interface::{Causality, Kind, Model, SlotModel};
 
 use crate::interface::Parameters;

@@ -2,6 +2,8 @@
 
 use nalgebra::{Const, DimMin, SMatrix, ToTypenum};
 
+use crate::motion::square_root::square_root;
+
 type Square<const N: usize> = SMatrix<f64, N, N>;
 
 /// The matrix sign iteration converges quadratically; a solvable equation needs 10 to 20.
@@ -30,7 +32,7 @@ where
     w.fixed_view_mut::<N, N>(N, N).copy_from(&-a.transpose());
     for _ in 0..MAX_ITERATIONS {
         let inverse = w.try_inverse()?;
-        let scale = (inverse.norm() / w.norm()).sqrt();
+        let scale = square_root(inverse.norm() / w.norm());
         let next = 0.5 * (scale * w + inverse / scale);
         let change = (next - w).norm() / next.norm();
         w = next;

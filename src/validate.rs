@@ -1,5 +1,7 @@
 //! Validation of parameters: each alone, and in combination.
 
+use alloc::{borrow::ToOwned, format, string::String, vec::Vec};
+
 use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig};

@@ -313,7 +313,11 @@ impl Washout {
     fn internal_steps(&self, step: f64) -> f64 {
         const ROUNDING: f64 = 1e-9;
         let longest = self.parameters.structure.max_step;
-        if step <= longest { 1.0 } else { (step / longest * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS) }
+        if step <= longest {
+            1.0
+        } else {
+            libm::ceil(step / longest * (1.0 - ROUNDING)).clamp(1.0, MOST_INTERNAL_STEPS)
+        }
     }
 
     /// One step of Fig. 4, from left to right. The cue goes linearly from the last sample to `end`.
@@ -508,7 +512,7 @@ impl Washout {
         // From here on nothing fails.
         self.scale = scale;
         let spurious_before = self.spurious();
-        let before = std::mem::replace(&mut self.parameters, *parameters);
+        let before = core::mem::replace(&mut self.parameters, *parameters);
         self.soft.tighten(&parameters.safety);
         if nothing_cued && self.motion().velocity == Vector3::zeros() {
             self.soft = SoftLimitGlide::at(parameters);

@@ -35,6 +35,8 @@ NO_TESTS = 5
 """pytest's exit status if an expression selects none."""
 OLDEST_PYTHON = (3, 10)
 WEBASSEMBLY = "wasm32-unknown-unknown"
+BOARD_TARGETS = ("thumbv7em-none-eabihf", "thumbv7m-none-eabi")
+BOARD_TOOLS = ("qemu-system-arm",)
 LACKING_LINE = re.compile(r"SKIPPED \[\d+\] (?P<test>\S+?)(:\d+)?: (?P<reason>needs .*)|(?P<part>\S.*?):? +missing \((?P<what>.*)\)")
 """A line of pytest, or of a script beside this one, that says what this machine lacks."""
 lacking = []
@@ -339,6 +341,11 @@ def main():
     if options.install and "pages" in chosen:
         # Before the command is compiled: it holds the pages' modules.
         run("rustup", "target", "add", WEBASSEMBLY)
+    if options.install and options.all and "package" in chosen:
+        become_root = [] if os.geteuid() == 0 else ["sudo"]
+        run("rustup", "target", "add", *BOARD_TARGETS)
+        run(*become_root, "apt-get", "update", "-qq")
+        run(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *BOARD_TOOLS)
     # Otherwise the tests change no toolchain.
     os.environ["RUSTUP_AUTO_INSTALL"] = "0"
     for together, run_together in GROUPS:

@@ -9,6 +9,7 @@ use crate::cueing::strategy::smooth_tilt::TiltLimits;
 use crate::interface::{TiltParameters, TiltTracking};
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
+use crate::motion::square_root::square_root;
 
 /// The tilt of the platform that the gravitational strategy commands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -38,7 +39,7 @@ pub struct Tilt {
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
     let pitch = -libm::asin(force.x / gravity);
     // g cos(pitch), as a root that does not depend on the arcsine.
-    let head_roll = libm::asin(force.y / (gravity * gravity - force.x * force.x).sqrt());
+    let head_roll = libm::asin(force.y / square_root(gravity * gravity - force.x * force.x));
     let roll = head_roll - lean;
     // The arcsine of a number beyond 1 is NaN, which is not inside.
     let inside = |angle: f64| angle.abs() <= angle_limit;

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::interface::{SafetyParameters, TiltParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
+use crate::motion::square_root::square_root;
 
 /// Preaction with its state: the predicted stop, the tilt ahead of it and the surge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -166,7 +167,7 @@ impl StopPreaction {
                 self.accelerated(-growing.min(self.tilted_for - force), step)
             }
             Phase::Recovering { from } => {
-                let easing = 2.0 * (from * self.surge.velocity.abs()).sqrt() / LAUNCH_TIME;
+                let easing = 2.0 * square_root(from * self.surge.velocity.abs()) / LAUNCH_TIME;
                 self.accelerated(easing.min(-self.surge.velocity / step), step)
             }
         };

@@ -45,12 +45,12 @@ fn denominators(parameters: &SplitterParameters, order: i32, complementary: bool
         high_pass_denominators(parameters, order)
     } else {
         let (omega, zeta) = (parameters.low_pass_omega, parameters.low_pass_zeta);
-        std::array::from_fn(|axis| Denominator::new(2, omega[axis], zeta[axis], 1.0, 1.0))
+        core::array::from_fn(|axis| Denominator::new(2, omega[axis], zeta[axis], 1.0, 1.0))
     }
 }
 
 /// The high-pass filters' D(s), one for each axis of the base frame.
 pub fn high_pass_denominators(parameters: &SplitterParameters, order: i32) -> [Denominator; 3] {
     let SplitterParameters { omega1, zeta1, omega2, zeta2, .. } = parameters;
-    std::array::from_fn(|axis| Denominator::new(order, omega1[axis], zeta1[axis], omega2[axis], zeta2[axis]))
+    core::array::from_fn(|axis| Denominator::new(order, omega1[axis], zeta1[axis], omega2[axis], zeta2[axis]))
 }

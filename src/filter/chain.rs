@@ -59,11 +59,24 @@ fn transition(denominator: &Denominator, step: f64) -> Transition {
     // A deserialized state can have any coefficients, and on infinite ones the
     // exponential never ends.
     let usable = scaled.iter().all(|entry| entry.abs() < 1e30);
-    let exponential = if usable { scaled.exp() } else { SMatrix::zeros() };
-    let [a, b, c, d, input, slope] = std::array::from_fn(|j| f64x4::from([0, 1, 2, 3].map(|i| exponential[(i, j)])));
+    let exponential = if usable { exponential(&scaled) } else { SMatrix::zeros() };
+    let [a, b, c, d, input, slope] = core::array::from_fn(|j| f64x4::from([0, 1, 2, 3].map(|i| exponential[(i, j)])));
     // The slope is the difference of the inputs at the end and at the start, over the step.
     let end = slope / step;
     [a, b, c, d, input - end, end]
+}
+
+/// The exponential of a matrix, by scaling and squaring: exp(A) = exp(A / 2^k)^(2^k).
+fn exponential<const N: usize>(matrix: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
+    let norm = matrix.column_iter().map(|column| column.abs().sum()).fold(0.0, f64::max);
+    // At this norm the terms that the series leaves out add up to less than 1e-18.
+    let squarings = (0..).find(|&k| libm::scalbn(norm, -k) <= 0.5).unwrap_or(0);
+    let scaled = matrix * libm::scalbn(1.0, -squarings);
+    let mut sum = SMatrix::identity();
+    for k in (1..=15).rev() {
+        sum = SMatrix::identity() + scaled * sum / f64::from(k);
+    }
+    (0..squarings).fold(sum, |power, _| power * power)
 }
 
 /// Three chains, one for each axis, with their states.
@@ -207,6 +220,54 @@ impl Chains {
             self.denominators = denominators;
             // There are no transitions for these yet: the next step computes them.
             self.step = 0.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix2, Matrix6};
+
+    use super::*;
+
+    /// exp(A) of A = D(decay) + R(angle), whose closed form needs up to seven squarings here.
+    #[test]
+    fn the_exponential_of_a_decaying_rotation_is_its_closed_form() {
+        for (decay, angle) in [(0.0_f64, 1e-9_f64), (0.001, 0.3), (0.7, 1.1), (3.0, 7.0), (-2.0, 50.0)] {
+            let found = exponential(&Matrix2::new(-decay, -angle, angle, -decay));
+            let expected = (-decay).exp() * Matrix2::new(angle.cos(), -angle.sin(), angle.sin(), angle.cos());
+            let error = (found - expected).norm() / expected.norm();
+            assert!(error < 1e-15 * (1.0 + angle), "{error} at {decay}, {angle}");
+        }
+    }
+
+    #[test]
+    fn the_exponential_of_integrators_is_the_powers_of_time() {
+        let time = 0.001;
+        let found = exponential(&Matrix6::from_fn(|i, j| if i == j + 1 { time } else { 0.0 }));
+        let mut expected = 1.0;
+        for k in 0..6 {
+            let error: f64 = found[(k, 0)] / expected - 1.0;
+            assert!(error.abs() < 1e-15, "{error} at the power {k}");
+            expected *= time / (k + 1) as f64;
+        }
+    }
+
+    #[test]
+    fn the_exponential_is_that_of_another_implementation() {
+        for (omega, zeta, step) in [(0.3, 0.7, 0.001), (2.0, 1.0, 0.001), (40.0, 0.1, 0.01), (200.0, 2.0, 0.01)] {
+            let mut matrix = Matrix6::zeros();
+            for (k, c) in Denominator::new(4, omega, zeta, 0.1 * omega, 1.0).coefficients.to_array().iter().enumerate()
+            {
+                matrix[(0, k)] = -c;
+            }
+            for [i, j] in [[1, 0], [2, 1], [3, 2], [0, 4], [4, 5]] {
+                matrix[(i, j)] = 1.0;
+            }
+            let (found, expected) = (exponential(&(matrix * step)), (matrix * step).exp());
+            let error = (found - expected).norm() / expected.norm();
+            // Rounding of the matrix changes its exponential by as much.
+            assert!(error < 1e-15 * (1.0 + (matrix * step).norm()), "{error} at {omega}, {zeta}, {step}");
         }
     }
 }

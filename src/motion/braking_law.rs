@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
+use crate::motion::square_root::square_root;
 
 /// Limits of a motion along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,7 +96,7 @@ impl Limits {
 /// step and the longest.
 pub fn approach_velocity(distance: f64, acceleration: f64, step: f64) -> f64 {
     let per_step = acceleration * step;
-    let magnitude = (per_step * per_step + 2.0 * acceleration * distance.abs()).sqrt() - per_step;
+    let magnitude = square_root(per_step * per_step + 2.0 * acceleration * distance.abs()) - per_step;
     magnitude.copysign(distance)
 }
 

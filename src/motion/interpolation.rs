@@ -1,6 +1,6 @@
 //! Orientations between two.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Quaternion, Vector3};
 

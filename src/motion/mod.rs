@@ -7,6 +7,7 @@ pub(crate) mod interpolation;
 pub(crate) mod lanes;
 pub(crate) mod min_max;
 pub mod orientation;
+pub(crate) mod square_root;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

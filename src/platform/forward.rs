@@ -121,7 +121,7 @@ pub fn motion_of_legs(
     };
     // The legs' accelerations are J (p'', alpha) plus what they are while (p'', alpha) is zero.
     let without = leg_accelerations(geometry, &motion);
-    let acceleration = solve(&std::array::from_fn(|i| accelerations[i] - without[i]));
+    let acceleration = solve(&core::array::from_fn(|i| accelerations[i] - without[i]));
     motion.acceleration = acceleration.fixed_rows::<3>(0).into();
     motion.angular_acceleration = Vector3::from(acceleration.fixed_rows::<3>(3));
     Ok(motion)

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Geometry, PlatformMotion, Pose};
 use crate::motion::min_max::{max, min};
+use crate::motion::square_root::square_root;
 
 /// The six legs: length \[m\] and rate \[m/s\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -52,7 +53,7 @@ pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs 
         let along = x * (v.x + (w.y * arm.z[i] - w.z * arm.y[i]))
             + y * (v.y + (w.z * arm.x[i] - w.x * arm.z[i]))
             + z * (v.z + (w.x * arm.y[i] - w.y * arm.x[i]));
-        let length = (x * x + y * y + z * z).sqrt();
+        let length = square_root(x * x + y * y + z * z);
         legs.length[i] = length;
         legs.velocity[i] = along / length.max(SHORTEST);
     }
@@ -79,7 +80,7 @@ pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
     for i in 0..6 {
         let (ax, ay, az) = (arm.x[i], arm.y[i], arm.z[i]);
         let (x, y, z) = (p.x + ax - base.x[i], p.y + ay - base.y[i], p.z + az - base.z[i]);
-        let length = (x * x + y * y + z * z).sqrt().max(SHORTEST);
+        let length = square_root(x * x + y * y + z * z).max(SHORTEST);
         let (nx, ny, nz) = (x / length, y / length, z / length);
         // The joint's velocity and acceleration as the platform turns about its origin.
         let (tx, ty, tz) = (w.y * az - w.z * ay, w.z * ax - w.x * az, w.x * ay - w.y * ax);
@@ -128,7 +129,7 @@ pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 
 /// assert!(lengths.iter().all(|length| (length - 1.3).abs() < 1e-3));
 /// ```
 pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
-    std::array::from_fn(|i| {
+    core::array::from_fn(|i| {
         (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
     })
 }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::{Geometry, Joints, Pose};
+use crate::motion::square_root::square_root;
 
 /// The Jacobian, with a row for each leg. Its columns are the velocity x, y, z \[m/s\] and the
 /// angular velocity x, y, z \[rad/s\], in the base frame.
@@ -30,7 +31,7 @@ pub fn jacobian(geometry: &Geometry, pose: &Pose) -> Jacobian {
     // Written out and not in vectors, so that the processor does two legs at a time.
     for i in 0..6 {
         let (x, y, z) = (p.x + arm.x[i] - base.x[i], p.y + arm.y[i] - base.y[i], p.z + arm.z[i] - base.z[i]);
-        let length = (x * x + y * y + z * z).sqrt();
+        let length = square_root(x * x + y * y + z * z);
         (n.x[i], n.y[i], n.z[i]) = (x / length, y / length, z / length);
         m.x[i] = arm.y[i] * n.z[i] - arm.z[i] * n.y[i];
         m.y[i] = arm.z[i] * n.x[i] - arm.x[i] * n.z[i];

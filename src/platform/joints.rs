@@ -24,7 +24,7 @@ impl Joints {
     pub fn turned(&self, rotation: &Matrix3<f64>) -> Joints {
         let row = |k: usize| {
             let (a, b, c) = (rotation[(k, 0)], rotation[(k, 1)], rotation[(k, 2)]);
-            std::array::from_fn(|i| a * self.x[i] + b * self.y[i] + c * self.z[i])
+            core::array::from_fn(|i| a * self.x[i] + b * self.y[i] + c * self.z[i])
         };
         Joints { x: row(0), y: row(1), z: row(2) }
     }
@@ -44,7 +44,7 @@ mod tests {
     /// Joints out of their plane, too, as some rigs have them.
     #[test]
     fn turned_joints_are_the_rotations_of_each() {
-        let joints: [Vector3<f64>; 6] = std::array::from_fn(|i| {
+        let joints: [Vector3<f64>; 6] = core::array::from_fn(|i| {
             let angle = i as f64;
             Vector3::new(0.7 * angle.cos(), 0.5 * angle.sin(), 0.05 * (1.0 + angle))
         });

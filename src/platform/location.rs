@@ -1,6 +1,8 @@
 //! Where the washout location is on the platform: the rider's head with the rider's lean, eq.
 //! (4), or another point.
 
+use alloc::format;
+
 use moris_interface::{ParameterError, refuse, shown};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

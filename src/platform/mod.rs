@@ -25,6 +25,7 @@ mod guard;
 mod inverse;
 mod jacobian;
 mod joints;
+#[cfg(feature = "std")]
 mod known_surveys;
 mod location;
 pub mod numbering;
@@ -42,9 +43,12 @@ pub(crate) use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;
+#[cfg(feature = "std")]
 pub(crate) use known_surveys::known_survey;
 pub use location::{LocationFrame, check_torso};
 pub(crate) use state::PlatformState;
+#[cfg(not(feature = "std"))]
+pub(crate) use survey::survey as known_survey;
 pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;

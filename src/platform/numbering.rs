@@ -26,7 +26,7 @@ mod tests {
     #[test]
     fn one_list_the_wrong_way_is_opposite_and_both_are_not() {
         let rig = Rig::default();
-        let reversed = |joints: &[Vector3<f64>; 6]| std::array::from_fn(|i| joints[5 - i]);
+        let reversed = |joints: &[Vector3<f64>; 6]| core::array::from_fn(|i| joints[5 - i]);
         assert!(!is_opposite(&rig));
         assert!(is_opposite(&Rig { base: reversed(&rig.base), ..rig }));
         assert!(is_opposite(&Rig { platform: reversed(&rig.platform), ..rig }));

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::{Geometry, Pose, leg_lengths};
 use crate::interface::Rig;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
+use crate::motion::square_root::square_root;
 
 /// An axis of the platform's motion: a translation in the base frame or a rotation from level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +99,8 @@ pub fn horizontal_reach(rig: &Rig) -> [f64; 2] {
         legs.map(|(platform, base)| {
             let apart = neutral + platform - base;
             let along = apart[k].abs();
-            let half_chord = |length: f64| (along * along - apart.norm_squared() + length * length).max(0.0).sqrt();
+            let half_chord =
+                |length: f64| square_root((along * along - apart.norm_squared() + length * length).max(0.0));
             // Away from the base joint the leg ends at its longest, towards it also at its shortest.
             let (longest, shortest) = (half_chord(rig.max_length), half_chord(rig.min_length));
             if shortest > 0.0 { (longest - along).min((along - shortest).abs()) } else { longest - along }
@@ -108,7 +110,7 @@ pub fn horizontal_reach(rig: &Rig) -> [f64; 2] {
 }
 
 /// Largest reach considered: translations \[multiples of the longest leg\], rotations \[rad\].
-const FARTHEST: [f64; 2] = [2.0, std::f64::consts::FRAC_PI_2];
+const FARTHEST: [f64; 2] = [2.0, core::f64::consts::FRAC_PI_2];
 /// Number of points checked on the path, so that a leg that leaves its stroke and returns is found.
 const PARTS: u32 = 2000;
 /// Halvings of the last part: to well below a nanometre.

@@ -81,7 +81,7 @@ impl StopPlan {
     /// where they are so already \[s\].
     pub fn times_until_within(&self, limits: &Vector3<f64>) -> [f64; 3] {
         let StopPlan { start, durations, elapsed } = self;
-        std::array::from_fn(|k| {
+        core::array::from_fn(|k| {
             // On an axis that rests from the start the product is NaN; its time is then zero.
             let end = durations.linear[k] * (1.0 - limits[k] / start.linear.velocity[k].abs());
             max(end - elapsed, 0.0)

@@ -118,7 +118,7 @@ fn follow(geometry: &Geometry, pose: &Pose, from: &[f64; 6], to: &[f64; 6]) -> O
     let mut pose = *pose;
     for part in 1..=PARTS {
         let fraction = part as f64 / PARTS as f64;
-        let lengths = std::array::from_fn(|i| from[i] + fraction * (to[i] - from[i]));
+        let lengths = core::array::from_fn(|i| from[i] + fraction * (to[i] - from[i]));
         pose = forward_kinematics(geometry, &lengths, &pose).ok()?;
     }
     Some(pose)
@@ -168,7 +168,7 @@ mod tests {
     fn the_mean_radius_is_about_the_centroid() {
         let around = |centre: Vector3<f64>| {
             let at = |angle: f64, radius: f64| centre + radius * Vector3::new(angle.cos(), angle.sin(), 0.0);
-            std::array::from_fn(|i| at(std::f64::consts::FRAC_PI_3 * i as f64, if i % 2 == 0 { 0.4 } else { 0.6 }))
+            core::array::from_fn(|i| at(core::f64::consts::FRAC_PI_3 * i as f64, if i % 2 == 0 { 0.4 } else { 0.6 }))
         };
         // Opposite joints differ in radius: the centroid is still the centre, by threes.
         for centre in [Vector3::zeros(), Vector3::new(1.0, -2.0, 0.5)] {

@@ -63,7 +63,7 @@ impl Field for bool {
 impl Field for i32 {
     const KIND: Kind = Kind::Integer;
     fn read(slots: &[f64]) -> Self {
-        slots[0].round() as i32
+        libm::round(slots[0]) as i32
     }
     fn write(self, slots: &mut [f64]) {
         slots[0] = f64::from(self);
@@ -83,7 +83,7 @@ impl Field for Vector3<f64> {
 impl<const N: usize> Field for [f64; N] {
     const COUNT: usize = N;
     fn read(slots: &[f64]) -> Self {
-        std::array::from_fn(|i| slots[i])
+        core::array::from_fn(|i| slots[i])
     }
     fn write(self, slots: &mut [f64]) {
         slots.copy_from_slice(&self);
@@ -113,7 +113,7 @@ impl Field for [Vector3<f64>; 6] {
     const COUNT: usize = 6;
     const COMPONENTS: &'static [&'static str] = &["x", "y", "z"];
     fn read(slots: &[f64]) -> Self {
-        std::array::from_fn(|i| Vector3::new(slots[3 * i], slots[3 * i + 1], slots[3 * i + 2]))
+        core::array::from_fn(|i| Vector3::new(slots[3 * i], slots[3 * i + 1], slots[3 * i + 2]))
     }
     fn write(self, slots: &mut [f64]) {
         for (element, slot) in self.iter().zip(slots.chunks_exact_mut(3)) {

@@ -1,5 +1,7 @@
 //! The GUID by which a host matches a model description and a binary.
 
+use alloc::{format, string::String};
+
 use crate::{Causality, Identity, Kind, Model, start_values};
 
 /// The GUID of a model with its own start values.

@@ -1,5 +1,12 @@
 //! Ways in which a model description presents the interface's rows.
 
+use alloc::{
+    borrow::ToOwned,
+    format,
+    string::{String, ToString},
+    vec::Vec,
+};
+
 use crate::Identity;
 
 /// Presentation of a row of several values in a model description. One library serves both: the

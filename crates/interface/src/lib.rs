@@ -9,6 +9,9 @@
 //! order of the rows. A value reference is a slot's index. Booleans are 0 and 1, enumerations and
 //! integers whole numbers.
 
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
 extern crate self as moris_interface; // the macros name this crate so
 
 mod declare;
@@ -104,7 +107,7 @@ pub trait Group: Default + 'static {
         let Some((slot, row)) = slot_of(Self::ROWS, name) else {
             return refuse(name, "is no variable; the rows of this struct have the names");
         };
-        let is_whole = matches!(row.kind, Kind::Real(_)) || value.fract() == 0.0;
+        let is_whole = matches!(row.kind, Kind::Real(_)) || value % 1.0 == 0.0;
         if !row.accepts(value) || !is_whole {
             return refuse(name, row.reason(value));
         }

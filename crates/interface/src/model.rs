@@ -1,5 +1,7 @@
 //! The trait of a model, for those who host it.
 
+use alloc::{string::String, vec::Vec};
+
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::units::S;

@@ -1,6 +1,13 @@
 //! A row of the interface: one field of a struct, one or several scalar variables.
 
-use std::ops::RangeInclusive;
+use alloc::{
+    borrow::ToOwned,
+    format,
+    string::{String, ToString},
+    vec,
+    vec::Vec,
+};
+use core::ops::RangeInclusive;
 
 use crate::shown::shown;
 use crate::{Field, ParameterError, Unit};
@@ -267,7 +274,7 @@ impl Row {
             (kind, Some((min, max))) => {
                 let number = match kind {
                     _ if !value.is_finite() => "a finite number ",
-                    Kind::Integer if value.fract() != 0.0 => "a whole number ",
+                    Kind::Integer if value % 1.0 != 0.0 => "a whole number ",
                     _ => "",
                 };
                 format!("{number}from {} to {}", shown(min), shown(max))

@@ -1,5 +1,10 @@
 //! Numbers in messages.
 
+use alloc::{
+    format,
+    string::{String, ToString},
+};
+
 /// The number in few characters: very large and very small ones with an exponent. Otherwise 1e308
 /// would be a 1 and 308 zeros.
 pub fn shown(value: f64) -> String {

@@ -1,5 +1,7 @@
 //! A model as its host sees it: one value a slot.
 
+use alloc::{string::String, vec::Vec};
+
 use crate::{Group, Model, ParameterError, Reader, Time, Writer, slot_count};
 
 /// A [`Model`] whose inputs, outputs and parameters lie in slots.

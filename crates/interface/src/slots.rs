@@ -1,6 +1,8 @@
 //! The flat array of a model's values: which slot belongs to which row, and reading and
 //! writing structs in it.
 
+use alloc::{vec, vec::Vec};
+
 use crate::{Field, Group, Row};
 
 /// Where a slot comes from.
@@ -97,7 +99,7 @@ impl<'a> Writer<'a> {
     /// A writer of the next `count` slots; see [`Reader::part`].
     #[inline]
     pub fn part(&mut self, count: usize) -> Self {
-        let (mine, rest) = std::mem::take(&mut self.slots).split_at_mut(count);
+        let (mine, rest) = core::mem::take(&mut self.slots).split_at_mut(count);
         self.slots = rest;
         Writer::new(mine)
     }

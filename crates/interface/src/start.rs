@@ -1,5 +1,7 @@
 //! Start values of a model, with overrides.
 
+use alloc::{vec, vec::Vec};
+
 use crate::{Model, SlotModel};
 
 /// The start value of every slot of a model, with these laid over the model's own, each a

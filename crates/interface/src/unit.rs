@@ -57,7 +57,7 @@ pub mod units {
 
     /// The unit of a quantity that is shown in degrees; a radian is much of it.
     const fn in_degrees(unit: Unit, display: &'static str) -> Unit {
-        let display = DisplayUnit { name: display, factor: 180.0 / std::f64::consts::PI };
+        let display = DisplayUnit { name: display, factor: 180.0 / core::f64::consts::PI };
         Unit { nominal: 0.1, display: Some(display), ..unit }
     }
 

@@ -98,7 +98,7 @@ pub fn points(now: f64, course: &PreviewedCue, largest: f64) -> [f64; POINTS] {
     let PreviewedCue { step, count, values, age, .. } = course;
     let value = |k: usize| if k == 0 { now } else { max(min(values[k - 1], largest), -largest) };
     let end = course.length();
-    std::array::from_fn(|point| {
+    core::array::from_fn(|point| {
         let time = point as f64 * SPACING;
         // Corner 0 is now, and corner k the k-th value.
         let after = max((age + min(time, end)) / step, 0.0);
@@ -129,7 +129,7 @@ mod tests {
         let regulator = Regulator::new(&MODEL, &WEIGHTS).unwrap();
         let tracker = Tracker::new(&MODEL).unwrap();
         for (column, pole) in [(4, WEIGHTS.slow_pole), (5, WEIGHTS.fast_pole)] {
-            let fading = std::array::from_fn(|k| (-pole * SPACING * k as f64).exp());
+            let fading = core::array::from_fn(|k| (-pole * SPACING * k as f64).exp());
             for (i, found) in tracker.forward(&fading).into_iter().enumerate() {
                 let expected = -regulator.gains[(i, column)];
                 assert!((found - expected).abs() < 0.03 * expected.abs() + 1e-3, "{column} {i}: {found} {expected}");

@@ -1,7 +1,7 @@
 //! The bank of shadows: what the platform would feel at fixed scales, and the largest scale at
 //! which that has the right shape.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use core::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

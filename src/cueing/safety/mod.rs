@@ -138,6 +138,6 @@ impl SafetyUnits {
         keep &= (2.0 * most * ahead).cmp_ge(speed * (speed + most * self.longest_step));
         keep &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).cmp_ge(change * step + 2.0 * gap);
         let keep = keep.move_mask();
-        std::array::from_fn(|k| keep & (1 << k) != 0)
+        core::array::from_fn(|k| keep & (1 << k) != 0)
     }
 }

@@ -33,6 +33,7 @@ use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
+use crate::motion::square_root::square_root;
 use crate::platform::reach::{neutral_lengths, short_stroke};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
 
@@ -82,7 +83,7 @@ impl GentleSlope {
     #[inline(always)]
     fn value(self, room: f64) -> f64 {
         let (linear, knee) = (self.pace * room, self.knee());
-        if linear <= knee { linear } else { (2.0 * self.slope * room - knee * knee).sqrt() }
+        if linear <= knee { linear } else { square_root(2.0 * self.slope * room - knee * knee) }
     }
 }
 

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::Ends;
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
+use crate::motion::square_root::square_root;
 
 /// Frequency w at which the limits return, with a damping ratio of 1/2 \[rad/s\].
 const FREQUENCY: f64 = 0.8;
@@ -75,10 +76,10 @@ impl Retreat {
         let largest = max(LARGEST_RETREAT * room, f64::MIN_POSITIVE);
         let part = position / largest;
         let to_fourth = 1.0 + (part * part) * (part * part);
-        let slope = 1.0 / (to_fourth * to_fourth.sqrt().sqrt());
+        let slope = 1.0 / (to_fourth * square_root(square_root(to_fourth)));
         let bend = -5.0 * (part * part * part) / largest * slope / to_fourth;
         let along = slope * acceleration + bend * velocity * velocity;
-        let (least, most) = ends.range(q - position / to_fourth.sqrt().sqrt(), v - slope * velocity, pace);
+        let (least, most) = ends.range(q - position / square_root(square_root(to_fourth)), v - slope * velocity, pace);
         let upper = min(upper, most + along);
         (min(max(lower, least + along), upper), upper)
     }

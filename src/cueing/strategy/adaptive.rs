@@ -329,7 +329,8 @@ mod tests {
         const SHIFT: f64 = 1e-6;
         const MODEL: AxisModel = AxisModel { head_height: 1.2, ..FREE };
         let base = [0.7, 0.12];
-        let shifted = |gain: usize, by: f64| fixed(std::array::from_fn(|k| base[k] + if k == gain { by } else { 0.0 }));
+        let shifted =
+            |gain: usize, by: f64| fixed(core::array::from_fn(|k| base[k] + if k == gain { by } else { 0.0 }));
         let sets = [shifted(0, 0.0), shifted(0, SHIFT), shifted(0, -SHIFT), shifted(1, SHIFT), shifted(1, -SHIFT)];
         let mut axes = sets.map(|set| Axis::new(&MODEL, &set));
         // The gains are pulled towards others.

@@ -3,6 +3,8 @@
 //! A new strategy is a file beside this one that implements [`Law`], a row of the list in
 //! [`laws`](super::laws), its item of `StrategyKind` with its parameters, and its preset.
 
+use alloc::{borrow::ToOwned, format};
+
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -145,6 +147,8 @@ pub enum Unsolvable {
     RiccatiEquation,
     /// The plan's quadratic program is not convex in numbers.
     Program,
+    /// The strategy is not part of the program.
+    NotBuiltIn,
 }
 
 impl Unsolvable {
@@ -163,6 +167,12 @@ impl Unsolvable {
         let reason = match self {
             Unsolvable::RiccatiEquation => "the Riccati equation has no numerical solution",
             Unsolvable::Program => "the plan's quadratic program is not convex in numbers",
+            Unsolvable::NotBuiltIn => {
+                return ParameterError {
+                    variable: variable.to_owned(),
+                    reason: format!("is {value}, which is not built in; build moris-washout with the feature {value}"),
+                };
+            }
         };
         ParameterError {
             variable: variable.to_owned(),

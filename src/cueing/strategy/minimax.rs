@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::law::Unsolvable;
 use super::regulator::{AxisModel, Problem, Regulator, Weights};
+use crate::motion::square_root::square_root;
 
 /// The disturbance that a regulator withstands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,16 +52,15 @@ impl Disturbance {
         let bounded = |inverse_square: f64| problem.cost(&(inverse_square * self.square())).is_ok();
         let mut most = 1.0;
         if bounded(most) {
-            most = (0..MOST_BRACKETS).map(|k| BRACKET.powi(k as i32 + 1)).find(|&trial| !bounded(trial))?;
+            most = brackets(most, BRACKET).find(|&trial| !bounded(trial))?;
         }
-        let mut least =
-            (0..MOST_BRACKETS).map(|k| most * BRACKET.powi(-(k as i32) - 1)).find(|&trial| bounded(trial))?;
+        let mut least = brackets(most, BRACKET.recip()).find(|&trial| bounded(trial))?;
         most = BRACKET * least;
         for _ in 0..BISECTIONS {
-            let middle = (least * most).sqrt();
+            let middle = square_root(least * most);
             *if bounded(middle) { &mut least } else { &mut most } = middle;
         }
-        Some(least.sqrt().recip())
+        Some(square_root(least).recip())
     }
 
     /// The product D D' of the disturbance's directions.
@@ -70,6 +70,11 @@ impl Disturbance {
         square[(5, 5)] = self.fast * self.fast;
         square
     }
+}
+
+/// Trials on the way from a value, each `factor` times the one before.
+fn brackets(from: f64, factor: f64) -> impl Iterator<Item = f64> {
+    core::iter::successors(Some(factor * from), move |trial| Some(factor * trial)).take(MOST_BRACKETS)
 }
 
 #[cfg(test)]

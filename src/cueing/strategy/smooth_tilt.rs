@@ -14,6 +14,7 @@
 
 use super::AxisState;
 use crate::motion::min_max::{max, min};
+use crate::motion::square_root::square_root;
 
 /// The tilt's limits of angle \[rad\], rate \[rad/s\] and acceleration \[rad/s2\], and how they
 /// are approached.
@@ -44,7 +45,7 @@ impl TiltLimits {
     /// The limits of angle, rate and acceleration.
     pub fn new(angle: f64, rate: f64, acceleration: f64) -> Self {
         let build_up = max(SLOPE / acceleration, LEAST_BUILD_UP);
-        let fastest = min(rate, (acceleration * angle).sqrt());
+        let fastest = min(rate, square_root(acceleration * angle));
         let pace = min(min(PACE_OF_BUILD_UP * build_up, PACE_OF_LIMITS * acceleration / fastest), LARGEST_PACE);
         TiltLimits { angle, rate, acceleration, build_up, pace }
     }
@@ -102,7 +103,7 @@ mod tests {
             state = AxisState { tilt, tilt_rate, tilt_acceleration: next, ..state };
             let reached =
                 [tilt / angle, tilt_rate / rate, next / acceleration, slope / (limits.build_up * acceleration)];
-            largest = std::array::from_fn(|i| largest[i].max(reached[i].abs()));
+            largest = core::array::from_fn(|i| largest[i].max(reached[i].abs()));
         }
         largest
     }

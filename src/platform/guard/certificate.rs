@@ -142,7 +142,7 @@ impl Machine {
         let accelerations = [linear.start.acceleration.norm(), sum_of_magnitudes(&angles.start.acceleration)];
         let bounds = JointBounds::new(speeds, accelerations, self.radius);
         // The gap at the end as accelerations: one from lengths, one from rates.
-        let gaps = std::array::from_fn(|i| {
+        let gaps = core::array::from_fn(|i| {
             let length = without_rounding(to.legs.length[i] - right.length[i]).abs();
             let rate = without_rounding(to.legs.velocity[i] - right.velocity[i]).abs();
             2.0 * length / (step * step) + rate / step
@@ -157,7 +157,7 @@ impl Machine {
         let speed = Speed::of(plan.start()).of_joints(self.radius);
         // Between points d apart the bound is about 1.5 (G1²/L) d/T.
         let needed = 1.5 * speed * speed / (self.limits.min * MARGIN * self.limits.acceleration);
-        let whole = needed.ceil().clamp(1.0, MOST_CELLS);
+        let whole = libm::ceil(needed).clamp(1.0, MOST_CELLS);
         if duration <= 0.0 {
             // At rest already.
             let lengths = self.leg_motion_of(plan.start()).length;
@@ -165,7 +165,7 @@ impl Machine {
         }
         let mut begin = 0.0;
         for end in stops {
-            let cells = (whole * ((end - begin) / duration)).ceil();
+            let cells = libm::ceil(whole * ((end - begin) / duration));
             if cells != 0.0 && !self.piece_keeps_legs(plan, begin, end, cells) {
                 return false;
             }

@@ -19,6 +19,7 @@ use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
+use crate::motion::square_root::square_root;
 use crate::platform::{PlatformCoordinates, PlatformState};
 
 /// The largest number of points of a way that are looked at, and the largest number of parts into
@@ -117,7 +118,7 @@ impl Machine {
         // Of the legs' acceleration a part remains for their turning, of every limit a part for rounding.
         let Limits { min: shortest, velocity, acceleration, longest_step, .. } = self.limits;
         let mut hardest = 0.25 * acceleration;
-        let mut fastest = min(0.5 * velocity, (0.1 * acceleration * shortest).sqrt());
+        let mut fastest = min(0.5 * velocity, square_root(0.1 * acceleration * shortest));
         for k in 0..3 {
             // The joints' travel for each metre on this axis.
             let ratio = 0.5 * distance / max(now.linear.position[k].abs(), f64::MIN_POSITIVE);

@@ -124,7 +124,7 @@ impl ActuatorGuard {
         (self.now, self.plan) = (next, plan);
         self.limited = Some(Deviation {
             demand: demand.coordinates,
-            leg_accelerations: std::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
+            leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
             resting,
             homeward,
         });

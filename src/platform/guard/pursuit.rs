@@ -86,7 +86,7 @@ impl ActuatorGuard {
     /// The rates of the legs if each pursues its target as far as its limits allow \[m/s\].
     fn each_leg_pursued(&self, target: &Legs, step: f64) -> [f64; 6] {
         let legs = &self.now.legs;
-        std::array::from_fn(|i| {
+        core::array::from_fn(|i| {
             let leg = Motion { position: legs.length[i], velocity: legs.velocity[i], acceleration: 0.0 };
             let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };
             self.pursuit.follow(&leg, &goal, CATCH_UP_FRACTION * self.pursuit.acceleration, step).velocity

@@ -4,7 +4,7 @@
 //! the present force is from theirs. For each time ahead, b is the least-squares fit to what came
 //! in the last minute, with a prior that fades with the time ahead.
 
-use std::sync::LazyLock;
+use alloc::{vec, vec::Vec};
 
 use serde::{Deserialize, Serialize};
 
@@ -68,14 +68,15 @@ pub fn time_ahead(element: usize) -> f64 {
     TICK * ((element + 1) * SPACING) as f64
 }
 
-/// Growth of a trend up to each compared time; it fades \[s\].
-static TRENDS: LazyLock<[f64; COMPARED.len()]> = LazyLock::new(|| {
-    COMPARED.map(|element| TREND_TIME * (1.0 - libm::exp(-(time_ahead(element) + LATEST_LAG) / TREND_TIME)))
-});
+/// Growth of a trend up to an element's time; it fades \[s\].
+fn trend_growth(element: usize) -> f64 {
+    TREND_TIME * (1.0 - libm::exp(-(time_ahead(element) + LATEST_LAG) / TREND_TIME))
+}
 
-/// Parts of a difference that are expected to last up to the elements.
-static LASTING: LazyLock<[f64; AHEAD]> =
-    LazyLock::new(|| std::array::from_fn(|element| libm::exp(-time_ahead(element) / LASTING_TIME)));
+/// Part of a difference that is expected to last up to an element's time.
+fn lasting_part(element: usize) -> f64 {
+    libm::exp(-time_ahead(element) / LASTING_TIME)
+}
 
 /// Sums of D^2 and of D times the error of M.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -185,7 +186,8 @@ impl Record {
         let (passes, now) = passes?;
         let difference = held - now;
         self.error_now += TICK / NOW_TIME * (difference * difference - self.error_now);
-        let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried(LASTING[k]) * difference);
+        let forecast: [f64; AHEAD] =
+            core::array::from_fn(|k| passes[k] + self.fits[k].carried(lasting_part(k)) * difference);
         let forces = COMPARED.map(|k| forecast[k]);
         self.made[self.latest] = Made {
             is_known: true,
@@ -215,7 +217,7 @@ impl Record {
         for (k, element) in COMPARED.into_iter().enumerate() {
             let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
             let [held, slope, _] = made.present;
-            let plain = [held, 0.0, held + slope * TRENDS[k], made.waves[k]];
+            let plain = [held, 0.0, held + slope * trend_growth(element), made.waves[k]];
             let squares = plain.map(|forecast| (forecast - truth) * (forecast - truth));
             if made.is_made {
                 let best = (0..PLAIN).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);

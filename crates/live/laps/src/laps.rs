@@ -1,7 +1,5 @@
 //! The whole: samples in, preview out.
 
-use std::sync::LazyLock;
-
 use moris_washout::Preview;
 use serde::{Deserialize, Serialize};
 
@@ -21,8 +19,6 @@ const LEAST_SPEED: f64 = 1.0;
 const WEIGHT_FLOOR: f64 = 0.02;
 /// Difference of the pace from 1 at which a pass has half of its weight.
 const ALIKE: f64 = 0.05;
-/// Parts of the differences of the pace that are left at the times ahead.
-static FADES: LazyLock<[f64; AHEAD]> = LazyLock::new(|| std::array::from_fn(|k| fade(time_ahead(k))));
 /// Trust from which on there is a preview, and below which there is none any more.
 const GIVEN: [f64; 2] = [0.5, 0.2];
 
@@ -243,10 +239,12 @@ impl Whole<'_> {
         let mut ahead = [[0.0; AHEAD]; 2];
         let mut now = [0.0; 2];
         let mut weights = [0.0; 2];
+        // Parts of the differences of the pace that are left at the times ahead.
+        let fades: [f64; AHEAD] = core::array::from_fn(|k| fade(time_ahead(k)));
         for pass in self.passes.iter().flatten() {
             let mut forces = [[0.0; 2]; AHEAD];
             let is_known = forces.iter_mut().enumerate().all(|(k, force)| {
-                let there = pass.force_ahead(self.line, time_ahead(k), FADES[k]);
+                let there = pass.force_ahead(self.line, time_ahead(k), fades[k]);
                 *force = there.unwrap_or_default();
                 there.is_some()
             });

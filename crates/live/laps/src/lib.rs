@@ -38,6 +38,10 @@
 //! - `forecast` makes the forecast of an axis of them, and compares it with what came.
 //! - `text` writes the memory as text, and reads it.
 
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate alloc;
+
 mod account;
 mod forecast;
 mod laps;

@@ -1,5 +1,7 @@
 //! The remembered line: a ring of points, one a tick, found by place.
 
+use alloc::{vec, vec::Vec};
+
 use serde::{Deserialize, Serialize};
 
 use crate::ticks::distance;
@@ -102,7 +104,7 @@ impl Line {
 
     /// The line at a number with a fraction; none where it is interrupted.
     pub fn at(&self, number: f64) -> Option<Between<'_>> {
-        let whole = number.floor();
+        let whole = libm::floor(number);
         let from = self.point(if whole >= 0.0 { whole as u64 } else { return None })?;
         let to = self.point(whole as u64 + 1).filter(|to| to.run == from.run)?;
         Some(Between { from, to, fraction: number - whole })
@@ -150,7 +152,7 @@ impl Between<'_> {
 }
 
 fn cell(position: &[f64; 3]) -> [i64; 2] {
-    [0, 1].map(|axis| (position[axis] / CELL).floor() as i64)
+    [0, 1].map(|axis| libm::floor(position[axis] / CELL) as i64)
 }
 
 fn list([x, y]: [i64; 2]) -> usize {

@@ -117,7 +117,7 @@ fn nearest(line: &Line, place: &RoadPoint, around: f64) -> Option<f64> {
         let offset = difference(&from.position, &place.position);
         let length = dot(&along, &along);
         let fraction = if length > 0.0 { (dot(&offset, &along) / length).clamp(0.0, 1.0) } else { 0.0 };
-        let apart: [f64; 3] = std::array::from_fn(|k| offset[k] - fraction * along[k]);
+        let apart: [f64; 3] = core::array::from_fn(|k| offset[k] - fraction * along[k]);
         let square = dot(&apart, &apart);
         if square <= NEAR * NEAR && best.is_none_or(|(least, _)| square < least) {
             best = Some((square, number as f64 + fraction));
@@ -132,5 +132,5 @@ pub fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 }
 
 fn difference(from: &[f64; 3], to: &[f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| to[k] - from[k])
+    core::array::from_fn(|k| to[k] - from[k])
 }

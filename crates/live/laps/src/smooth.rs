@@ -60,7 +60,7 @@ impl Smooth {
         self.positions.rotate_right(1);
         self.positions[0] = tick.position;
         let position =
-            std::array::from_fn(|axis| self.positions.iter().map(|p| p[axis]).sum::<f64>() / POSITIONS as f64);
+            core::array::from_fn(|axis| self.positions.iter().map(|p| p[axis]).sum::<f64>() / POSITIONS as f64);
         self.places.rotate_right(1);
         if self.count == 1 {
             self.places = [RoadPoint { position, ..RoadPoint::default() }; KEPT];
@@ -69,7 +69,7 @@ impl Smooth {
         let length = distance(&before, &position);
         let direction = match length {
             0.0 => [0.0; 3],
-            _ => std::array::from_fn(|axis| (position[axis] - before[axis]) / length),
+            _ => core::array::from_fn(|axis| (position[axis] - before[axis]) / length),
         };
         let speed = tick.speed.map_or(length / (STRETCH as f64 * TICK), f64::abs);
         self.places[0] = RoadPoint { position, direction, speed };
@@ -91,13 +91,13 @@ impl Smooth {
         let mean = |axis: usize, from: usize| {
             self.forces[from..from + LATEST].iter().map(|force| force[axis]).sum::<f64>() / LATEST as f64
         };
-        std::array::from_fn(|axis| [mean(axis, 0), (mean(axis, 0) - mean(axis, LATEST)) / (LATEST as f64 * TICK)])
+        core::array::from_fn(|axis| [mean(axis, 0), (mean(axis, 0) - mean(axis, LATEST)) / (LATEST as f64 * TICK)])
     }
 
     /// The point of the line [`LAG`] ticks ago.
     pub fn point(&self) -> Point {
         let RoadPoint { position, direction, speed } = self.places[LAG];
         let force = |axis: usize| self.forces.iter().zip(WEIGHTS).map(|(force, weight)| weight * force[axis]).sum();
-        Point { position, direction, speed, force: std::array::from_fn(force), run: 0 }
+        Point { position, direction, speed, force: core::array::from_fn(force), run: 0 }
     }
 }

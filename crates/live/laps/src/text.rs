@@ -1,5 +1,7 @@
 //! The memory as text: a line for each point.
 
+use alloc::{format, string::String, vec::Vec};
+
 use crate::laps::Laps;
 use crate::line::{CAPACITY, Point};
 
@@ -16,13 +18,13 @@ pub struct NoMemory {
     pub line: usize,
 }
 
-impl std::fmt::Display for NoMemory {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+impl core::fmt::Display for NoMemory {
+    fn fmt(&self, f: &mut core::fmt::Formatter) -> core::fmt::Result {
         write!(f, "line {} is none of a road that moris has learned", self.line)
     }
 }
 
-impl std::error::Error for NoMemory {}
+impl core::error::Error for NoMemory {}
 
 impl Laps {
     /// The remembered points as text, rounded to millimetres. [`Laps::of_text`] reads it.

@@ -103,11 +103,11 @@ impl Ticks {
 
 /// Distance of two positions.
 pub fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (0..3).map(|k| (b[k] - a[k]) * (b[k] - a[k])).sum::<f64>().sqrt()
+    libm::sqrt((0..3).map(|k| (b[k] - a[k]) * (b[k] - a[k])).sum())
 }
 
 fn between<const N: usize>(from: &[f64; N], to: &[f64; N], fraction: f64) -> [f64; N] {
-    std::array::from_fn(|k| from[k] + fraction * (to[k] - from[k]))
+    core::array::from_fn(|k| from[k] + fraction * (to[k] - from[k]))
 }
 
 #[cfg(test)]

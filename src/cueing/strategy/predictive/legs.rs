@@ -108,7 +108,7 @@ fn free_response(value: f64, rate: f64, frequency: f64, time: f64) -> f64 {
 /// The legs at each node of a plan for surge and sway, near the poses of the plan before.
 pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2], horizon: Horizon) -> [[LegRow; 6]; BLOCKS] {
     let ends = horizon.ends();
-    std::array::from_fn(|node| {
+    core::array::from_fn(|node| {
         let heave = surroundings.heave_after(ends[node]);
         let states = plan.each_ref().map(|axis| axis.at(node));
         let (position, tilt) = (states.map(|axis| axis.position), states.map(|axis| axis.tilt));
@@ -131,7 +131,7 @@ fn legs_near(
     // A surge's tilt is a pitch nose up.
     let about = [RollPitchYaw::new(0.0, -1.0, 0.0), RollPitchYaw::new(1.0, 0.0, 0.0)]
         .map(|rates| orientation.angular_velocity(rates));
-    std::array::from_fn(|leg| {
+    core::array::from_fn(|leg| {
         let turning = Vector3::new(jacobian[(leg, 3)], jacobian[(leg, 4)], jacobian[(leg, 5)]);
         let by_position = [jacobian[(leg, 0)], jacobian[(leg, 1)]];
         let by_tilt = about.map(|axis| turning.dot(&axis));

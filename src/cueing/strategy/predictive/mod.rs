@@ -20,6 +20,8 @@ pub mod program;
 #[cfg(test)]
 mod tests;
 
+use alloc::boxed::Box;
+
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -225,7 +227,7 @@ impl Predictive {
             return Ok(());
         }
         self.programs.retune(models, &tuning.weights)?;
-        let before = std::mem::replace(&mut self.tuning, *tuning);
+        let before = core::mem::replace(&mut self.tuning, *tuning);
         self.models = *models;
         if before.weights != tuning.weights && self.dropped_forces != [0.0; 2] {
             self.glide.add(&(logarithms(&before.weights) - logarithms(&tuning.weights)));

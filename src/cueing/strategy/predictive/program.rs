@@ -18,6 +18,8 @@
 //! their squares and of their slopes' squares, the trapezoidal rule for the motion, and the
 //! regulator's cost to come at the end.
 
+use alloc::{boxed::Box, vec};
+
 use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
 
@@ -352,7 +354,7 @@ impl AxisProgram {
         let t = self.horizon.durations()[block];
         let (before, after) = (nodes.at(block - 1), nodes.at(block));
         let cubic = 0.5 * (before.position + after.position) + 0.125 * t * (before.velocity - after.velocity);
-        cubic - CHORD * self.model.gravity * alpha * t.powi(4) / 384.0
+        cubic - CHORD * self.model.gravity * alpha * (t * t * (t * t)) / 384.0
     }
 }
 
@@ -380,7 +382,7 @@ fn ramp_integrals(duration: f64) -> [f64; 4] {
         square * square / 30.0
             + ramp * square / 8.0 * after
             + square / 6.0 * after * after
-            + ramp / 12.0 * after.powi(3),
+            + ramp / 12.0 * (after * after * after),
     ]
 }
 
@@ -437,12 +439,10 @@ fn node_weight(
 ) -> Matrix4<f64> {
     let (last, durations) = (node + 1 == BLOCKS, horizon.durations());
     let time = 0.5 * (durations[node] + if last { 0.0 } else { durations[node + 1] });
-    let state_weights = Vector4::new(
-        weights.position / model.position_limit.powi(2),
-        weights.velocity / model.velocity_limit.powi(2),
-        0.0,
-        weights.tilt_rate / model.rate_limit.powi(2),
-    );
+    let [position, velocity, rate] =
+        [model.position_limit, model.velocity_limit, model.rate_limit].map(|limit| limit * limit);
+    let state_weights =
+        Vector4::new(weights.position / position, weights.velocity / velocity, 0.0, weights.tilt_rate / rate);
     let running = Matrix4::from_diagonal(&(time * state_weights));
     if last { running + regulator.cost.fixed_view::<4, 4>(0, 0) } else { running }
 }

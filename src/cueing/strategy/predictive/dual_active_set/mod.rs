@@ -18,8 +18,12 @@
 //! The solver's state is plain data of a fixed size: a solve can be interrupted after any
 //! iteration, stored, and continued.
 
+use alloc::vec::Vec;
+
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
+
+use crate::motion::square_root::square_root;
 
 #[cfg(test)]
 pub(crate) mod tests;
@@ -247,7 +251,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     /// one component; `direction` is J times that part, of which the reflection of J needs no more.
     fn add(&mut self, row: PendingRow, projection: &SVector<f64, N>, free_squared: f64, direction: &SVector<f64, N>) {
         let first = self.active;
-        let length = -free_squared.sqrt().copysign(projection[first]);
+        let length = -square_root(free_squared).copysign(projection[first]);
         // The reflection is I - w w' / (w' w / 2) with w = free part - length e1.
         let mut mirror = *projection;
         mirror[first] -= length;
@@ -277,7 +281,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         }
         for k in dropped..self.active {
             let (a, b) = (self.triangle[(k, k)], self.triangle[(k + 1, k)]);
-            let length = (a * a + b * b).sqrt();
+            let length = square_root(a * a + b * b);
             if length == 0.0 {
                 continue;
             }

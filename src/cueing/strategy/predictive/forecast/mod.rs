@@ -17,6 +17,8 @@ mod regression;
 #[cfg(test)]
 mod tests;
 
+use alloc::{vec, vec::Vec};
+
 use nalgebra::{SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -174,7 +176,7 @@ impl Default for Tables {
             hold: [exponential(HOLD_DECAY, true), exponential(HOLD_DECAY, false)],
             fade,
             trend: trend(),
-            priors: std::array::from_fn(|target| {
+            priors: core::array::from_fn(|target| {
                 let samples = PRIOR_FRACTION * samples_to_end(target) as f64;
                 Regression::new(samples * covariance, &linear.row(target).transpose())
             }),
@@ -433,7 +435,8 @@ impl Forecaster {
         if let (Some(expected), block @ 0..BLOCKS) = (then.expected, target) {
             let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
             for (errors, means) in self.preview_errors.iter_mut().zip(expected) {
-                let squared = LEAST_ERROR + (means[block] - truth).powi(2);
+                let error = means[block] - truth;
+                let squared = LEAST_ERROR + error * error;
                 let keep = if squared > errors[block] { keep_rising } else { keep_falling };
                 errors[block] = keep * errors[block] + (1.0 - keep) * squared;
             }

@@ -1,0 +1,53 @@
+//! The heap: a piece of memory, handed out from its start on. A washout allocates only while it is
+//! made.
+
+use core::alloc::{GlobalAlloc, Layout};
+use core::ptr;
+use core::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+/// Addresses of the free part: its start and its end, equal where there is none.
+struct Arena {
+    start: AtomicUsize,
+    end: AtomicUsize,
+}
+
+#[global_allocator]
+static ARENA: Arena = Arena { start: AtomicUsize::new(0), end: AtomicUsize::new(0) };
+
+/// Takes allocations from this piece of memory.
+///
+/// # Safety
+/// The piece has as many bytes, nothing else uses it, and no interrupt allocates.
+pub unsafe fn open(piece: *mut u8, size: usize) {
+    let start = piece.expose_provenance();
+    ARENA.start.store(start, Relaxed);
+    ARENA.end.store(start + size, Relaxed);
+}
+
+/// Bytes that are free.
+pub fn free() -> usize {
+    ARENA.end.load(Relaxed) - ARENA.start.load(Relaxed)
+}
+
+// SAFETY: each allocation is a part of the piece of its own, aligned as asked.
+unsafe impl GlobalAlloc for Arena {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let begin = self.start.load(Relaxed).next_multiple_of(layout.align());
+        let (Some(after), end) = (begin.checked_add(layout.size()), self.end.load(Relaxed)) else {
+            return ptr::null_mut();
+        };
+        if after > end {
+            return ptr::null_mut();
+        }
+        self.start.store(after, Relaxed);
+        ptr::with_exposed_provenance_mut(begin)
+    }
+
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        // The latest allocation alone can be given back.
+        let begin = block.addr();
+        if begin + layout.size() == self.start.load(Relaxed) {
+            self.start.store(begin, Relaxed);
+        }
+    }
+}
