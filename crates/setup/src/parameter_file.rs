@@ -1,8 +1,8 @@
 //! Parameter files: values by the names of a model's variables.
 //!
 //! ```toml
-//! "splitter.x.omega1" = 2.0      # quoted or not: splitter.x.omega1 is the same
-//! gravityRemoval = "full"        # an enumeration's item by its name
+//! "scale.specificForce.x" = 0.5  # quoted or not: scale.specificForce.x is the same
+//! gravityRemoval = "full"        # an enumeration's item by its name, or by its number in the FMU
 //! [tilt]                         # and a table is the beginning of its names
 //! rateLimit = 0.05
 //! ```
@@ -71,6 +71,7 @@ fn slot_value(row: &Row, value: &Value) -> Result<f64, String> {
                 .map(|place| place as f64 + 1.0)
                 .ok_or_else(|| format!("is \"{item}\", but must be one of {}", items(enumeration)))
         }
+        (Kind::Enumeration(_), Value::Integer(number)) => in_range(row, *number as f64),
         (kind, value) => Err(format!("is {value}, but must be {}", what_it_takes(kind))),
     }
 }
@@ -85,7 +86,7 @@ fn what_it_takes(kind: Kind) -> String {
         Kind::Real(unit) => format!("a number, in {}", unit.name),
         Kind::Integer => "a whole number".to_owned(),
         Kind::Boolean => "true or false".to_owned(),
-        Kind::Enumeration(enumeration) => format!("one of {}, in quotes", items(enumeration)),
+        Kind::Enumeration(enumeration) => format!("one of {}, in quotes, or its number", items(enumeration)),
     }
 }
 

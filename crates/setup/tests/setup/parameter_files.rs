@@ -81,6 +81,11 @@ fn enumerations_go_by_the_names_of_their_items() {
         &values("gravityRemoval = \"full\"\nsplitter.lowPass = \"independent\"\nsplitter.order = 3"),
     );
     assert_eq!(parameters.conditioning.gravity_removal, GravityRemoval::Full);
+    // Or by their numbers, as in the FMU.
+    assert_eq!(
+        overlaid(&Parameters::default(), &values("gravityRemoval = 2")),
+        overlaid(&Parameters::default(), &values("gravityRemoval = \"full\""))
+    );
     assert_eq!(parameters.structure.low_pass, LowPassKind::Independent);
     assert_eq!(parameters.structure.splitter_order, 3);
 }
@@ -100,7 +105,8 @@ fn wrong_names_are_answered_with_the_right_ones() {
 fn wrong_values_are_answered_with_what_there_is() {
     let message = refusal("gravityRemoval = \"some\"");
     assert!(message.contains("gravityRemoval is \"some\", but must be one of head_vertical, full, none"), "{message}");
-    assert!(refusal("gravityRemoval = 2").contains("one of head_vertical, full, none, in quotes"));
+    assert!(refusal("gravityRemoval = 2.5").contains("one of head_vertical, full, none, in quotes, or its number"));
+    assert!(refusal("gravityRemoval = 4").contains("is 4, but must be one of 1 (head_vertical), 2 (full), 3 (none)"));
     assert!(refusal("splitter.order = 5").contains("from 2 to 4"));
     assert!(refusal("splitter.order = 2.5").contains("a whole number"));
     assert!(refusal("tilt.rateLimit = \"3 deg/s\"").contains("a number, in rad/s"));

@@ -84,7 +84,8 @@ fn property(row: &Row) -> Value {
         Kind::Integer => json!({ "type": "integer" }),
         Kind::Boolean => json!({ "type": "boolean" }),
         Kind::Enumeration(enumeration) => {
-            json!({ "enum": enumeration.items.iter().map(|item| item.name).collect::<Vec<_>>() })
+            let names = enumeration.items.iter().map(|item| json!(item.name));
+            json!({ "enum": names.chain((1..=enumeration.items.len()).map(|number| json!(number))).collect::<Vec<_>>() })
         }
     };
     if let (Some((least, greatest)), Kind::Real(_) | Kind::Integer) = (row.range, row.kind) {
