@@ -2,7 +2,7 @@
 
 use alloc::{borrow::ToOwned, format, string::String, vec::Vec};
 
-use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
+use moris_interface::{Condition, Group, Kind, ParameterError, Row, check_fixed, refuse, shown, slot_count, slots_of};
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig};
 use crate::platform::reach::{Axis, single_axis_range, stroke_margin};
@@ -28,12 +28,14 @@ pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     check_rig(rig, structure.max_step)
 }
 
-/// What is unusual about parameters that can be used, in sentences; [`check`] accepts them.
+/// What is doubtful about parameters that can be used, in sentences; [`check`] accepts them.
 ///
 /// - Limits of the safety units farther from neutral than the rig reaches along their axis alone.
 ///   The legs come to the ends of their stroke before.
 /// - A leg that is near an end of its stroke at neutral.
 /// - Actuators too weak to brake from their speed at the pace of the soft limits.
+/// - Parameters that are not at their start and have no effect, because of another one.
+/// - Values beyond the range that is usual in practice. 0 switches off, and is usual.
 ///
 /// ```
 /// use moris_washout::{Parameters, warnings};
@@ -42,6 +44,8 @@ pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
 /// assert!(warnings(&parameters).is_empty());
 /// parameters.safety.position_limit.z = 0.4;
 /// assert!(warnings(&parameters)[0].starts_with("safety.z.positionLimit is 0.4 m, but in heave the rig reaches only 0.344 m"));
+/// parameters.splitter.omega1.x = 2.0;
+/// assert!(warnings(&parameters)[1].starts_with("splitter.x.omega1 has no effect with strategy predictive"));
 /// ```
 pub fn warnings(parameters: &Parameters) -> Vec<String> {
     let limits = parameters.safety.position_limit;
@@ -58,16 +62,17 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
         })
     };
     let beyond = [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate().filter_map(beyond);
-    beyond.chain(near_an_end(&parameters.rig)).chain(weak(parameters)).collect()
+    let doubtful_rig = near_an_end(&parameters.rig).into_iter().chain(weak(parameters));
+    beyond.chain(doubtful_rig).chain(Changed::of(parameters).warnings()).collect()
 }
 
 /// Room of a leg at neutral, relative to the stroke, below which a rig is warned of. In the middle
 /// of the stroke it is a half.
-const LEAST_ROOM: f64 = 0.1;
+const MIN_ROOM_FRACTION: f64 = 0.1;
 
 fn near_an_end(rig: &Rig) -> Option<String> {
     let (room, stroke) = (stroke_margin(rig, &Pose::neutral(rig)), rig.max_length - rig.min_length);
-    (room < LEAST_ROOM * stroke).then(|| {
+    (room < MIN_ROOM_FRACTION * stroke).then(|| {
         format!(
             "rig.neutralHeight is {} m, where a leg is only {room:.4} m from an end of its stroke of {stroke:.3} m: the \
              platform can hardly move; choose a height at which the legs are near the middle of their stroke",
@@ -87,6 +92,85 @@ fn weak(Parameters { rig, soft_limit, .. }: &Parameters) -> Option<String> {
             soft_limit.pace
         )
     })
+}
+
+/// Parameters that are not at their start.
+struct Changed {
+    slots: Vec<f64>,
+    /// Row, element and slot of each.
+    places: Vec<(&'static Row, usize, usize)>,
+}
+
+/// Names of a list that are written out.
+const MAX_NAMES: usize = 3;
+
+impl Changed {
+    fn of(parameters: &Parameters) -> Self {
+        let (slots, start) = (slots_of(parameters), slots_of(&Parameters::default()));
+        let places = Self::places().filter(|&(.., slot)| slots[slot] != start[slot]).collect();
+        Changed { slots, places }
+    }
+
+    fn places() -> impl Iterator<Item = (&'static Row, usize, usize)> {
+        let elements = |row: &'static Row| (0..row.slots()).map(move |element| (row, element));
+        Parameters::ROWS.iter().flat_map(elements).enumerate().map(|(slot, (row, element))| (row, element, slot))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let mut idle: Vec<(&Condition, Vec<String>)> = Vec::new();
+        let mut unusual = Vec::new();
+        for &(row, element, slot) in &self.places {
+            let name = row.variable_name(element);
+            match row.conditions(element).find(|condition| !condition.values.contains(&&*self.text(condition.variable)))
+            {
+                Some(unmet) => match idle.iter_mut().find(|(condition, _)| condition.is_same(unmet)) {
+                    Some((_, names)) => names.push(name),
+                    None => idle.push((unmet, vec![name])),
+                },
+                None => unusual.extend(unusual_value(row, &name, self.slots[slot])),
+            }
+        }
+        let without_effect = |(condition, names): (&Condition, Vec<String>)| {
+            let Condition { variable, values, .. } = condition;
+            let more = names.len().saturating_sub(MAX_NAMES);
+            let verb = if names.len() == 1 { "has" } else { "have" };
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let (names, value) = (names[..names.len().min(MAX_NAMES)].join(", "), self.text(variable));
+            format!("{names}{more} {verb} no effect with {variable} {value}, only with {}", values.join(" or "))
+        };
+        idle.into_iter().map(without_effect).chain(unusual).collect()
+    }
+
+    /// The value of a variable as conditions have it: an item's name, or a whole number.
+    fn text(&self, variable: &str) -> String {
+        let place = Self::places().find(|(row, element, _)| row.variable_name(*element) == variable);
+        let Some((row, _, slot)) = place else { return String::new() };
+        match row.kind {
+            Kind::Enumeration(enumeration) => {
+                let item = (self.slots[slot] as usize).saturating_sub(1);
+                enumeration.items.get(item).map_or_else(String::new, |item| item.name.to_owned())
+            }
+            _ => shown(self.slots[slot]),
+        }
+    }
+}
+
+/// A sentence about a value beyond the row's usual range; none within it.
+fn unusual_value(row: &Row, name: &str, value: f64) -> Option<String> {
+    let (least, greatest) =
+        row.usual.filter(|(least, greatest)| value != 0.0 && !(*least..=*greatest).contains(&value))?;
+    let Kind::Real(unit) = row.kind else { return None };
+    let with_unit = |value: f64| [shown(value).as_str(), unit.name].join(" ").trim_end().to_owned();
+    let in_radians = value.to_radians();
+    let is_degrees = unit.name.starts_with("rad") && (least..=greatest).contains(&in_radians);
+    let degrees =
+        if is_degrees { format!("; in degrees it would be {}", with_unit(round(in_radians))) } else { String::new() };
+    Some(format!("{name} is {}, but usual are {} to {}{degrees}", with_unit(value), shown(least), with_unit(greatest)))
+}
+
+/// A value to four digits behind the point.
+fn round(value: f64) -> f64 {
+    libm::round(1e4 * value) / 1e4
 }
 
 /// Doubts about the first input, in sentences: hosts that set every input to zero neither engage

@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use moris_washout::Washout;
 use moris_washout::presets::{self, *};
+use moris_washout::{Washout, warnings};
 
 #[test]
 fn every_set_changes_each_of_its_parameters_once_and_can_be_used() {
@@ -27,7 +27,46 @@ fn every_set_changes_each_of_its_parameters_once_and_can_be_used() {
         let parameters = presets::parameters(set);
         assert_eq!(parameters, presets::with("", &[&[("strategy", strategy)], &values[..]].concat()));
         Washout::new(&parameters).unwrap();
+        assert_eq!(warnings(&parameters), Vec::<String>::new());
     }
+}
+
+#[test]
+fn a_parameter_without_effect_or_beyond_the_usual_range_is_named() {
+    let of = |changed: &[(&str, f64)]| warnings(&presets::with("", changed));
+    assert_eq!(
+        of(&[("splitter.x.omega1", 2.0)]),
+        ["splitter.x.omega1 has no effect with strategy predictive, only with classical"]
+    );
+    // Heave has the splitter's filter with every strategy, and the classical one has it all.
+    assert!(of(&[("splitter.z.omega1", 2.0)]).is_empty());
+    assert!(of(&[("splitter.x.omega1", 2.0), ("strategy", 1.0)]).is_empty());
+    assert_eq!(
+        of(&[("splitter.x.zeta2", 0.7), ("strategy", 1.0)]),
+        ["splitter.x.zeta2 has no effect with splitter.order 3, only with 4"]
+    );
+    assert_eq!(
+        of(&[("robust.splitTime", 0.3), ("automaticScale.memory", 9.0)]),
+        [
+            "robust.splitTime has no effect with strategy predictive, only with robust",
+            "automaticScale.memory has no effect with scale.automatic off, only with on"
+        ]
+    );
+    // Of many one sentence.
+    let four = ["splitter.x.omega1", "splitter.x.zeta1", "splitter.y.omega1", "splitter.y.zeta1"];
+    assert_eq!(
+        of(&four.map(|name| (name, 1.7))),
+        [
+            "splitter.x.omega1, splitter.y.omega1, splitter.x.zeta1 and 1 more have no effect with strategy predictive, only with classical"
+        ]
+    );
+    // 3 was meant in degrees a second.
+    assert_eq!(
+        of(&[("tilt.rateLimit", 3.0)]),
+        ["tilt.rateLimit is 3 rad/s, but usual are 0.02 to 0.053 rad/s; in degrees it would be 0.0524 rad/s"]
+    );
+    assert_eq!(of(&[("scale.specificForce.x", -1.0)]), ["scale.specificForce.x is -1, but usual are 0.01 to 1"]);
+    assert!(of(&[("scale.specificForce.x", 0.0), ("input.rateCutoff", 0.0)]).is_empty(), "0 switches off");
 }
 
 #[test]

@@ -132,6 +132,13 @@ pub struct Condition {
     components: &'static [&'static str],
 }
 
+impl Condition {
+    /// True for the same variable and values.
+    pub fn is_same(&self, other: &Self) -> bool {
+        (self.variable, self.values) == (other.variable, other.values)
+    }
+}
+
 impl Row {
     #[doc(hidden)] // for `interface!`
     #[allow(clippy::too_many_arguments)]

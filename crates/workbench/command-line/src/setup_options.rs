@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use moris_interface::Group;
 use moris_setup::{Error, Setup, load_set};
-use moris_washout::Parameters;
 use moris_washout::interface::{AutomaticScale, StrategyKind};
+use moris_washout::{Parameters, warnings};
 
 /// Options for rig and parameters.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -27,11 +27,15 @@ pub struct SetupOptions {
     pub strategy: Option<StrategyKind>,
 }
 
-/// The washout's strategies, by name.
+/// Numbers of the strategies, as the FMU has them.
+const STRATEGY_NUMBERS: [&str; 5] = ["1", "2", "3", "4", "5"];
+
+/// The washout's strategies, by name or number.
 pub fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
-    let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
-    PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()))
-        .map(move |name| named(name).unwrap_or(StrategyKind::Predictive))
+    let numbered = || StrategyKind::ALL.iter().copied().zip(STRATEGY_NUMBERS);
+    let given = move |given: String| numbered().find(|(strategy, number)| [strategy.name(), number].contains(&&*given));
+    PossibleValuesParser::new(numbered().map(|(strategy, number)| PossibleValue::new(strategy.name()).alias(number)))
+        .map(move |name| given(name).map_or(StrategyKind::Predictive, |(strategy, _)| strategy))
 }
 
 /// The parameter that is on in what drives at once.
@@ -44,13 +48,25 @@ impl SetupOptions {
     /// # Errors
     /// As [`Setup::load`].
     pub fn load_to_drive(&self) -> Result<Setup, Error> {
-        let mut setup = self.load()?;
+        let mut setup = self.load_with_notes()?;
         for set in &self.parameters {
             if load_set(set, Parameters::ROWS)?.iter().any(|(name, _)| name == AUTOMATIC_SCALE) {
                 return Ok(setup);
             }
         }
         setup.parameters.automatic_scale.automatic = AutomaticScale::On;
+        Ok(setup)
+    }
+
+    /// As [`SetupOptions::load`]. What is doubtful about the parameters goes to standard error.
+    ///
+    /// # Errors
+    /// As [`Setup::load`].
+    pub fn load_with_notes(&self) -> Result<Setup, Error> {
+        let setup = self.load()?;
+        for warning in warnings(&setup.parameters) {
+            eprintln!("note: {warning}");
+        }
         Ok(setup)
     }
 

@@ -26,7 +26,7 @@ pub struct Options {
 /// # Errors
 /// The rig or the parameters cannot be used.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let setup = options.setup.load()?;
+    let setup = options.setup.load_with_notes()?;
     let values = if options.changed { changed(&setup.parameters) } else { all(&setup.parameters) };
     let heading = format!("Parameters: {}\nRig: {}", setup.parameters_name, setup.rig_name);
     write!(out, "{}", parameter_file::write(&heading, &values, Parameters::ROWS))?;

@@ -78,7 +78,7 @@ pub struct Options {
 /// The rig or the parameters cannot be used, an amplitude is not positive, or a
 /// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let setup = options.setup.load()?;
+    let setup = options.setup.load_with_notes()?;
     for (name, value) in [("--force", options.force), ("--rate", options.rate)] {
         ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");
     }

@@ -81,7 +81,7 @@ pub struct Options {
 /// # Errors
 /// A recording, the rig or the parameters cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let setup = options.setup.load()?;
+    let setup = options.setup.load_with_notes()?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn.is_some());
     let host =
         Host { step: options.step, inputs: options.inputs, preview: options.preview, learns: options.learn.is_some() };
