@@ -148,7 +148,7 @@ impl Recording {
         warnings.extend(consistency::warnings(&channels));
         warnings.extend(delayed::warnings(&channels));
         axes::fade_in(&mut inputs, table.step(), conventions.fade_in);
-        warnings.extend(unusual::warnings(&table, &inputs));
+        warnings.extend(unusual::warnings(&table, &inputs, conventions));
         Ok(Recording {
             name,
             start: table.time[0],

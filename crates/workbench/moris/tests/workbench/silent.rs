@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::fs;
 
-use moris::recording::conventions::AngleUnit;
+use moris::recording::conventions::{AngleUnit, Gravity};
 use moris::recording::{ConventionOptions, Recording};
 use moris::words;
 
@@ -314,4 +314,24 @@ fn samples_of_two_sensors_by_turns_are_refused() {
         if k % 2 == 1 { other } else { sample }
     });
     assert!(by_turns.contains("the samples are those of 2 sensors by turns"), "{by_turns}");
+}
+
+#[test]
+fn accelerations_of_which_nothing_tells_the_unit_may_be_in_g() {
+    let removed = ConventionOptions { gravity: Some(Gravity::Removed), ..ConventionOptions::default() };
+    let in_unit = |header: &str, unit: f64| {
+        said_of(header, &removed, |_, sample| Sample {
+            force: [sample.force[0] / unit, sample.force[1] / unit, (sample.force[2] - GRAVITY) / unit],
+            ..sample
+        })
+    };
+    let bare = "time,ax,ay,az,wx,wy,wz";
+    let found = in_unit(bare, GRAVITY);
+    assert!(found.contains("if they are in g, use --force-unit g."), "{found}");
+    // Nothing is suspected of this size, of a unit that is given, and of what the speed confirms.
+    assert_eq!(in_unit(bare, 1.0), "");
+    assert!(!in_unit("time,ax [m/s2],ay [m/s2],az [m/s2],wx,wy,wz", GRAVITY).contains("in g"));
+    // With a speed the sizes tell it.
+    let found = in_unit(HEADER, GRAVITY);
+    assert!(found.contains("--force-unit g"), "{found}");
 }

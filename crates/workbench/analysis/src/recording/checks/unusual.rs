@@ -7,22 +7,44 @@ use moris_washout::nalgebra::Vector3;
 use super::rates::usual_maximum;
 use crate::message::{Message, given, message, named};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::Quantity;
+use crate::recording::conventions::{Conventions, Gravity, Quantity};
 use crate::recording::table::Table;
 
 /// Angular velocity that few heads exceed for a hundredth of a recording \[rad/s\].
 const BRISK: f64 = 2.5;
 /// Mean acceleration above which the sensor or the road is taken as tilted \[m/s2\].
 const BIAS: f64 = 0.3;
+/// Largest force along x and y below which accelerations of vehicles may be in g \[m/s2\].
+const WEAK_FORCE: f64 = 1.5;
 /// Cue at the first sample above which the recording begins with a jolt \[m/s2\].
 const JOLT: f64 = 1.0;
 
 /// Warnings about a recording that is unusual but possible.
-pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<Message> {
-    [bias(table, inputs, 0), bias(table, inputs, 1), fast_rates(table, inputs), jolt(&inputs[0])]
-        .into_iter()
-        .flatten()
-        .collect()
+pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<Message> {
+    let found = [
+        bias(table, inputs, 0),
+        bias(table, inputs, 1),
+        weak_force(table, inputs, conventions),
+        fast_rates(table, inputs),
+        jolt(&inputs[0]),
+    ];
+    found.into_iter().flatten().collect()
+}
+
+/// Accelerations that may be in g: without gravity and speed nothing tells their unit.
+fn weak_force(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<Message> {
+    let (unit, source) = table.unit(Quantity::Force(0));
+    let is_unknown = source == UnitSource::Default && !table.columns.contains_key(&Quantity::Speed);
+    let force = inputs.iter().map(|input| input.specific_force.xy().norm()).fold(0.0, f64::max);
+    (conventions.gravity == Gravity::Removed && is_unknown && force < WEAK_FORCE).then(|| {
+        let (unit, remedy) = (unit.word, given("force-unit", "g"));
+        message![
+            "Without gravity and speed nothing tells the unit of the accelerations, whose largest along x and y is \
+             {force:.2} {unit}: if they are in g, use ",
+            remedy,
+            "."
+        ]
+    })
 }
 
 /// A lasting force along x or y, and what may be its cause.
