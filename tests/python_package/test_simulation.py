@@ -291,3 +291,15 @@ def test_a_learned_road_is_kept_in_a_file(tmp_path):
     road.write_text("x,y")
     with pytest.raises(ValueError, match="none of a road"):
         moris.simulate(ride, parameters="preview", learn=road)
+
+
+def test_the_advice_of_a_verdict_is_a_set_of_parameters_that_is_better():
+    time = np.arange(3001) * 0.01
+    still = np.zeros_like(time)
+    forces = {"ax": still, "ay": 4.0 * np.clip(time / 2, 0, 1) * np.sin(1.6 * time), "az": STANDARD_GRAVITY + still}
+    slalom = moris.Recording({"time": time, **forces, "wx": still, "wy": still, "wz": still}, name="slalom")
+    before = moris.simulate(slalom)
+    assert before.verdict.startswith("Felt the wrong way round for ") and "Scale force and rates by 0." in before.verdict
+    assert pickle.loads(pickle.dumps(before)).verdict == before.verdict
+    after = moris.simulate(slalom, parameters=before.advice)
+    assert after.verdict.startswith("Felt the right way round, at ") and after.advice is None

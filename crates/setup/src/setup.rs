@@ -6,7 +6,7 @@ use moris_fmu_host::files::TEXT;
 use moris_interface::{Group, Row};
 use moris_washout::{Parameters, check, presets};
 
-use crate::named_values::overlaid;
+use crate::named_values::{all, differing, overlaid};
 use crate::names::nearest;
 use crate::rig_file::RigFile;
 use crate::{Error, NamedValues, RIGS, SETS, parameter_file, rig_file};
@@ -52,6 +52,16 @@ impl Setup {
             parameters: sets.iter().fold(rig_alone, |parameters, (_, values)| overlaid(&parameters, values)),
             rig_alone,
         }
+    }
+
+    /// The text of a parameter file with these parameters. It has what differs from the rig with
+    /// default parameters, and always the strategy and the scales: over another set it runs as
+    /// here. It has nothing of the rig.
+    pub fn parameter_file(&self, heading: &str) -> String {
+        let is_kept = |name: &str| name == "strategy" || name.starts_with("scale.");
+        let written = all(&self.parameters).into_iter().filter(|(name, _)| is_kept(name));
+        let values: NamedValues = differing(&self.parameters, &self.rig_alone).into_iter().chain(written).collect();
+        parameter_file::write(heading, &values, Parameters::ROWS)
     }
 }
 

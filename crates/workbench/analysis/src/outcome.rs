@@ -1,11 +1,13 @@
 //! A recording on a rig with one set of parameters: the simulation, its measures and bounds.
 
 use moris_setup::Setup;
-use moris_simulation::advice::Advice;
+use moris_simulation::advice::{Advice, Advisor};
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::measures::{Axes, Measures};
 use moris_simulation::preview::Previewer;
 use moris_simulation::{Evaluated, Simulation, measures};
+use moris_washout::ParameterError;
+use rayon::prelude::*;
 
 use crate::bounds::AxisBound;
 use crate::error::Result;
@@ -22,7 +24,7 @@ pub struct Outcome {
     pub measures: Measures,
     /// The bound, axis by axis; none without a desired signal or if not requested.
     pub bounds: Axes<Option<AxisBound>>,
-    /// Another scale; none where the shape needs none, or it was not computed.
+    /// Simulated alternatives; none where nothing is wrong, or none were simulated.
     pub advice: Option<Advice>,
 }
 
@@ -58,13 +60,25 @@ impl Outcome {
         Outcome::measured(simulation, &Setup { parameters_name: name.to_owned(), ..setup.clone() })
     }
 
-    /// With the scale that the recording needs, where it is felt the wrong way round.
+    /// With simulated alternatives where something is wrong, of a simulation with a preview of so
+    /// many seconds.
     ///
     /// # Errors
     /// The parameters cannot be used.
     pub fn advised(mut self, recording: &Recording, preview: f64) -> Result<Self> {
-        self.advice = Advice::of(&recording.manoeuvre, &self.setup.parameters, preview, &self.measures.shape)?;
+        self.advice = self.alternatives(recording, preview)?;
         Ok(self)
+    }
+
+    /// The simulated alternatives of [`Outcome::advised`]; none where nothing is wrong.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn alternatives(&self, recording: &Recording, preview: f64) -> Result<Option<Advice>> {
+        let Some(advisor) = Advisor::of(&self.evaluated(), &recording.manoeuvre, preview) else { return Ok(None) };
+        let found = advisor.candidates().into_par_iter().map(|candidate| advisor.best(candidate));
+        let found = found.collect::<Result<Vec<_>, ParameterError>>()?;
+        Ok(Some(Advice::new(advisor.fault, found.into_iter().flatten().collect())))
     }
 
     /// Measures a simulation with this setup's rig.
@@ -80,8 +94,13 @@ impl Outcome {
     /// The simulation with its measures and the bounds' errors.
     pub fn evaluated(&self) -> Evaluated<'_> {
         let bounds = self.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error));
-        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds, advice: self.advice }
+        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds, advice: self.advice.as_ref() }
     }
+}
+
+/// A number with its noun: `1 recording`, `2 recordings`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Names in a row, those with a comma in quotes.

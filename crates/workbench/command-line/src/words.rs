@@ -6,6 +6,11 @@ use moris_analysis::message::Remedy;
 
 use moris_analysis::recording::Recording;
 
+/// When to use which of the commands and parameters that fit a ride to a rig.
+pub const WHICH_COMMAND: &str = "Where the vehicle knows its road, give a preview first. For rides that you have recorded, moris fit finds \
+    the strategy\nand the scale, then moris tune the other parameters. For rides that nobody knows yet, set scale.automatic = on. \
+    docs/scale.md says more.";
+
 /// A remedy as an option: `--force-unit g`.
 pub fn option(Remedy { option, value }: &Remedy) -> String {
     match value {

@@ -43,7 +43,8 @@ pub fn fit<'py>(
     let setup = setup::load(py, rig, parameters, strategy)?;
     let parameters = recording.inner.parameters(&setup.parameters);
     let manoeuvre = &recording.inner.manoeuvre;
-    let found = py.detach(|| Search::new(manoeuvre, preview, Aims { error, inverted }).fit(&parameters));
+    let found =
+        py.detach(|| Search::new(manoeuvre, preview, Aims { error, inverted, ..Aims::default() }).fit(&parameters));
     let found = found.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
     let chosen = parameter_dict(py, &found.best.factors.applied(&setup.parameters))?;
     Ok((fitted(&found.best), found.fits, found.curve.iter().map(fitted).collect(), chosen))

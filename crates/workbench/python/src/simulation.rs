@@ -1,7 +1,7 @@
 //! Simulations of recordings, their measures and bounds.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use moris_analysis::bounds::{self, AxisBound};
 use moris_analysis::error::{Result, worded};
@@ -14,11 +14,12 @@ use moris_analysis::recording::Recording;
 use moris_analysis::recording::preview::{LONGEST_PREVIEW, Previewer};
 use moris_analysis::washout_fmu::WashoutFmu;
 use moris_interface::{Group, guid, slots_of};
-use moris_setup::{Setup, differing};
-use moris_simulation::Simulation;
+use moris_setup::Setup;
+use moris_simulation::advice::Advice;
 use moris_simulation::findings::fit;
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::measures::{Axes, Row};
+use moris_simulation::{Evaluated, Simulation};
 use moris_washout::{Input, Output, Parameters, Washout};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -43,7 +44,8 @@ type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &
 /// - names of rig and parameters; the parameters, and those of the rig alone;
 /// - step, inputs, outputs, and felt force within steps;
 /// - whether the bound was computed;
-/// - the motion of another washout, and the sentences about its reading.
+/// - the motion of another washout, and the sentences about its reading;
+/// - the length of the preview.
 type State = (
     [String; 2],
     [Parameters; 2],
@@ -53,6 +55,7 @@ type State = (
     Vec<[f64; 3]>,
     bool,
     Option<(ForeignMotion, Vec<String>)>,
+    f64,
 );
 
 /// A simulated recording.
@@ -62,6 +65,10 @@ pub struct PySimulation {
     outcome: Outcome,
     /// Motion of another washout in place of a simulation, and sentences about its reading.
     judged: Option<(ForeignMotion, Vec<String>)>,
+    /// Length of the recording's own future that was previewed \[s\].
+    preview: f64,
+    /// What the verdict recommends, simulated when it is first asked for.
+    advice: OnceLock<Option<Advice>>,
 }
 
 #[pymethods]
@@ -91,13 +98,13 @@ impl PySimulation {
         let learned = learned.map_err(|reason| PyValueError::new_err(reason.with_sources(argument)))?;
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters), learned)?;
-            Outcome::measured(simulated, &setup)?.advised(&recording, preview)
+            Outcome::measured(simulated, &setup)
         });
         let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &worded(&reason, argument)))?;
         if bound {
             outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
-        Ok(PySimulation { recording, outcome, judged: None })
+        Ok(PySimulation { recording, outcome, judged: None, preview, advice: OnceLock::new() })
     }
 
     /// Judges the motion that another washout computed, or computes as an FMU with a map, with the
@@ -129,24 +136,31 @@ impl PySimulation {
         if bound {
             outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
-        Ok(PySimulation { recording, outcome, judged: Some((motion, notes)) })
+        Ok(PySimulation { recording, outcome, judged: Some((motion, notes)), preview: 0.0, advice: OnceLock::new() })
     }
 
-    /// The rig's and the parameters' names, the parameters, true if it fits, verdict and findings;
-    /// the measures, with the bound's where it was computed.
+    /// The rig's and the parameters' names, the parameters, true if it fits; the measures, with the
+    /// bound's where it was computed.
     #[allow(clippy::type_complexity)]
-    fn judgement<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<([&str; 2], Bound<'py, PyDict>, Option<bool>, String, Vec<String>, Vec<Measure>)> {
+    fn judgement<'py>(&self, py: Python<'py>) -> PyResult<([&str; 2], Bound<'py, PyDict>, Option<bool>, Vec<Measure>)> {
         let setup = &self.outcome.setup;
         let evaluated = self.outcome.evaluated();
-        let findings = evaluated.findings().into_iter().map(|finding| finding.text).collect();
         let measure = |row: Row| (row.subject, row.name, row.value, row.unit, row.definition, row.source);
         let measures = evaluated.rows().into_iter().map(measure).collect();
         let names = [setup.rig_name.as_str(), &setup.parameters_name];
         let parameters = parameter_dict(py, &setup.parameters)?;
-        Ok((names, parameters, fit(&evaluated), evaluated.headline().text, findings, measures))
+        Ok((names, parameters, fit(&evaluated), measures))
+    }
+
+    /// Verdict and findings, and all parameters that the verdict recommends.
+    #[allow(clippy::type_complexity)]
+    fn verdict<'py>(&self, py: Python<'py>) -> PyResult<(String, Vec<String>, Option<Bound<'py, PyDict>>)> {
+        let advice = self.advice(py);
+        let evaluated = Evaluated { advice, ..self.outcome.evaluated() };
+        let findings = evaluated.findings().into_iter().map(|finding| finding.text).collect();
+        let recommended = advice.and_then(Advice::recommended);
+        let parameters = recommended.map(|one| parameter_dict(py, &one.parameters)).transpose()?;
+        Ok((evaluated.verdict().text, findings, parameters))
     }
 
     /// The samples' times, the inputs and outputs row by row, and the names of the columns.
@@ -177,6 +191,7 @@ impl PySimulation {
             simulation.felt_within_steps.iter().map(|felt| (*felt).into()).collect(),
             bounds.iter().any(Option::is_some),
             self.judged.clone(),
+            self.preview,
         );
         let bytes = postcard::to_allocvec(&(guid::<Washout>(), state))
             .map_err(|reason| PyValueError::new_err(reason.to_string()))?;
@@ -191,7 +206,7 @@ impl PySimulation {
         if version != guid::<Washout>() {
             return Err(refused());
         }
-        let (names, parameters, step, inputs, outputs, felt, has_bounds, judged): State =
+        let (names, parameters, step, inputs, outputs, felt, has_bounds, judged, preview): State =
             postcard::from_bytes(body).map_err(|_| refused())?;
         let [rig_name, parameters_name] = names;
         let [parameters, rig_alone] = parameters;
@@ -211,15 +226,25 @@ impl PySimulation {
         if has_bounds {
             outcome.bounds = bounds_of(py, &outcome.simulation)?;
         }
-        Ok(PySimulation { recording: Arc::clone(&recording.inner), outcome, judged })
+        Ok(PySimulation { recording: Arc::clone(&recording.inner), outcome, judged, preview, advice: OnceLock::new() })
     }
 
     /// The report's page, with other simulations of the same recording for comparison.
-    fn html(&self, others: Vec<PyRef<PySimulation>>) -> String {
+    fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> String {
+        let advised = |one: &PySimulation| Outcome { advice: one.advice(py).cloned(), ..one.outcome.clone() };
         let outcomes: Vec<Outcome> =
-            std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
+            std::iter::once(advised(self)).chain(others.iter().map(|other| advised(other))).collect();
         let command = format!("cargo moris simulate {}.csv --parameters", self.recording.name);
         page::html(&self.recording, &outcomes, &command, argument)
+    }
+}
+
+impl PySimulation {
+    /// The simulated alternatives; none where nothing is wrong.
+    fn advice(&self, py: Python) -> Option<&Advice> {
+        // The parameters have been simulated already.
+        let simulated = || self.outcome.alternatives(&self.recording, self.preview).ok().flatten();
+        py.detach(|| self.advice.get_or_init(simulated)).as_ref()
     }
 }
 
@@ -315,7 +340,5 @@ pub fn parameter_values<'py>(
 /// As [`parameter_values`].
 #[pyfunction]
 pub fn parameter_file(py: Python, heading: &str, rig: Given, parameters: Given) -> PyResult<String> {
-    let setup = setup::load(py, rig, parameters, None)?;
-    let values = differing(&setup.parameters, &setup.rig_alone);
-    Ok(moris_setup::parameter_file::write(heading, &values, Parameters::ROWS))
+    Ok(setup::load(py, rig, parameters, None)?.parameter_file(heading))
 }

@@ -1,48 +1,388 @@
-//! Advice for the findings: another scale, with and without a preview.
+//! Advice for the verdict: alternatives to the parameters, each simulated on the whole recording
+//! before it is named.
 
-use crate::Manoeuvre;
-use crate::measures::shape::Shape;
+use std::array::from_fn;
+
 use moris_washout::interface::{AutomaticScale, StrategyKind};
+use moris_washout::platform::reach::Axis;
 use moris_washout::{ParameterError, Parameters};
 
-use crate::findings::INVERTED;
-use crate::fit::{Aims, Candidate, Search};
+use crate::findings::RIGHT_SHAPE;
+use crate::fit::{Aims, Factors, Search, best_of};
+use crate::preview::Previewer;
+use crate::verdict::Fault;
+use crate::{Evaluated, Manoeuvre, Replay, Simulation, capitalised, measures};
 
-/// A scale, and the inverted time with it.
+/// Preview that is tried \[s\].
+const TRIED_PREVIEW: f64 = 1.0;
+/// Rates of tilt that are tried: one that riders may notice, and one that is hardly perceived
+/// \[rad/s\].
+pub const FASTER_TILT: f64 = 6.0_f64.to_radians();
+const SLOWER_TILT: f64 = 2.0_f64.to_radians();
+/// Low-pass on the inputs that is tried against jolts \[rad/s\], and the soft limits' pace
+/// \[rad/s\].
+const SMOOTH_CUTOFF: f64 = 12.0;
+const SOFT_PACE: f64 = 5.0;
+/// Factors on the rates or on heave that are tried, the largest first.
+const SMALLER_PARTS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.15, 0.0];
+/// Factor from one scale that is tried to the next, how many are tried, fewer where none is right in
+/// proportion, and the least scale.
+const SCALE_STEP: f64 = 0.85;
+const MAX_SCALES: usize = 8;
+const LESS_SCALES: usize = 3;
+const MIN_SCALE: f64 = 0.03;
+/// Longest part of a manoeuvre that the search for a scale goes through \[s\]: each scale is a
+/// simulation. What it finds is simulated on the whole.
+const MAX_SEARCHED: f64 = 120.0;
+/// Largest severity of the fault, relative to what it was, that counts as better: where the fault
+/// is gone with it, and where it is not.
+const BETTER: [f64; 2] = [0.95, 0.8];
+/// Largest growth of another fault that is there already.
+const NO_WORSE: f64 = 1.05;
+
+/// Changes to a set of parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Alternative {
-    /// Factor on the force of surge and sway and on the rates.
-    pub factor: f64,
-    /// Largest fraction of inverted time of surge and sway.
-    pub inverted: f64,
+pub struct Changes {
+    /// Another strategy.
+    pub strategy: Option<StrategyKind>,
+    /// The automatic scale, where it is off.
+    pub automatic: bool,
+    /// Another preview \[s\].
+    pub preview: Option<f64>,
+    /// Another limit of the tilt's rate \[rad/s\].
+    pub tilt_rate: Option<f64>,
+    /// Soft limits, where they are off.
+    pub soft_limits: bool,
+    /// A low-pass on the inputs, where there is none \[rad/s\].
+    pub cutoff: Option<f64>,
+    /// Factors on surge, sway and rates, on the rates alone, and on heave.
+    pub factors: [f64; 3],
 }
 
-impl From<Candidate> for Alternative {
-    fn from(Candidate { factors, shape }: Candidate) -> Self {
-        let inverted = shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
-        Alternative { factor: factors.scale, inverted }
+/// What of [`Changes::factors`] is searched for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Searched {
+    Nothing,
+    Scale,
+    Rates,
+    Heave,
+}
+
+impl Changes {
+    const NONE: Changes = Changes {
+        strategy: None,
+        automatic: false,
+        preview: None,
+        tilt_rate: None,
+        soft_limits: false,
+        cutoff: None,
+        factors: [1.0; 3],
+    };
+
+    /// The parameters with these changes.
+    pub fn applied(&self, parameters: &Parameters) -> Parameters {
+        let [scale, rates, heave] = self.factors;
+        let mut changed = Factors { scale, breaks: 1.0, heave }.applied(parameters);
+        changed.conditioning.rate_scale *= rates;
+        if let Some(strategy) = self.strategy {
+            changed.structure.strategy = strategy;
+        }
+        if self.automatic {
+            changed.automatic_scale.automatic = AutomaticScale::On;
+        }
+        if let Some(rate) = self.tilt_rate {
+            changed.tilt.rate_limit = rate;
+        }
+        if self.soft_limits {
+            changed.soft_limit.pace = SOFT_PACE;
+        }
+        if let Some(cutoff) = self.cutoff {
+            changed.conditioning.cutoff = cutoff;
+        }
+        changed
+    }
+
+    /// True where the changes are a scale alone.
+    fn is_scale(&self) -> bool {
+        let [_, rates, heave] = self.factors;
+        Changes { factors: [1.0; 3], ..*self } == Changes::NONE && [rates, heave] == [1.0; 2]
+    }
+
+    /// True for what is the user's to decide: a preview needs a vehicle that knows its road, and
+    /// riders may notice a faster tilt.
+    fn is_conditional(&self) -> bool {
+        self.preview.is_some() || self.tilt_rate.is_some_and(|rate| rate > SLOWER_TILT)
+    }
+
+    /// The changes as an imperative in lower case.
+    pub fn text(&self) -> String {
+        let [scale, rates, heave] = self.factors;
+        let scaled = |what: &str, factor: f64| (factor < 1.0).then(|| format!("scale {what} by {factor:.2}"));
+        let parts = [
+            self.strategy.map(|strategy| format!("set strategy = {}", strategy.name())),
+            self.automatic.then(|| "set scale.automatic = on".to_owned()),
+            self.preview.map(|seconds| format!("give a preview of {seconds} s (vehicle.preview.*)")),
+            self.tilt_rate.map(|rate| {
+                let notice = if rate > SLOWER_TILT { ", which riders may notice" } else { "" };
+                format!("set tilt.rateLimit = {rate:.4} rad/s ({:.0} °/s{notice})", rate.to_degrees())
+            }),
+            self.soft_limits.then(|| format!("set softLimit.pace = {SOFT_PACE}")),
+            self.cutoff.map(|cutoff| format!("set input.cutoff = {cutoff} rad/s")),
+            scaled("force and rates", scale),
+            scaled("the rates", rates),
+            scaled("heave", heave),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")
     }
 }
 
-/// Other scales at which the cues have the right sign and proportion.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Advice {
-    /// Length of the part that was searched, where it is not the whole manoeuvre \[s\].
-    pub part: Option<f64>,
-    /// With the same strategy and limits.
-    pub scaled: Option<Alternative>,
-    /// Alternative with a preview, and the preview's length \[s\].
-    pub previewed: Option<(f64, Alternative)>,
+/// An alternative, simulated on the whole recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alternative {
+    /// What is different.
+    pub changes: Changes,
+    /// All parameters.
+    pub parameters: Parameters,
+    /// Its preview \[s\].
+    pub preview: f64,
+    /// The severity of each fault.
+    severities: Vec<(Fault, f64)>,
+    /// The figure of the fault that the advice is about, and the size, as clauses.
+    result: String,
+    size: Option<f64>,
+    shape: Option<f64>,
 }
 
-/// Preview that is tried \[s\].
-const PREVIEW: f64 = 1.0;
-/// Longest part of a manoeuvre that is searched \[s\]: each scale is a simulation.
-const LONGEST: f64 = 120.0;
+impl Alternative {
+    fn severity(&self, fault: Fault) -> f64 {
+        severity(&self.severities, fault)
+    }
 
-/// The part of a manoeuvre with the largest surge and sway, if it is longer than [`LONGEST`].
+    /// The smaller the better: 0 without any fault, 1 without this one, above that by its severity.
+    fn rank(&self, fault: Fault) -> f64 {
+        if self.severities.iter().all(|(_, severity)| *severity < 1.0) {
+            return 0.0;
+        }
+        self.severity(fault).max(1.0)
+    }
+
+    /// The changes with the figures that were simulated.
+    pub fn text(&self) -> String {
+        format!("{}: {}", self.changes.text(), self.result)
+    }
+}
+
+/// Alternatives that are better, the best first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    fault: Fault,
+    found: Vec<Alternative>,
+}
+
+impl Advice {
+    /// The advice out of what [`Advisor::best`] found.
+    pub fn new(fault: Fault, mut found: Vec<Alternative>) -> Self {
+        let mut ranked = Vec::new();
+        while let Some(best) = Self::best(fault, &found) {
+            ranked.push(found.remove(best));
+        }
+        Advice { fault, found: ranked }
+    }
+
+    /// Those without any fault first, then those without this one, each by shape, then by size; then
+    /// those with less of it.
+    fn best(fault: Fault, found: &[Alternative]) -> Option<usize> {
+        let rank = |k: usize| found[k].rank(fault);
+        let least = (0..found.len()).map(rank).reduce(f64::min)?;
+        let alike: Vec<usize> = (0..found.len()).filter(|&k| rank(k) == least).collect();
+        let quality = |&k: &usize| [found[k].shape.unwrap_or(1.0), found[k].size.unwrap_or(1.0)];
+        best_of(&alike.iter().map(quality).collect::<Vec<_>>()).map(|best| alike[best])
+    }
+
+    /// The alternative to take: the best that needs nothing but parameters.
+    pub fn recommended(&self) -> Option<&Alternative> {
+        self.found.iter().find(|one| !one.changes.is_conditional())
+    }
+
+    /// Of the others the one with the largest size, where that is larger than with the
+    /// recommended one, and nothing more is wrong.
+    pub fn conditional(&self) -> Option<&Alternative> {
+        let recommended = self.recommended();
+        let is_as_good = |one: &&Alternative| {
+            recommended.is_none_or(|other| one.size > other.size && one.rank(self.fault) <= other.rank(self.fault))
+        };
+        let conditional = self.found.iter().filter(|one| one.changes.is_conditional()).filter(is_as_good);
+        conditional.reduce(|best, next| if next.size > best.size { next } else { best })
+    }
+
+    /// The factor on force and rates that is better with nothing else changed.
+    pub fn scale(&self) -> Option<f64> {
+        self.found.iter().find(|one| one.changes.is_scale()).map(|one| one.changes.factors[0])
+    }
+
+    /// What to change, as a sentence; none where nothing is better.
+    pub(crate) fn sentence(&self) -> Option<String> {
+        let named: Vec<String> =
+            [self.recommended(), self.conditional()].into_iter().flatten().map(Alternative::text).collect();
+        (!named.is_empty()).then(|| format!("{}.", capitalised(&named.join("; or "))))
+    }
+
+    /// All alternatives in a sentence; none without any that the verdict has not.
+    pub(crate) fn alternatives(&self) -> Option<String> {
+        let all: Vec<String> = self.found.iter().map(Alternative::text).collect();
+        (all.len() > 1).then(|| format!("Simulated and better: {}.", all.join("; ")))
+    }
+}
+
+fn severity(severities: &[(Fault, f64)], fault: Fault) -> f64 {
+    severities.iter().find(|(other, _)| *other == fault).map_or(0.0, |(_, severity)| *severity)
+}
+
+/// Looks for alternatives to the parameters of a simulation.
+#[derive(Clone, Debug)]
+pub struct Advisor<'a> {
+    /// The fault that an alternative has less of.
+    pub fault: Fault,
+    manoeuvre: &'a Manoeuvre,
+    /// The part with the largest forces, where not the whole manoeuvre is searched.
+    part: Option<Manoeuvre>,
+    parameters: Parameters,
+    preview: f64,
+    before: Vec<(Fault, f64)>,
+}
+
+/// Changes to begin with, and what is searched for on top of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate(Changes, Searched);
+
+impl<'a> Advisor<'a> {
+    /// For a simulation of a manoeuvre with a preview of so many seconds; none where nothing is
+    /// wrong, and for another washout's motion.
+    pub fn of(evaluated: &Evaluated, manoeuvre: &'a Manoeuvre, preview: f64) -> Option<Self> {
+        let before = evaluated.severities();
+        let fault = evaluated.fault().filter(|_| evaluated.simulation.foreign.is_none())?;
+        let (parameters, part) = (evaluated.simulation.parameters, hardest(manoeuvre));
+        Some(Advisor { fault, manoeuvre, part, parameters, preview, before })
+    }
+
+    /// What to try.
+    pub fn candidates(&self) -> Vec<Candidate> {
+        let Parameters { structure, tilt, conditioning, soft_limit, automatic_scale, .. } = &self.parameters;
+        let is_predictive = structure.strategy == StrategyKind::Predictive;
+        let none = Changes::NONE;
+        let tilts = |rate: f64| Changes { tilt_rate: Some(rate), ..none };
+        let mut candidates = vec![Candidate(none, Searched::Scale)];
+        let mut add = |is_possible: bool, changes: Changes, searched: Searched| {
+            candidates.extend(is_possible.then_some(Candidate(changes, searched)));
+        };
+        if let Fault::WorseThanRest(axis @ (Axis::Heave | Axis::Roll | Axis::Pitch | Axis::Yaw)) = self.fault {
+            let part = if axis == Axis::Heave { Searched::Heave } else { Searched::Rates };
+            add(true, none, part);
+            add(tilt.rate_limit > SLOWER_TILT, tilts(SLOWER_TILT), Searched::Nothing);
+            return candidates;
+        }
+        let predictive = Changes { strategy: Some(StrategyKind::Predictive), ..none };
+        add(!is_predictive, predictive, Searched::Scale);
+        let is_fixed = automatic_scale.automatic == AutomaticScale::Off;
+        add(is_fixed, Changes { automatic: true, ..none }, Searched::Nothing);
+        let previewed = Changes { preview: Some(TRIED_PREVIEW), ..none };
+        add(is_predictive && self.preview < TRIED_PREVIEW, previewed, Searched::Scale);
+        if self.fault == Fault::Rough {
+            add(soft_limit.pace == 0.0, Changes { soft_limits: true, ..none }, Searched::Nothing);
+            let smooth = Changes { cutoff: Some(SMOOTH_CUTOFF), ..none };
+            add(conditioning.cutoff == 0.0, smooth, Searched::Nothing);
+        } else {
+            add(tilt.rate_limit < FASTER_TILT, tilts(FASTER_TILT), Searched::Scale);
+        }
+        candidates
+    }
+
+    /// The best of a candidate, simulated on the whole manoeuvre. None where it has not clearly
+    /// less of the fault, or more of another.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn best(&self, Candidate(changes, searched): Candidate) -> Result<Option<Alternative>, ParameterError> {
+        let with = |place: usize, factor: f64| Changes {
+            factors: from_fn(|k| if k == place { factor } else { changes.factors[k] }),
+            ..changes
+        };
+        let trials: Vec<Changes> = match searched {
+            Searched::Nothing => vec![changes],
+            Searched::Rates => SMALLER_PARTS.map(|factor| with(1, factor)).into(),
+            Searched::Heave => SMALLER_PARTS.map(|factor| with(2, factor)).into(),
+            Searched::Scale => {
+                let (start, count) = self.fitting_scale(&changes)?;
+                let scales = (0..count).map(|k| start * SCALE_STEP.powi(k as i32));
+                scales.filter(|scale| *scale >= MIN_SCALE).map(|scale| with(0, scale)).collect()
+            }
+        };
+        let mut best: Option<Alternative> = None;
+        for changes in trials.into_iter().filter(|changes| *changes != Changes::NONE) {
+            let Some(found) = self.simulated(changes)? else { return Ok(None) };
+            if !self.is_better(&found) {
+                continue;
+            }
+            let is_done = found.severity(self.fault) < 1.0 && found.severity(Fault::Disproportion) < 1.0;
+            if best.as_ref().is_none_or(|best| found.rank(self.fault) < best.rank(self.fault)) {
+                best = Some(found);
+            }
+            if is_done {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The largest scale that is right, by the quick simulation of the search, and how many are
+    /// tried from there on. Where no scale is right in proportion, too, one that is right in sign
+    /// and on the whole; else the nearest alone.
+    fn fitting_scale(&self, changes: &Changes) -> Result<(f64, usize), ParameterError> {
+        let searched = self.part.as_ref().unwrap_or(self.manoeuvre);
+        let preview = changes.preview.unwrap_or(self.preview);
+        let parameters = changes.applied(&self.parameters);
+        let strict = Aims { shape: RIGHT_SHAPE, ..Aims::default() };
+        let mut search = Search::new(searched, preview, strict);
+        if let (found, true) = search.scale(&parameters)? {
+            return Ok((found.factors.scale, MAX_SCALES));
+        }
+        search.aims = Aims::default();
+        let (found, reaches) = search.scale(&parameters)?;
+        Ok((found.factors.scale, if reaches { LESS_SCALES } else { 1 }))
+    }
+
+    fn simulated(&self, changes: Changes) -> Result<Option<Alternative>, ParameterError> {
+        let parameters = changes.applied(&self.parameters);
+        let preview = changes.preview.unwrap_or(self.preview);
+        let previewer = Previewer::of(self.manoeuvre, preview);
+        let simulation = Simulation::previewed(&Replay::new(self.manoeuvre), &parameters, previewer, || ())?;
+        let Ok(measures) = measures(&simulation) else { return Ok(None) };
+        let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds: [None; 3], advice: None };
+        Ok(Some(Alternative {
+            changes,
+            parameters,
+            preview,
+            severities: evaluated.severities(),
+            result: format!("{}{}", evaluated.result(self.fault), evaluated.size_clause()),
+            size: measures.shape.size(),
+            shape: measures.shape.least_shape(),
+        }))
+    }
+
+    /// True where an alternative has clearly less of the fault, and no more of any other.
+    fn is_better(&self, alternative: &Alternative) -> bool {
+        let others = alternative.severities.iter().filter(|(fault, _)| *fault != self.fault);
+        let is_no_worse =
+            |(fault, after): &(Fault, f64)| *after < f64::max(1.0, NO_WORSE * severity(&self.before, *fault));
+        let after = alternative.severity(self.fault);
+        let least = BETTER[usize::from(after >= 1.0)] * severity(&self.before, self.fault);
+        after <= least && others.into_iter().all(is_no_worse)
+    }
+}
+
+/// The part of a manoeuvre with the largest surge and sway, if it is longer than [`MAX_SEARCHED`].
 fn hardest(manoeuvre: &Manoeuvre) -> Option<Manoeuvre> {
-    let count = (LONGEST / manoeuvre.step()) as usize + 1;
+    let count = (MAX_SEARCHED / manoeuvre.step()) as usize + 1;
     let inputs = manoeuvre.inputs();
     let (mut sum, mut sums) = (0.0, vec![0.0]);
     for input in inputs {
@@ -53,122 +393,4 @@ fn hardest(manoeuvre: &Manoeuvre) -> Option<Manoeuvre> {
     let last = inputs.len().checked_sub(count).filter(|last| *last > 0)?;
     let start = (0..=last).max_by(|one, other| of(*one).total_cmp(&of(*other)))?;
     Some(Manoeuvre::new(manoeuvre.step(), inputs[start..start + count].to_vec()))
-}
-
-impl Advice {
-    /// Searches for a scale at which a manoeuvre is felt the right way round, if it is not at its
-    /// own; the predictive strategy also with a preview. Of a long manoeuvre the part with the
-    /// largest forces is searched. None where the scale is automatic, and for the classical
-    /// strategy, which no scale alone sets right.
-    ///
-    /// # Errors
-    /// The parameters cannot be used.
-    pub fn of(
-        manoeuvre: &Manoeuvre,
-        parameters: &Parameters,
-        preview: f64,
-        shape: &Shape,
-    ) -> Result<Option<Self>, ParameterError> {
-        let is_right = shape.most_inverted().is_none_or(|(_, inverted)| inverted < INVERTED);
-        let strategy = parameters.structure.strategy;
-        let is_automatic = parameters.automatic_scale.automatic == AutomaticScale::On;
-        if is_right || is_automatic || strategy == StrategyKind::Classical {
-            return Ok(None);
-        }
-        let part = hardest(manoeuvre);
-        let searched = part.as_ref().unwrap_or(manoeuvre);
-        let found = |preview: f64| -> Result<Option<Alternative>, ParameterError> {
-            let found = Search::new(searched, preview, Aims::default()).scale(parameters)?;
-            // The quick simulation of the search may find the scale itself just right.
-            Ok(found.map(Alternative::from).filter(|found| found.factor < 1.0))
-        };
-        let previews = strategy == StrategyKind::Predictive && preview < PREVIEW;
-        let previewed = if previews { found(PREVIEW)?.map(|found| (PREVIEW, found)) } else { None };
-        Ok(Some(Advice { part: part.as_ref().map(Manoeuvre::duration), scaled: found(preview)?, previewed }))
-    }
-
-    /// Clauses of a sentence on inverted time.
-    pub(crate) fn clauses(&self) -> String {
-        let scaled = self
-            .scaled
-            .map(|Alternative { factor, inverted }| format!("; at a scale of {factor:.2}: {:.0} %", 100.0 * inverted));
-        let previewed = self.previewed.map(|(seconds, Alternative { factor, inverted })| {
-            format!("; with a preview of {seconds} s at {factor:.2}: {:.0} %", 100.0 * inverted)
-        });
-        let clauses: String = [scaled, previewed].into_iter().flatten().collect();
-        match self.part.filter(|_| !clauses.is_empty()) {
-            Some(part) => format!("; the hardest {part:.0} s alone{}", clauses.replacen(';', ":", 1)),
-            None => clauses,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::TAU;
-
-    use crate::measures::shape::{AxisShape, Shape};
-    use moris_washout::{Input, presets};
-
-    use super::*;
-
-    /// 30 s of a slalom of this force \[m/s2\].
-    fn slalom(force: f64) -> Manoeuvre {
-        let input = |k: usize| {
-            let time = k as f64 * 0.01;
-            let mut input = Input::default();
-            input.specific_force.y = force * (time / 2.0).min(1.0) * (TAU * 0.25 * time).sin();
-            input
-        };
-        Manoeuvre::new(0.01, (0..3000).map(input).collect())
-    }
-
-    /// A shape with this inverted time in sway.
-    fn inverted(inverted: f64) -> Shape {
-        let axis = AxisShape { shape: 0.4, size: 0.7, inverted };
-        Shape { axes: [None, Some(axis)], inverted: Some(inverted), error: Some(0.8) }
-    }
-
-    #[test]
-    fn a_hard_ride_gets_a_scale_and_a_larger_one_with_a_preview() {
-        let parameters = presets::parameters(presets::PREDICTIVE);
-        let advice = Advice::of(&slalom(4.5), &parameters, 0.0, &inverted(0.1)).unwrap().unwrap();
-        let scaled = advice.scaled.unwrap();
-        let (seconds, previewed) = advice.previewed.unwrap();
-        assert!(seconds == 1.0 && scaled.factor < previewed.factor, "{scaled:?}, {previewed:?}");
-        assert!(scaled.inverted <= 0.02 && previewed.inverted <= 0.02);
-        let clauses = advice.clauses();
-        assert!(
-            clauses.starts_with("; at a scale of 0.") && clauses.contains("; with a preview of 1 s at 0."),
-            "{clauses}"
-        );
-    }
-
-    #[test]
-    fn of_a_long_ride_the_hardest_part_is_searched() {
-        let quiet = slalom(0.5).inputs().to_vec();
-        let hard = slalom(4.5).inputs().to_vec();
-        let of = |parts: &[&[Input]]| Manoeuvre::new(0.01, parts.concat());
-        let long = of(&[&quiet, &quiet, &quiet, &hard, &hard, &hard, &hard, &quiet]);
-        let part = hardest(&long).unwrap();
-        assert_eq!(part.inputs()[..], long.inputs()[8999..21_000]);
-        assert!(hardest(&of(&[&hard, &hard, &hard, &hard])).is_none());
-        let parameters = presets::parameters(presets::PREDICTIVE);
-        let advice = Advice::of(&long, &parameters, 0.0, &inverted(0.1)).unwrap().unwrap();
-        let whole = Advice::of(&part, &parameters, 0.0, &inverted(0.1)).unwrap().unwrap();
-        assert_eq!((advice.scaled, advice.previewed), (whole.scaled, whole.previewed));
-        assert!(whole.part.is_none() && advice.scaled.is_some());
-        let clauses = advice.clauses();
-        assert!(clauses.starts_with("; the hardest 120 s alone: at a scale of 0."), "{clauses}");
-    }
-
-    #[test]
-    fn who_needs_none_gets_none() {
-        let predictive = presets::parameters(presets::PREDICTIVE);
-        let automatic = presets::with(presets::PREDICTIVE, &[("scale.automatic", 2.0)]);
-        let of = |parameters, shape| Advice::of(&slalom(0.3), parameters, 0.0, &shape).unwrap();
-        assert_eq!(of(&predictive, inverted(0.01)), None);
-        assert_eq!(of(&automatic, inverted(0.1)), None);
-        assert_eq!(of(&presets::parameters(presets::PAPER), inverted(0.1)), None);
-    }
 }

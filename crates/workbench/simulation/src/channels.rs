@@ -6,7 +6,9 @@ use crate::measures::fidelity::Fidelity;
 use crate::measures::shape::AxisShape;
 use moris_washout::platform::reach::Axis;
 
-use crate::Evaluated;
+use crate::measures::cues::RATE_THRESHOLDS;
+use crate::measures::statistics::rms;
+use crate::{Evaluated, Simulation};
 
 /// A channel's figures, in m/s2 or rad/s.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +17,9 @@ pub struct ChannelFigures {
     pub axis: Axis,
     /// RMS of the desired signal, as a deviation from rest: the error of a platform at rest.
     pub at_rest: f64,
+    /// RMS error without the rotation of tilt coordination, of roll and pitch rate; none where the
+    /// tilt alone turns faster than is perceived, where it is not known, and of other channels.
+    pub without_tilt: Option<f64>,
     /// The least RMS error that any controller could reach; none where it was not computed.
     pub bound: Option<f64>,
     /// Fidelity of the felt signal.
@@ -47,6 +52,26 @@ impl ChannelFigures {
     }
 }
 
+/// Fraction of the time in which a tilt may turn faster than is perceived, and how much faster: the
+/// start value of tilt.rateLimit is the threshold of roll, rounded up.
+const MAX_PERCEIVED_TILT: f64 = 0.05;
+const PERCEIVED_EXCESS: f64 = 1e-3;
+
+/// RMS error of roll or pitch rate without the rotation of tilt coordination \[rad/s\].
+fn error_without_tilt(simulation: &Simulation, axis: Axis) -> Option<f64> {
+    let place = [Axis::Roll, Axis::Pitch].iter().position(|other| *other == axis)?;
+    let outputs = &simulation.outputs;
+    let tilt = |sample: usize| [outputs[sample].tilt_roll_rate, outputs[sample].tilt_pitch_rate][place];
+    let threshold = RATE_THRESHOLDS[place] * (1.0 + PERCEIVED_EXCESS);
+    let perceived = (0..outputs.len()).filter(|sample| tilt(*sample).abs() > threshold).count();
+    let is_hidden = perceived as f64 <= MAX_PERCEIVED_TILT * outputs.len() as f64;
+    (simulation.foreign.is_none() && is_hidden).then(|| {
+        rms((0..outputs.len()).map(|sample| {
+            outputs[sample].felt_angular_velocity[place] - tilt(sample) - simulation.desired_rate(sample)[place]
+        }))
+    })
+}
+
 /// The channels of a recording on which something is desired or felt; without rates where another
 /// washout's are not known.
 pub fn channels(evaluated: &Evaluated) -> Vec<ChannelFigures> {
@@ -62,6 +87,7 @@ pub fn channels(evaluated: &Evaluated) -> Vec<ChannelFigures> {
         Some(ChannelFigures {
             axis,
             at_rest,
+            without_tilt: error_without_tilt(evaluated.simulation, axis),
             bound: bounds[k].filter(|_| is_force),
             felt: felt?,
             sensed,

@@ -17,8 +17,8 @@ pub struct Evaluated<'a> {
     /// The least RMS error of the specific force that a controller could reach, by axis \[m/s2\];
     /// none where it is not known.
     pub bounds: Axes<Option<f64>>,
-    /// Another scale; none where it was not computed.
-    pub advice: Option<Advice>,
+    /// Simulated alternatives; none where nothing is wrong, or none were simulated.
+    pub advice: Option<&'a Advice>,
 }
 
 impl Evaluated<'_> {

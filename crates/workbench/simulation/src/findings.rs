@@ -8,9 +8,11 @@ use moris_washout::Output;
 use moris_washout::interface::TiltParameters;
 use moris_washout::platform::reach::Axis;
 
+use crate::advice::Advice;
 use crate::channels::{ChannelFigures, channels};
 use crate::frequency_response::channel::name;
 use crate::spans::Spans;
+use crate::verdict::percent;
 use crate::{Evaluated, Simulation, capitalised};
 use crate::{Finding, Limits, TiltLimit, Weight};
 
@@ -19,8 +21,9 @@ use crate::{Finding, Limits, TiltLimit, Weight};
 const LEAST: [f64; 2] = [0.05, 1.0_f64.to_radians()];
 /// Relative error up to which a channel counts as reproduced well.
 const FAITHFUL: f64 = 0.25;
-/// The relative error of a platform at rest.
-const AT_REST: f64 = 1.0;
+/// Relative error above which a channel is worse than on a platform at rest, whose own is 1: a
+/// scale of 0 is none.
+const WORSE_THAN_REST: f64 = 1.05;
 /// Fractions of the time with false cues that are worth a sentence, and a warning.
 const FALSE_CUES: f64 = 0.05;
 const MANY_FALSE_CUES: f64 = 0.1;
@@ -48,7 +51,7 @@ pub(crate) const RIGHT_SHAPE: f64 = 0.85;
 const GIVEN_UP: &str =
     "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
 
-const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
+pub(crate) const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 
 impl Evaluated<'_> {
     /// The findings, the most important first: fit, comfort, shape, channels worse than at rest,
@@ -61,6 +64,7 @@ impl Evaluated<'_> {
         };
         findings.extend((0..3).flat_map(|axis| comfort(self, axis)));
         findings.extend(shape(self));
+        findings.extend(self.advice.and_then(Advice::alternatives).map(|text| finding(Weight::Note, text)));
         if foreign.is_none() {
             let warnings = moris_washout::warnings(&self.simulation.parameters);
             findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
@@ -74,32 +78,6 @@ impl Evaluated<'_> {
         findings.extend(others);
         findings.extend(sickness(self.measures));
         findings
-    }
-
-    /// True if the recording fits the rig and no channel has a larger error than a platform at
-    /// rest.
-    pub fn is_good(&self) -> bool {
-        fits_freely(self.measures) && is_better_than_rest(self)
-    }
-
-    /// Fit and cues in a few words.
-    pub fn verdict(&self) -> String {
-        let channels = channels(self);
-        let worse: Vec<String> = channels
-            .iter()
-            .filter(|channel| channel.is_worse_than_rest())
-            .map(|channel| name(channel.axis).to_owned())
-            .collect();
-        let fit = match fit(self) {
-            None => "limits not judged",
-            Some(true) if fits_freely(self.measures) => "fits",
-            Some(true) => "within the rig by soft limits alone",
-            Some(false) => "does not fit",
-        };
-        match worse.as_slice() {
-            [] => format!("{fit}, better than at rest"),
-            worse => format!("{fit}; worse than at rest: {}", worse.join(", ")),
-        }
     }
 }
 
@@ -233,11 +211,10 @@ fn shape(outcome: &Evaluated) -> Option<Finding> {
     let shapes = of_axes(&|axis| format!("{:.2}", axis.shape));
     let sizes = of_axes(&|axis| format!("{:.0} %", 100.0 * axis.size));
     if inverted >= INVERTED {
-        let advice = outcome.advice.map_or_else(String::new, |advice| advice.clauses());
         let text = format!(
-            "{} is felt the wrong way round for {:.0} % of the time{advice}. Shape: {shapes}; size: {sizes}.",
+            "{} is felt the wrong way round for {} of the time. Shape: {shapes}; size: {sizes}.",
             AXES[most],
-            100.0 * inverted
+            percent(inverted)
         );
         return Some(finding(Weight::Warning, text));
     }
@@ -282,18 +259,39 @@ fn bound_limits(tilt: &TiltParameters, axis: Axis) -> String {
 }
 
 impl ChannelFigures {
-    /// True if a platform at rest would be better: its error would be smaller or, where hardly any
-    /// motion is desired, motion is sensed that should not be.
-    fn is_worse_than_rest(&self) -> bool {
-        if self.is_desired() {
-            self.felt.rms_error > AT_REST * self.at_rest
-        } else {
-            self.cues.false_cues >= FALSE_CUES
+    /// How much worse than a platform at rest: 1 is where that begins. A force is by its error. A
+    /// rate is by its error, too, where it is also sensed as false. Where hardly any motion is
+    /// desired, it is the false cues alone. The rotation of tilt coordination is not counted where
+    /// it is slower than the threshold of perception: it turns the rider by design.
+    pub(crate) fn severity(&self) -> f64 {
+        let error = self.without_tilt.unwrap_or(self.felt.rms_error);
+        let false_cues = self.cues.false_cues / FALSE_CUES;
+        match (self.is_desired(), self.axis.is_rotation()) {
+            (true, false) => error / (WORSE_THAN_REST * self.at_rest),
+            (true, true) => false_cues.min(error / (WORSE_THAN_REST * self.at_rest)),
+            (false, true) if error < self.least_desired() => 0.0,
+            (false, _) => false_cues,
         }
     }
 
+    /// The figure that [`ChannelFigures::severity`] is of, as a clause.
+    pub(crate) fn figure(&self) -> String {
+        if self.is_desired() && !self.axis.is_rotation() {
+            return format!("an error of {} of what is desired", percent(self.ratio()));
+        }
+        format!("false cues for {} of the time", percent(self.cues.false_cues))
+    }
+
+    fn is_worse_than_rest(&self) -> bool {
+        self.severity() >= 1.0
+    }
+
     fn is_desired(&self) -> bool {
-        self.at_rest >= LEAST[usize::from(self.axis.is_rotation())]
+        self.at_rest >= self.least_desired()
+    }
+
+    fn least_desired(&self) -> f64 {
+        LEAST[usize::from(self.axis.is_rotation())]
     }
 
     /// A channel on which something is desired, felt, or falsely cued.
@@ -315,6 +313,8 @@ impl ChannelFigures {
             )
         } else if rms_error <= FAITHFUL * self.at_rest {
             (Weight::Good, "is reproduced well")
+        } else if rms_error > WORSE_THAN_REST * self.at_rest && self.without_tilt.is_some() {
+            (Weight::Note, "has a larger error than a platform at rest, by the rotation of tilt coordination")
         } else {
             (Weight::Note, "is reproduced in part")
         };
@@ -328,7 +328,8 @@ impl ChannelFigures {
         };
         let (false_weight, falsely) = match false_cues {
             FALSE_CUES.. => {
-                let weight = if false_cues >= MANY_FALSE_CUES { Weight::Warning } else { Weight::Note };
+                let is_tilt = self.without_tilt.is_some() && !self.is_worse_than_rest();
+                let weight = if false_cues >= MANY_FALSE_CUES && !is_tilt { Weight::Warning } else { Weight::Note };
                 (weight, format!(" Its cues are false for {:.0} % of the time.", 100.0 * false_cues))
             }
             _ => (weight, String::new()),
@@ -365,6 +366,7 @@ mod tests {
         let channel = ChannelFigures {
             axis: Axis::Roll,
             at_rest: desired.to_radians(),
+            without_tilt: None,
             bound: None,
             felt: fidelity,
             sensed: None,

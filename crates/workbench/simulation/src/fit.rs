@@ -17,8 +17,8 @@ use crate::preview::Previewer;
 const SEARCH_STEPS: [f64; 3] = [0.01, 0.002, 0.005];
 /// Factor on a scale that misses the aims by the set's own internal step, and
 /// how often it is tried.
-const SMALLER: f64 = 0.94;
-const TRIALS: usize = 6;
+pub const SMALLER: f64 = 0.94;
+pub const TRIALS: usize = 6;
 /// Factors that are tried first, the largest first.
 const GRID: [f64; 13] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
 /// Bisections between two of them.
@@ -35,11 +35,13 @@ pub struct Aims {
     pub error: f64,
     /// Largest fraction of inverted time of an axis.
     pub inverted: f64,
+    /// Least correlation of an axis.
+    pub shape: f64,
 }
 
 impl Default for Aims {
     fn default() -> Self {
-        Aims { error: 0.5, inverted: 0.02 }
+        Aims { error: 0.5, inverted: 0.02, shape: -1.0 }
     }
 }
 
@@ -47,11 +49,28 @@ impl Aims {
     /// Distance from the aims; at most 1 where both are reached.
     pub fn distance(&self, shape: &Shape) -> f64 {
         let inverted = shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
-        (shape.error.unwrap_or(0.0) / self.error).max(inverted / self.inverted)
+        let least = shape.least_shape().unwrap_or(1.0);
+        let shape_distance = (1.0 - least) / (1.0 - self.shape).max(f64::EPSILON);
+        (shape.error.unwrap_or(0.0) / self.error).max(inverted / self.inverted).max(shape_distance)
+    }
+
+    /// The best of one candidate a strategy: of those that reach the aims by shape, then by size;
+    /// where none does, the nearest to them.
+    pub fn best(&self, candidates: &[Candidate]) -> Option<usize> {
+        let distance = |k: &usize| self.distance(&candidates[*k].shape);
+        let reaching: Vec<usize> = (0..candidates.len()).filter(|k| distance(k) <= 1.0).collect();
+        if reaching.is_empty() {
+            return (0..candidates.len()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        }
+        let quality = |&k: &usize| {
+            let shape = &candidates[k].shape;
+            [shape.least_shape().unwrap_or(1.0), shape.size().unwrap_or(1.0)]
+        };
+        best_of(&reaching.iter().map(quality).collect::<Vec<_>>()).map(|best| reaching[best])
     }
 
     /// True if a candidate is felt larger among those that reach the aims, or is nearer to them.
-    pub fn prefer(&self, one: &Candidate, other: &Candidate) -> bool {
+    fn prefer(&self, one: &Candidate, other: &Candidate) -> bool {
         let distance = [one, other].map(|candidate| self.distance(&candidate.shape));
         match distance.map(|distance| distance <= 1.0) {
             [true, true] => one.shape.size() > other.shape.size(),
@@ -59,6 +78,17 @@ impl Aims {
             [fits, _] => fits,
         }
     }
+}
+
+/// Differences of shape up to this do not decide: the size does.
+const SAME_SHAPE: f64 = 0.02;
+
+/// The best of pairs of shape and size: of those with the best shape, but for
+/// [`SAME_SHAPE`], the largest.
+pub fn best_of(qualities: &[[f64; 2]]) -> Option<usize> {
+    let shape = qualities.iter().map(|[shape, _]| *shape).reduce(f64::max)?;
+    let like_it = (0..qualities.len()).filter(|&k| qualities[k][0] >= shape - SAME_SHAPE);
+    like_it.reduce(|best, next| if qualities[next][1] > qualities[best][1] { next } else { best })
 }
 
 /// Factors on the parameters of a set.
@@ -123,7 +153,8 @@ pub struct Search<'a> {
     desired: Desired,
     heave: Option<Vec<f64>>,
     previewer: Option<Previewer>,
-    aims: Aims,
+    /// What a scale is searched for.
+    pub aims: Aims,
 }
 
 impl<'a> Search<'a> {
@@ -156,18 +187,15 @@ impl<'a> Search<'a> {
         let mut best = best.unwrap_or(Candidate { factors: Factors::scale(1.0), shape: Shape::default() });
         let curve = curves.into_iter().find(|curve| curve.contains(&best)).unwrap_or_default();
         best.factors.heave = self.heave(parameters, best.factors)?;
-        let candidate = |factors: Factors| -> Result<Candidate, ParameterError> {
-            Ok(Candidate { factors, shape: self.shape(&factors.applied(parameters))? })
-        };
         let reaches = |candidate: &Candidate| self.aims.distance(&candidate.shape) <= 1.0;
         let searched = reaches(&best);
-        best = candidate(best.factors)?;
+        best = self.exact(parameters, best.factors)?;
         let mut trial = best;
         for _ in 0..TRIALS {
             if !searched || reaches(&trial) {
                 break;
             }
-            trial = candidate(Factors { scale: SMALLER * trial.factors.scale, ..trial.factors })?;
+            trial = self.exact(parameters, Factors { scale: SMALLER * trial.factors.scale, ..trial.factors })?;
         }
         if reaches(&trial) {
             best = trial;
@@ -175,14 +203,18 @@ impl<'a> Search<'a> {
         Ok(Fit { fits: reaches(&best), best, curve })
     }
 
-    /// The largest scale that reaches the aims with these break frequencies. None where none does.
-    /// It is found by the quick simulation of the search.
+    /// The largest scale that reaches the aims with these break frequencies, by the quick
+    /// simulation of the search, and true; the nearest to them where none does, and false.
     ///
     /// # Errors
     /// The parameters cannot be used.
-    pub fn scale(&self, parameters: &Parameters) -> Result<Option<Candidate>, ParameterError> {
+    pub fn scale(&self, parameters: &Parameters) -> Result<(Candidate, bool), ParameterError> {
         let curve = self.curve(parameters, 1.0)?;
-        Ok(curve.into_iter().find(|candidate| self.aims.distance(&candidate.shape) <= 1.0))
+        let distance = |candidate: &Candidate| self.aims.distance(&candidate.shape);
+        let reaching = curve.iter().find(|candidate| distance(candidate) <= 1.0);
+        let nearest = || curve.iter().min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        let none = Candidate { factors: Factors::scale(1.0), shape: Shape::default() };
+        Ok((reaching.or_else(nearest).copied().unwrap_or(none), reaching.is_some()))
     }
 
     /// The shape with a factor on the scale, by the quick simulation of the search.
@@ -191,6 +223,14 @@ impl<'a> Search<'a> {
     /// The parameters cannot be used.
     pub fn candidate(&self, parameters: &Parameters, factors: Factors) -> Result<Candidate, ParameterError> {
         Ok(Candidate { factors, shape: self.shape(&quick(&factors.applied(parameters)))? })
+    }
+
+    /// The same with the internal step of the parameters.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn exact(&self, parameters: &Parameters, factors: Factors) -> Result<Candidate, ParameterError> {
+        Ok(Candidate { factors, shape: self.shape(&factors.applied(parameters))? })
     }
 
     /// Candidates from the largest scale to the first that reaches the aims, with bisections

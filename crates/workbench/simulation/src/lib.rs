@@ -6,7 +6,7 @@
 //! - [`Replay`] takes a washout through a [`Manoeuvre`]; [`drives`] has computed ones.
 //! - [`Simulation`] steps the washout, [`Unfinished`] part by part; [`preview`] gives it
 //!   the recording's future.
-//! - [`advice`] is what another scale would give.
+//! - [`verdict`] is the most important fault, and [`advice`] what is better, simulated.
 //! - [`fit`](mod@fit) finds the largest scale with the right sign and proportion.
 //! - [`foreign`] makes the same of the motion that another washout computed.
 //! - [`channels`] are the figures of each channel.
@@ -29,7 +29,6 @@ pub mod findings;
 pub mod fit;
 pub mod foreign;
 pub mod frequency_response;
-mod headline;
 mod limits;
 mod manoeuvre;
 mod measured;
@@ -39,6 +38,7 @@ pub mod replay;
 mod simulation;
 mod spans;
 mod tilt_limits;
+pub mod verdict;
 
 pub use evaluated::{Evaluated, capitalised};
 pub use finding::{Finding, Weight};

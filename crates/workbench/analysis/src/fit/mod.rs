@@ -1,16 +1,13 @@
-//! Recordings fitted with several strategies, and drives for those who have no recording.
-
-pub mod usual;
+//! Recordings fitted with several strategies, each alone and all with one set of parameters.
 
 use moris_setup::Setup;
-use moris_simulation::fit::{Aims, Fit, Search};
+use moris_simulation::advice::FASTER_TILT;
+use moris_simulation::fit::{Aims, Candidate, Factors, Fit, SMALLER, Search, TRIALS};
+use moris_simulation::measures::shape::{AxisShape, Shape};
 use rayon::prelude::*;
 
 use crate::error::{About, Result};
 use crate::recording::Recording;
-
-/// Rate of tilt that a second line shows \[rad/s\].
-const FASTER_TILT: f64 = 6.0_f64.to_radians();
 
 /// A strategy's parameters under its name.
 #[derive(Clone, Debug)]
@@ -49,14 +46,95 @@ fn of_recording(recording: &Recording, strategies: &[Strategy], preview: f64, ai
         search.fit(&parameters).about(|| format!("{}, {}", recording.name, strategy.name))
     };
     let fits: Vec<Fit> = strategies.par_iter().map(fit).collect::<Result<_>>()?;
-    let better = |best: usize, next: usize| if aims.prefer(&fits[next].best, &fits[best].best) { next } else { best };
-    let winner = (1..fits.len()).fold(0, better);
+    let winner = aims.best(&fits.iter().map(|fit| fit.best).collect::<Vec<_>>()).unwrap_or(0);
     let mut parameters = recording.parameters(&strategies[winner].setup.parameters);
     let is_slower = parameters.tilt.rate_limit < FASTER_TILT;
     parameters.tilt.rate_limit = FASTER_TILT;
     // A set whose other limits forbid it has no second line.
     let faster_tilt = if is_slower { search.fit(&parameters).ok() } else { None };
     Ok(Fitted { name: recording.name.clone(), fits, winner, faster_tilt })
+}
+
+/// One set of factors for several recordings.
+#[derive(Clone, Debug)]
+pub struct Common {
+    /// The strategy, an index of those given.
+    pub strategy: usize,
+    /// The factors, and the worst of the recordings: least shape, largest inverted time and error,
+    /// least size.
+    pub worst: Candidate,
+    /// How many recordings reach the aims with them.
+    pub fitting: usize,
+}
+
+/// The best strategy with one set of factors for all recordings; none of no recording.
+///
+/// # Errors
+/// The parameters of a strategy cannot be used.
+pub fn common(
+    recordings: &[Recording],
+    strategies: &[Strategy],
+    preview: f64,
+    aims: Aims,
+    fitted: &[Fitted],
+) -> Result<Option<Common>> {
+    let searches: Vec<Search> =
+        recordings.iter().map(|recording| Search::new(&recording.manoeuvre, preview, aims)).collect();
+    let of_strategy = |index: usize| {
+        let factors = fitted.iter().map(|one| one.fits[index].best.factors);
+        let hardest = factors.clone().min_by(|one, other| one.scale.total_cmp(&other.scale))?;
+        let heave = factors.map(|factors| factors.heave).fold(1.0, f64::min);
+        let wanted = fitted.iter().filter(|one| one.fits[index].fits).count();
+        Some((Factors { heave, ..hardest }, wanted))
+    };
+    let shapes = |index: usize, factors: Factors| {
+        let setup = &strategies[index].setup;
+        let shape = |(recording, search): (&Recording, &Search)| {
+            let exact = search.exact(&recording.parameters(&setup.parameters), factors);
+            exact.map(|candidate| candidate.shape).about(|| format!("{}, {}", recording.name, strategies[index].name))
+        };
+        recordings.par_iter().zip(&searches).map(shape).collect::<Result<Vec<Shape>>>()
+    };
+    let mut all = Vec::new();
+    for strategy in 0..strategies.len() {
+        let Some((mut factors, wanted)) = of_strategy(strategy) else { return Ok(None) };
+        let mut found = Common::of(strategy, factors, &shapes(strategy, factors)?, aims);
+        for _ in 0..TRIALS {
+            if found.fitting >= wanted {
+                break;
+            }
+            factors.scale *= SMALLER;
+            found = Common::of(strategy, factors, &shapes(strategy, factors)?, aims);
+        }
+        all.push(found);
+    }
+    let most = all.iter().map(|one| one.fitting).max().unwrap_or(0);
+    all.retain(|one| one.fitting == most);
+    let best = aims.best(&all.iter().map(|one| one.worst).collect::<Vec<_>>());
+    Ok(best.map(|best| all.swap_remove(best)))
+}
+
+impl Common {
+    fn of(strategy: usize, factors: Factors, shapes: &[Shape], aims: Aims) -> Self {
+        let axis = |k: usize| shapes.iter().filter_map(|shape| shape.axes[k]).reduce(worse_axis);
+        let largest = |value: fn(&Shape) -> Option<f64>| shapes.iter().filter_map(value).reduce(f64::max);
+        let shape = Shape {
+            axes: [axis(0), axis(1)],
+            inverted: largest(|shape| shape.inverted),
+            error: largest(|shape| shape.error),
+        };
+        let fitting = shapes.iter().filter(|shape| aims.distance(shape) <= 1.0).count();
+        Common { strategy, worst: Candidate { factors, shape }, fitting }
+    }
+}
+
+/// The worse of each figure.
+fn worse_axis(one: AxisShape, other: AxisShape) -> AxisShape {
+    AxisShape {
+        shape: one.shape.min(other.shape),
+        size: one.size.min(other.size),
+        inverted: one.inverted.max(other.inverted),
+    }
 }
 
 /// Means over all channels of a strategy.

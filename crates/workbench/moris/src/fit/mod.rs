@@ -11,14 +11,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
-use moris_analysis::fit::usual::{Usual, Vehicle};
-use moris_analysis::fit::{Fitted, Strategy, fitted, means};
-use moris_interface::Group;
-use moris_setup::{changed, parameter_file};
-use moris_simulation::fit::{Aims, Fit};
+use anyhow::{Context, Result};
+use moris_analysis::fit::{Common, Fitted, Strategy, common, fitted, means};
+use moris_analysis::outcome::{counted, listed};
+use moris_setup::Setup;
+use moris_simulation::fit::{Aims, Candidate, Fit};
 use moris_simulation::preview::parse_seconds;
-use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -29,14 +27,16 @@ use crate::recording::{ConventionOptions, Recording};
 use crate::setup_options::{SetupOptions, strategies};
 use crate::status::DOES_NOT_FIT;
 use crate::text_table::TextTable;
+use crate::words::WHICH_COMMAND;
 
 /// Find the largest scale at which the cues have the right sign and proportion
 ///
-/// Prints a table of strategies by recordings: scale, shape, inverted time and size. The winner is
-/// felt largest of those that reach --error and --inverted. Writes NAME.fit.toml with the winner's
-/// parameters for each recording, for `moris simulate --parameters`, and fit.svg with the curves of
-/// size against shape. One factor scales surge, sway and all rates; heave has its own. The
-/// classical strategy gets a second factor on its break frequencies of surge and sway.
+/// Prints a table of strategies by recordings: scale, shape, inverted time and size. The winner has
+/// the best shape of those that reach --error and --inverted, and of the same shape the largest
+/// size. Writes NAME.fit.toml with the winner's parameters for each recording, fit.toml with one
+/// set for several recordings, and fit.svg with the curves of size against shape. The files are for
+/// `moris simulate --parameters`. One factor scales surge, sway and all rates; heave has its own.
+/// The classical strategy gets a second factor on its break frequencies of surge and sway.
 ///
 /// A second line says what a tilt of 6 degrees a second would give. It is never chosen.
 ///
@@ -45,17 +45,8 @@ use crate::text_table::TextTable;
 pub struct Options {
     /// Recordings (CSV) or folders of them, each with conventions of its own after @: a file, as in
     /// ride.csv@carsim.toml, or a logger's format, as in ride.csv@racechrono
-    #[arg(value_name = "RECORDING[@CONVENTIONS]")]
+    #[arg(required = true, value_name = "RECORDING[@CONVENTIONS]")]
     recordings: Vec<PathBuf>,
-
-    /// A computed drive of these accelerations in place of a recording, as in "2 g sideways, 1 g
-    /// braking"
-    #[arg(long, value_name = "ACCELERATIONS", value_parser = Usual::parse)]
-    usual: Option<Usual>,
-
-    /// A computed drive of such a vehicle in place of a recording
-    #[arg(long, value_enum, value_name = "VEHICLE")]
-    vehicle: Option<Vehicle>,
 
     /// Rig file, or shipped rig (hobby150, ...) [default: the default rig]
     #[arg(long, value_name = "FILE|NAME")]
@@ -100,18 +91,32 @@ pub struct Options {
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let recordings = read(options)?;
     let strategies = all_strategies(options)?;
-    let aims = Aims { error: options.error / 100.0, inverted: options.inverted / 100.0 };
+    let aims = Aims { error: options.error / 100.0, inverted: options.inverted / 100.0, ..Aims::default() };
     let fitted = fitted(&recordings, &strategies, options.preview, aims)?;
-    let files = write_files(&options.report, &recordings, &fitted, &strategies)?;
+    let several = recordings.len() > 1;
+    let common = if several { common(&recordings, &strategies, options.preview, aims, &fitted)? } else { None };
+    let files = write_files(&options.report, &recordings, &fitted, common.as_ref(), &strategies)?;
     if options.json {
-        let results: Vec<Value> =
+        let mut results: Vec<Value> =
             fitted.iter().zip(&files).map(|(one, file)| json_of(one, file, &strategies)).collect();
+        results.extend(common.iter().zip(files.get(fitted.len())).map(|(common, file)| {
+            json!({
+                "recordings": fitted.iter().map(|one| &one.name).collect::<Vec<_>>(),
+                "winner": strategies[common.strategy].name,
+                "fitting": common.fitting,
+                "scale": common.worst.factors.scale,
+                "breakFrequencies": common.worst.factors.breaks,
+                "heave": common.worst.factors.heave,
+                "parameters": file.display().to_string(),
+            })
+        }));
         writeln!(out, "{:#}", Value::from(results))?;
     } else {
-        write!(out, "{}", text(&fitted, &strategies, aims))?;
+        write!(out, "{}", text(&fitted, common.as_ref(), &strategies, aims))?;
         for file in files {
             writeln!(out, "wrote {}", file.display())?;
         }
+        writeln!(out, "\n{WHICH_COMMAND}")?;
     }
     let all_fit = fitted.iter().all(|one| one.fits[one.winner].fits);
     Ok(if all_fit { ExitCode::SUCCESS } else { ExitCode::from(DOES_NOT_FIT) })
@@ -119,18 +124,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 
 fn read(options: &Options) -> Result<Vec<Recording>> {
     let files = recordings(&options.recordings)?;
-    let mut read: Vec<Recording> =
-        files.par_iter().map(|file| source::recording(file, &options.conventions)).collect::<Result<_>>()?;
-    read.extend(options.usual.map(|usual| usual.recording("usual accelerations")));
-    read.extend(options.vehicle.map(|vehicle| {
-        let name =
-            clap::ValueEnum::to_possible_value(&vehicle).map_or_else(String::new, |value| value.get_name().to_owned());
-        vehicle.usual().recording(&name)
-    }));
-    if read.is_empty() {
-        bail!("nothing to fit; name a recording, or give --usual \"2 g sideways, 1 g braking\" or --vehicle town-car");
-    }
-    Ok(read)
+    files.par_iter().map(|file| source::recording(file, &options.conventions)).collect()
 }
 
 fn all_strategies(options: &Options) -> Result<Vec<Strategy>> {
@@ -144,12 +138,17 @@ fn all_strategies(options: &Options) -> Result<Vec<Strategy>> {
     kinds.iter().map(load).collect()
 }
 
-/// Writes the winner's parameters for each recording, and the picture; returns the files in this
-/// order.
+/// What the figures in a parameter file are.
+const FIGURES: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
+    inverted the largest fraction of the time with the wrong sign, size that of the vehicle's force.";
+
+/// Writes the winner's parameters for each recording, those for all, and the picture; returns the
+/// files in this order.
 fn write_files(
     directory: &Path,
     recordings: &[Recording],
     fitted: &[Fitted],
+    common: Option<&Common>,
     strategies: &[Strategy],
 ) -> Result<Vec<PathBuf>> {
     fs::create_dir_all(directory).with_context(|| format!("cannot make {}", directory.display()))?;
@@ -160,23 +159,24 @@ fn write_files(
         files.push(file);
         Ok::<(), anyhow::Error>(())
     };
+    let text = |names: &str, strategy: usize, best: &Candidate| {
+        let Strategy { name, setup } = &strategies[strategy];
+        let heading = format!("Fitted by moris to {names} on {}: {name}, {}.\n{FIGURES}", setup.rig_name, words(best));
+        Setup { parameters: best.factors.applied(&setup.parameters), ..setup.clone() }.parameter_file(&heading)
+    };
     for (recording, one) in recordings.iter().zip(fitted) {
-        let Strategy { name, setup } = &strategies[one.winner];
-        let fit = &one.fits[one.winner];
-        let heading = format!("Fitted to {}: {name}, {}", recording.name, cell(fit));
-        let parameters = fit.best.factors.applied(&setup.parameters);
-        // The rig has a file of its own.
-        let own = Parameters { rig: Parameters::default().rig, ..parameters };
-        write(
-            format!("{}.fit.toml", recording.name.replace(' ', "-")),
-            parameter_file::write(&heading, &changed(&own), Parameters::ROWS),
-        )?;
+        let name = format!("{}.fit.toml", recording.name.replace(' ', "-"));
+        write(name, text(&recording.name, one.winner, &one.fits[one.winner].best))?;
+    }
+    if let Some(Common { strategy, worst, .. }) = common {
+        let names = listed(recordings.iter().map(|recording| recording.name.as_str()));
+        write("fit.toml".to_owned(), text(&names, *strategy, worst))?;
     }
     write("fit.svg".to_owned(), picture::svg(fitted, strategies)?)?;
     Ok(files)
 }
 
-fn text(fitted: &[Fitted], strategies: &[Strategy], aims: Aims) -> String {
+fn text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy], aims: Aims) -> String {
     let heads =
         ["scale: shape, inverted, size"].into_iter().chain(strategies.iter().map(|strategy| strategy.name.as_str()));
     let mut table = TextTable::new(heads.chain(["winner"]));
@@ -210,10 +210,18 @@ fn text(fitted: &[Fitted], strategies: &[Strategy], aims: Aims) -> String {
             100.0 * aims.error,
             100.0 * aims.inverted
         );
-        text += &format!("{}: {name}, {}.{}\n", one.name, words(fit), if fit.fits { "" } else { &misfit });
+        text += &format!("{}: {name}, {}.{}\n", one.name, words(&fit.best), if fit.fits { "" } else { &misfit });
         if let Some(faster) = &one.faster_tilt {
-            text += &format!("  With a tilt of 6 °/s (tilt.rateLimit, your choice): {}.\n", words(faster));
+            text += &format!("  With a tilt of 6 °/s (tilt.rateLimit, your choice): {}.\n", words(&faster.best));
         }
+    }
+    if let Some(Common { strategy, worst, fitting }) = common {
+        text += &format!(
+            "One set for all, which fits {fitting} of {}: {}, {}.\n",
+            counted(fitted.len(), "recording"),
+            strategies[*strategy].name,
+            words(worst)
+        );
     }
     text
 }
@@ -229,12 +237,12 @@ fn cell(fit: &Fit) -> String {
     if fit.fits { text } else { format!("({text})") }
 }
 
-fn words(fit: &Fit) -> String {
-    let factors = &fit.best.factors;
+fn words(best: &Candidate) -> String {
+    let factors = &best.factors;
     let breaks =
-        if factors.breaks < 1.0 { format!(", break frequencies times {:.2}", factors.breaks) } else { String::new() };
+        if factors.breaks != 1.0 { format!(", break frequencies times {:.2}", factors.breaks) } else { String::new() };
     let heave = if factors.heave < 1.0 { format!(", heave times {:.2}", factors.heave) } else { String::new() };
-    let shape = &fit.best.shape;
+    let shape = &best.shape;
     let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
     else {
         return format!("scale {:.2}: hardly any surge or sway is asked{heave}", factors.scale);

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use moris_pages::report::{IndexRow, index_html};
+use moris_simulation::Weight;
 
-use super::{Outcome, listed};
+use super::{Outcome, counted, listed};
 use crate::recording::Recording;
 use crate::text_table::or_undefined;
 
@@ -66,11 +67,12 @@ impl Entry {
         // The largest of the axes.
         let worst = |k: usize| measures.comfort.iter().flatten().map(|comfort| comfort.values()[k]).fold(0.0, f64::max);
         let comfort = [worst(0), worst(1), worst(2)].map(|value| figure(Some(value)));
+        let verdict = outcome.evaluated().verdict();
         let row = IndexRow {
             name,
             file: Some(page.file_name().unwrap_or_default().to_string_lossy().into_owned()),
-            is_good: outcome.evaluated().is_good(),
-            verdict: outcome.evaluated().verdict(),
+            is_good: verdict.weight == Weight::Good,
+            verdict: verdict.text,
             cells: errors
                 .map(figure)
                 .into_iter()
@@ -92,15 +94,14 @@ impl Entry {
 pub fn write(directory: &Path, rig: &str, parameters: &str, mut recordings: Vec<Vec<Entry>>) -> Result<PathBuf> {
     recordings.retain(|entries| !entries.is_empty());
     recordings.sort_by(|a, b| b[0].limited.total_cmp(&a[0].limited).then(b[0].error.total_cmp(&a[0].error)));
-    let title = format!("{} recordings, the worst first", recordings.len());
+    let title = format!("{}, the worst first", counted(recordings.len(), "recording"));
     let rows: Vec<IndexRow> = recordings.into_iter().flatten().map(|entry| entry.row).collect();
     // A recording may be called index.
     let is_taken = rows.iter().any(|row| row.file.as_deref() == Some("index.html"));
     let file = directory.join(if is_taken { "index-of-recordings.html" } else { "index.html" });
     let subtitle = format!(
         "{rig}, parameters: {parameters}. Recordings that could not be used come first, then those with active limits, then \
-         those with the larger error of the sensed specific force. A tick: fits the rig, and no channel is worse than on a \
-         platform at rest."
+         those with the larger error of the sensed specific force. A tick: nothing is wrong."
     );
     fs::write(&file, index_html(&title, &subtitle, &FIGURE_TITLES, &rows))
         .with_context(|| format!("cannot write {}", file.display()))?;

@@ -41,7 +41,8 @@ struct SetResult {
     /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
     /// the time; null for another washout's motion without poses and legs.
     fits: Option<bool>,
-    /// False if a channel has a larger error than a platform at rest.
+    /// False if a force has a larger error than on a platform at rest, or a rate that is also sensed as
+    /// false.
     better_than_rest: bool,
     /// The verdict with what to change.
     verdict: String,
@@ -91,7 +92,7 @@ fn result(outcome: &Outcome) -> SetResult {
         parameters: outcome.setup.parameters_name.clone(),
         fits: fit(&outcome.evaluated()),
         better_than_rest: is_better_than_rest(&outcome.evaluated()),
-        verdict: outcome.evaluated().headline().text,
+        verdict: outcome.evaluated().verdict().text,
         findings: outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect(),
         force_bounds: outcome.evaluated().bounds,
         measures: measures.map(measure).collect(),

@@ -24,6 +24,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use moris_pages::report::MODULE_REMEDY;
 use moris_setup::Setup;
+use moris_simulation::advice::Advice;
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::preview::{Previewer, parse_seconds};
 use moris_washout::interface::StrategyKind;
@@ -39,7 +40,7 @@ use crate::words;
 pub use moris_analysis::bounds::{self, AxisBound};
 use moris_analysis::host::check_predictive;
 pub use moris_analysis::outcome::Outcome;
-use moris_analysis::outcome::listed;
+use moris_analysis::outcome::{counted, listed};
 pub use moris_analysis::page;
 pub(crate) use moris_analysis::page::simulator;
 pub use moris_simulation::findings::{fit, fits_the_rig, is_better_than_rest};
@@ -47,9 +48,10 @@ pub use moris_simulation::{Simulation, measures};
 
 /// Simulate recordings on a rig and report how well they are felt
 ///
-/// Prints the measures of each recording and writes two files. NAME.outputs.csv has every input and
+/// Prints the measures of each recording and writes files. NAME.outputs.csv has every input and
 /// output at every sample, by the names of the FMU's variables. NAME.html is a self-contained page
-/// with all curves and the moving platform. With several recordings, index.html lists the pages,
+/// with all curves and the moving platform. NAME.advice.toml has the parameters that the verdict
+/// recommends, if it does. With several recordings, index.html lists the pages,
 /// the worst first. If a recording cannot be used, the others are still simulated. Recordings fade
 /// in from rest over 1 s; --fade-in changes it.
 ///
@@ -84,7 +86,8 @@ pub struct Options {
     learn: Option<Option<PathBuf>>,
 
     /// Motion that another washout computed for the recording, compared with these parameters:
-    /// CSV with felt forces, poses of the platform or lengths of the legs.
+    /// CSV with felt forces, poses of the platform or lengths of the legs, or a folder with such a
+    /// file for each recording, under the recording's name.
     /// docs/your-washout.md lists the columns. It is judged at the washout location, at the
     /// scale and on the rig of the first parameters
     #[arg(long, value_name = "FILE")]
@@ -125,8 +128,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn.is_some());
     let recordings = table::recordings(&options.recordings, &conventions);
-    if recordings.len() > 1 && !options.felt.is_empty() {
-        bail!("--felt is the motion for one recording, but there are {}; simulate each with its own", recordings.len());
+    if let Some(file) = options.felt.iter().find(|felt| recordings.len() > 1 && !felt.is_dir()) {
+        bail!(
+            "--felt {} is the motion for one recording, but there are {}; give a folder with a file of each one's name",
+            file.display(),
+            recordings.len()
+        );
     }
     check_names(&recordings, &cases)?;
     if !simulator::is_compiled() {
@@ -134,7 +141,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let mut road = Kept::open(options.learn.as_ref().and_then(Option::as_deref))?;
     let mut entries = Vec::new();
-    let (mut all_fit, mut any_failed) = (true, false);
+    let (mut all_fit, mut any_failed, mut needs_change) = (true, false, false);
     let mut objects = Vec::new();
     for file in &recordings {
         let simulated = match simulate(options, file, &cases, &conventions, &mut road) {
@@ -148,6 +155,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             }
         };
         all_fit &= simulated.fits;
+        needs_change |= simulated.needs_change;
         entries.push(simulated.entries);
         if options.json {
             objects.push(simulated.json);
@@ -160,6 +168,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         writeln!(out)?;
     }
     road.save()?;
+    if needs_change && !options.json {
+        writeln!(out, "{}\n", words::WHICH_COMMAND)?;
+    }
     if entries.len() > 1 {
         let names = listed(cases.iter().map(|case| case.setup.parameters_name.as_str()));
         fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
@@ -189,7 +200,7 @@ enum Origin {
     Washout(f64),
     /// The washout, with a preview that is learned.
     Learned,
-    /// A file with another washout's motion.
+    /// A file with another washout's motion, or a folder with one for each recording.
     Felt(PathBuf),
     /// Another washout as an FMU.
     Fmu(WashoutFmu),
@@ -214,6 +225,8 @@ impl Case {
             }
             Origin::Learned => Ok(Outcome::of(recording, &self.setup, learned.cloned(), progress)?),
             Origin::Felt(file) => {
+                let in_folder = file.is_dir().then(|| file.join(format!("{}.csv", recording.name)));
+                let file = in_folder.as_ref().unwrap_or(file);
                 let motion = || FeltTable::read(file)?.motion(recording).map_err(anyhow::Error::msg);
                 judged(file, motion())
             }
@@ -268,6 +281,8 @@ fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
 struct Simulated {
     /// The recording fits the rig with the first parameters.
     fits: bool,
+    /// The verdict with the first parameters is not that nothing is wrong.
+    needs_change: bool,
     text: String,
     json: json::SimulatedRecording,
     files: Vec<PathBuf>,
@@ -289,13 +304,14 @@ fn simulate(
         .with_context(|| recording.name.clone())?;
     progress.phase("writing the report", 0);
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
-    let files = write_files(&options.report, file, &recording, &outcomes)?;
+    let files = write_files(&options.report, file, &recording, &outcomes, &cases[0].setup)?;
     progress.finish();
     let json = json::recording(&recording, &outcomes, &files);
     let page = files.last().map(PathBuf::as_path).unwrap_or(file);
     let entries = index::Entry::of_recording(&recording, &outcomes, page);
     Ok(Simulated {
         fits: fits_the_rig(&outcomes[0].measures),
+        needs_change: outcomes[0].evaluated().fault().is_some(),
         text: summary::text(&recording, &outcomes),
         json,
         files,
@@ -375,12 +391,32 @@ fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
     Ok(())
 }
 
-/// Writes the tables of outputs and the page; returns their names.
-fn write_files(directory: &Path, file: &Path, recording: &Recording, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
+/// Writes the tables of outputs, the parameters that the first verdict recommends in place of the
+/// setup's, and the page; returns their names.
+fn write_files(
+    directory: &Path,
+    file: &Path,
+    recording: &Recording,
+    outcomes: &[Outcome],
+    setup: &Setup,
+) -> Result<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (index, outcome) in outcomes.iter().enumerate() {
         let file = directory.join(table_name(&recording.name, index, &outcome.setup));
         output_table::write(&file, &outcome.simulation)?;
+        written.push(file);
+    }
+    if let Some(recommended) = outcomes[0].advice.as_ref().and_then(Advice::recommended) {
+        let file = directory.join(format!("{}.advice.toml", recording.name));
+        let Setup { rig_name, parameters_name, parameters, .. } = setup;
+        let heading = format!(
+            "Recommended by moris simulate for {} on {rig_name}, in place of {parameters_name}:\n{}.",
+            recording.name,
+            recommended.text()
+        );
+        let changed = Setup { parameters: recommended.changes.applied(parameters), ..setup.clone() };
+        fs::write(&file, changed.parameter_file(&heading))
+            .with_context(|| format!("cannot write {}", file.display()))?;
         written.push(file);
     }
     let command = command_line::with_other_parameters(file);

@@ -18,8 +18,9 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
     }
     for outcome in outcomes {
         let setup = &outcome.setup;
-        text += &format!("\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name);
-        text += &format!("  {}\n", outcome.evaluated().headline().text);
+        let kind = if outcome.simulation.foreign.is_some() { "motion" } else { "parameters" };
+        text += &format!("\n{}, {kind} {}:\n", setup.rig_name, setup.parameters_name);
+        text += &format!("  {}\n", outcome.evaluated().verdict().text);
         for finding in outcome.evaluated().findings() {
             text += &format!("  {}\n", finding.text);
         }

@@ -10,8 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use anyhow::{Context, Result};
-use moris_interface::Group as _;
-use moris_setup::{Setup, differing, parameter_file};
+use moris_setup::Setup;
 use moris_washout::Parameters;
 
 use super::tuner::{BestSoFar, SoFar};
@@ -84,11 +83,9 @@ impl Kept {
 }
 
 impl Current {
-    /// Writes the values that differ from the rig's with default parameters.
     fn write(&self, parameters: &Parameters, first_line: &str) -> Result<()> {
-        let values = differing(parameters, &self.before.rig_alone);
-        let heading = format!("{first_line}\n{}", self.heading);
-        let text = parameter_file::write(&heading, &values, Parameters::ROWS);
+        let found = Setup { parameters: *parameters, ..self.before.clone() };
+        let text = found.parameter_file(&format!("{first_line}\n{}", self.heading));
         fs::write(&self.file, text).with_context(|| format!("cannot write {}", self.file.display()))
     }
 }

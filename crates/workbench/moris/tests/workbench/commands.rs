@@ -282,7 +282,7 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     let index = fs::read_to_string(directory.path().join("moris-report/index.html")).unwrap();
     assert!(index.contains("<title>3 recordings, the worst first</title>"), "{index}");
     assert!(index.contains("missing</th><td class=\"verdict\">cannot read missing.csv"), "{index}");
-    assert!(index.contains("ride, predictive</a></th><td class=\"verdict\">fits"), "{index}");
+    assert!(index.contains("ride, predictive</a></th><td class=\"verdict\">Felt the right way round, at "), "{index}");
     assert!(index.contains("ride, &quot;predictive, preview of 1 s&quot;</a>"), "{index}");
     assert_eq!(index.matches("href=\"./ride.html\"").count(), 2);
 }

@@ -54,27 +54,79 @@ fn the_parameter_file_has_the_right_sign_where_the_set_has_not() {
     assert!(fs::read_to_string(directory.join("out/fit.svg")).unwrap().contains("<polyline"));
     // The file is what `simulate` takes, and it reaches the aims.
     let (_, before) = moris(directory, &["simulate", "a.csv", "--no-bound", "--report", "out"]);
-    assert!(before.contains("Felt the wrong way round for"), "{before}");
+    assert!(
+        before.contains("Felt the wrong way round for") && before.contains("Scale force and rates by 0."),
+        "{before}"
+    );
+    // So does what the verdict recommends.
+    let (_, advised) =
+        moris(directory, &["simulate", "a.csv", "--no-bound", "--report", "out", "--parameters", "out/a.advice.toml"]);
+    assert!(advised.contains("  Felt the right way round, at "), "{advised}");
     let with = ["simulate", "a.csv", "--no-bound", "--report", "out", "--parameters", "out/a.fit.toml"];
     let (_, after) = moris(directory, &with);
     assert!(!after.contains("wrong way round"), "{after}");
 }
 
 #[test]
-fn without_a_recording_a_vehicle_or_its_accelerations_are_driven() {
+fn the_files_run_alike_over_any_set_and_hold_nothing_of_the_rig() {
     let directory = tempfile::tempdir().unwrap();
-    let of = |arguments: &[&str]| {
-        let all = [&["fit", "--strategy", "predictive", "--report", "out"], arguments].concat();
-        moris(directory.path(), &all)
+    let directory = directory.path();
+    fs::write(directory.join("a.csv"), slalom(1.0)).unwrap();
+    // The same, half as hard.
+    fs::write(directory.join("b.csv"), slalom(2.0).replace("4.903325,", "9.80665,")).unwrap();
+    let rig = format!("{}/../../../examples/rigs/hobby150.toml", env!("CARGO_MANIFEST_DIR"));
+    let fitted = |recordings: &[&str], report: &str| {
+        let arguments =
+            [&["fit", "--rig", &rig, "--strategy", "predictive", "--json", "--report", report], recordings].concat();
+        let (output, text) = moris(directory, &arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()
     };
-    let (output, text) = of(&["--usual", "2 g sideways, 1 g braking"]);
-    assert!(output.status.code().is_some_and(|code| code == 0 || code == 3), "{text}");
-    assert!(
-        text.contains("usual accelerations: predictive, scale 0.") && text.contains("With a tilt of 6 °/s"),
-        "{text}"
-    );
-    let (_, text) = of(&["--vehicle", "town-car"]);
-    assert!(text.contains("town-car: predictive, scale"), "{text}");
-    let (output, _) = of(&[]);
-    assert!(String::from_utf8_lossy(&output.stderr).contains("--usual \"2 g sideways, 1 g braking\""));
+    let results = fitted(&["a.csv", "b.csv"], "out");
+    let read = |name: &str| fs::read_to_string(directory.join("out").join(name)).unwrap();
+    for (file, recordings) in [("a.fit.toml", "a"), ("b.fit.toml", "b"), ("fit.toml", "a, b")] {
+        let text = read(file);
+        let heading = text.lines().next().unwrap();
+        assert!(
+            heading.starts_with(&format!("# Fitted by moris to {recordings} on ")) && heading.contains("scale 0."),
+            "{heading}"
+        );
+        assert!(text.contains("\"strategy\" = \"predictive\"") && text.contains("\"scale.angularVelocity.z\" = "));
+        for of_rig in ["head.", "safety.", "actuator.", "rig."] {
+            assert!(!text.contains(&format!("\"{of_rig}")), "{text}");
+        }
+    }
+    // What fits the harder one fits the other.
+    let scale = |result: usize| match &results[result]["fits"][0]["scale"] {
+        serde_json::Value::Null => results[result]["scale"].as_f64().unwrap(),
+        scale => scale.as_f64().unwrap(),
+    };
+    assert!(scale(0) < scale(1) && scale(2) <= scale(0) && results[2]["fitting"] == 2, "{results}");
+    // Over a classical set, too, the file chooses its strategy.
+    for recording in ["a", "b"] {
+        let csv = format!("{recording}.csv");
+        let arguments = [
+            "simulate",
+            &csv,
+            "--no-bound",
+            "--rig",
+            &rig,
+            "--report",
+            "out",
+            "--parameters",
+            "classical",
+            "--parameters",
+            "out/fit.toml",
+        ];
+        let (_, after) = moris(directory, &arguments);
+        assert!(!after.contains("wrong way round"), "{after}");
+    }
+}
+
+#[test]
+fn without_a_recording_there_is_nothing_to_fit() {
+    let directory = tempfile::tempdir().unwrap();
+    let (output, _) = moris(directory.path(), &["fit"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("<RECORDING[@CONVENTIONS]>"));
 }

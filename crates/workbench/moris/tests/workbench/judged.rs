@@ -165,7 +165,7 @@ fn wrong_units_signs_and_rates_are_said() {
     let headline = |change: fn([f64; 3]) -> [f64; 3]| {
         let motion = ForeignMotion { force: Some(forces(change)), ..ForeignMotion::default() };
         let outcome = Outcome::foreign(&recording, &setup, "other", &motion, Vec::new()).unwrap();
-        outcome.evaluated().headline().text
+        outcome.evaluated().verdict().text
     };
     for change in [|[x, y, z]: [f64; 3]| [x / 9.80665, y / 9.80665, z / 9.80665], |[x, y, z]: [f64; 3]| [-x, -y, z]] {
         let text = headline(change);
@@ -215,7 +215,7 @@ fn a_motion_stands_beside_our_strategies_in_one_report() {
         ["simulate", "ride.csv", "--no-bound", "--compare", "optimal", "--felt", "theirs.csv", "--report", "two"];
     let (code, printed, error) = moris(&arguments);
     assert_eq!(code, Some(0), "{error}");
-    assert!(printed.contains("parameters theirs:") && printed.contains("The motion stays within the rig"), "{printed}");
+    assert!(printed.contains("motion theirs:") && printed.contains("The motion stays within the rig"), "{printed}");
     let tables: Vec<&str> = printed.split("felt against desired").collect();
     // Six decimals: the same but for the comfort within steps, which samples do not have.
     let errors = |table: &str| {
@@ -235,5 +235,14 @@ fn a_motion_stands_beside_our_strategies_in_one_report() {
             && error.contains("there are time, a, b")
     );
     let (_, _, error) = moris(&["simulate", "ride.csv", "theirs.csv", "--no-bound", "--felt", "bare.csv"]);
-    assert!(error.contains("--felt is the motion for one recording"), "{error}");
+    assert!(error.contains("--felt bare.csv is the motion for one recording"), "{error}");
+    // A folder has a file for each recording.
+    fs::create_dir(directory.path().join("mpc")).unwrap();
+    for name in ["ride.csv", "theirs.csv"] {
+        fs::copy(directory.path().join("one/ride.outputs.csv"), directory.path().join("mpc").join(name)).unwrap();
+    }
+    fs::copy(directory.path().join("ride.csv"), directory.path().join("theirs.csv")).unwrap();
+    let arguments = ["simulate", "ride.csv", "theirs.csv", "--no-bound", "--felt", "mpc", "--report", "three"];
+    let (code, printed, error) = moris(&arguments);
+    assert!(code == Some(0) && printed.matches("motion mpc:").count() == 2, "{error} {printed}");
 }

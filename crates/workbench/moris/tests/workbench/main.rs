@@ -1,5 +1,6 @@
 //! The workbench's commands and library: one binary for all topics, which is linked once.
 
+mod advice;
 mod bench;
 mod bounds;
 #[path = "../../../../../tests/cases/mod.rs"]

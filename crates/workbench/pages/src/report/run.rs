@@ -2,6 +2,7 @@
 
 use std::array;
 
+use moris_simulation::advice::Advice;
 use moris_simulation::measures::Row;
 use moris_simulation::{Evaluated, Simulation, capitalised};
 use moris_washout::Output;
@@ -18,9 +19,9 @@ pub fn run(evaluated: &Evaluated, name: &str, thinning: &Thinning) -> Run {
     let leans = inputs.iter().any(|input| input.lean != 0.0);
     Run {
         name: name.to_owned(),
-        verdict: evaluated.headline(),
+        verdict: evaluated.verdict(),
         findings: evaluated.findings(),
-        fitting_scale: evaluated.advice.and_then(|advice| advice.scaled).map(|scaled| scaled.factor),
+        fitting_scale: evaluated.advice.and_then(Advice::scale),
         times: thinning.at_times(|k| k as f64 * step),
         desired: Cues {
             specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),

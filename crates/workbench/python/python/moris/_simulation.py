@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Iterable
+from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -38,7 +39,7 @@ class Simulation(Outputs):
     """A simulated recording: every input and output at each sample, and the measures.
 
     time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
-    recording: the Recording. measures: Measures. verdict: with what to change. findings: sentences, the most important first.
+    recording: the Recording. measures: Measures.
     preview: time of the recording that was previewed [s]. learned: True with a preview learned by the position. parameters: dict of all parameters. fits: False where
         a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time; None where no
         limits were judged.
@@ -46,8 +47,6 @@ class Simulation(Outputs):
 
     recording: Recording
     measures: Measures
-    verdict: str
-    findings: list[str]
     parameters: dict[str, Value]
     preview: float
     learned: bool
@@ -60,10 +59,29 @@ class Simulation(Outputs):
         self.recording = recording
         self.preview = preview
         self.learned = learned
-        (rig_name, parameters_name), self.parameters, self.fits, self.verdict, self.findings, measures = native.judgement()
+        (rig_name, parameters_name), self.parameters, self.fits, measures = native.judgement()
         self.measures = Measures(measures)
         previewed = ", learned preview" if learned else f", preview of {preview:g} s" if preview else ""
         self.name = f"{recording.name}, {parameters_name} on {rig_name}{previewed}"
+
+    @cached_property
+    def _verdict(self) -> tuple[str, list[str], dict[str, Value] | None]:
+        return self._native.verdict()
+
+    @property
+    def verdict(self) -> str:
+        """The most important fault, the size that is left, and what to change; alternatives are simulated for it."""
+        return self._verdict[0]
+
+    @property
+    def findings(self) -> list[str]:
+        """Sentences, the most important first."""
+        return self._verdict[1]
+
+    @property
+    def advice(self) -> dict[str, Value] | None:
+        """All parameters that the verdict recommends; None where it recommends none."""
+        return self._verdict[2]
 
     @property
     def desired(self) -> tuple[Floats, Floats]:
