@@ -4,11 +4,11 @@ mod kept;
 mod options;
 
 use std::fs;
-use std::io::Write;
+use std::io::{IsTerminal, Write, stderr};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
@@ -31,6 +31,9 @@ use space::Space;
 use summary::{OfStrategy, RecordingResult, Verdict};
 use tested::{Tested, tune_tested};
 use tuner::Tuner;
+
+/// Time between the lines of progress in a log \[s\].
+const PROGRESS_INTERVAL: u64 = 10;
 
 /// Runs the command.
 ///
@@ -80,9 +83,11 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         write!(out, "{text}")?;
     }
     writeln!(out, "wrote {}", options.output.display())?;
-    for file in write_reports(options, &text, &best.objectives, &[&best.tuned, &best.before])? {
+    let (files, verdicts) = write_reports(options, &text, &best.objectives, &[&best.tuned, &best.before])?;
+    for file in files {
         writeln!(out, "wrote {}", file.display())?;
     }
+    writeln!(out, "\n{}{}", verdicts, words::WHICH_COMMAND)?;
     let is_worse = Verdict::of(&best.results, best.fraction) == Verdict::Worse;
     Ok(if is_worse { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
@@ -115,7 +120,10 @@ impl Tuning {
         let (tuned_on, held_out) = all.split_at(count);
         let folds = folds::folds(count, options.folds.unwrap_or(count));
 
-        let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
+        let evaluations = options.evaluations * (1 + folds.len());
+        let bar = ProgressBar::new(evaluations as u64);
+        // A log has lines in place of the bar.
+        let (is_logged, said) = (!stderr().is_terminal(), AtomicU64::new(0));
         bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
         let name = before.parameters.structure.strategy.name();
         let file = match options.strategy {
@@ -139,6 +147,11 @@ impl Tuning {
             tried: AtomicUsize::new(0),
             show: &|tried, text| {
                 bar.set_position(tried as u64);
+                let seconds = begin.elapsed().as_secs();
+                if is_logged && seconds >= said.load(Ordering::Relaxed) + PROGRESS_INTERVAL {
+                    said.store(seconds, Ordering::Relaxed);
+                    eprintln!("{name}: {} % of the evaluations after {seconds} s", 100 * tried / evaluations);
+                }
                 if let Some(text) = text {
                     bar.set_message(format!("{name}, {text}"));
                 }
@@ -189,21 +202,25 @@ fn heading(options: &Options, before: &Setup) -> String {
     )
 }
 
+/// Writes the summary and a report for each recording; returns the files, and the verdict of each
+/// report on a line.
 fn write_reports(
     options: &Options,
     text: &str,
     objectives: &[Objective],
     setups: &[&Setup; 2],
-) -> Result<Vec<PathBuf>> {
+) -> Result<(Vec<PathBuf>, String)> {
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let file = options.report.join("tune.md");
     fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
-    let mut written = vec![file];
+    let (mut written, mut verdicts) = (vec![file], String::new());
     for objective in objectives {
-        let outcomes: Vec<Outcome> = setups
+        let mut outcomes: Vec<Outcome> = setups
             .iter()
             .map(|setup| Outcome::of(objective.recording(), setup, None, || ()))
             .collect::<Result<_, _>>()?;
+        outcomes[0].advice = outcomes[0].alternatives(objective.recording(), 0.0)?;
+        verdicts += &format!("{}: {}\n", objective.name(), outcomes[0].evaluated().verdict().text);
         written.push(write_page(
             &options.report,
             &format!("{}.tuned", objective.name()),
@@ -212,5 +229,5 @@ fn write_reports(
             &format!("cargo moris simulate {}.csv --parameters", objective.recording().name),
         )?);
     }
-    Ok(written)
+    Ok((written, verdicts))
 }
