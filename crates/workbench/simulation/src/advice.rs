@@ -25,8 +25,8 @@ const SMOOTH_CUTOFF: f64 = 12.0;
 const SOFT_PACE: f64 = 5.0;
 /// Factors on the rates or on heave that are tried, the largest first.
 const SMALLER_PARTS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.15, 0.0];
-/// Factor from one scale that is tried to the next, how many are tried, fewer where none is right in
-/// proportion, and the least scale.
+/// Factor from one scale that is tried to the next, how many are tried, fewer where none is right
+/// in proportion, and the least scale.
 const SCALE_STEP: f64 = 0.85;
 const MAX_SCALES: usize = 8;
 const LESS_SCALES: usize = 3;
@@ -189,8 +189,8 @@ impl Advice {
         Advice { fault, found: ranked }
     }
 
-    /// Those without any fault first, then those without this one, each by shape, then by size; then
-    /// those with less of it.
+    /// Those without any fault first, then those without this one, each by shape, then by size;
+    /// then those with less of it.
     fn best(fault: Fault, found: &[Alternative]) -> Option<usize> {
         let rank = |k: usize| found[k].rank(fault);
         let least = (0..found.len()).map(rank).reduce(f64::min)?;

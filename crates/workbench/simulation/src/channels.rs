@@ -17,8 +17,8 @@ pub struct ChannelFigures {
     pub axis: Axis,
     /// RMS of the desired signal, as a deviation from rest: the error of a platform at rest.
     pub at_rest: f64,
-    /// RMS error without the rotation of tilt coordination, of roll and pitch rate; none where the
-    /// tilt alone turns faster than is perceived, where it is not known, and of other channels.
+    /// RMS error of roll or pitch rate without the rotation of tilt coordination. None where the
+    /// tilt alone turns faster than the threshold of perception, and where it is not known.
     pub without_tilt: Option<f64>,
     /// The least RMS error that any controller could reach; none where it was not computed.
     pub bound: Option<f64>,

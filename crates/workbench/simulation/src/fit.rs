@@ -340,7 +340,7 @@ mod tests {
 
     #[test]
     fn what_fits_keeps_its_scale_and_what_does_not_gets_the_largest_that_does() {
-        let predictive = presets::parameters(presets::PREDICTIVE);
+        let predictive = Parameters::default();
         let gentle = slalom(0.3, 0.1);
         let fit = Search::new(&gentle, 0.0, Aims::default()).fit(&predictive).unwrap();
         assert!(fit.fits && fit.best.factors.scale == 1.0, "{fit:?}");
@@ -372,7 +372,7 @@ mod tests {
     fn the_classical_strategy_gets_lower_break_frequencies_where_they_give_more() {
         let hard = slalom(3.0, 0.25);
         let search = Search::new(&hard, 0.0, Aims::default());
-        let quick = presets::parameters(presets::MOTORCYCLE);
+        let quick = presets::with(presets::CLASSICAL, &[("splitter.y.omega1", 1.6), ("splitter.y.omega2", 0.6)]);
         let fit = search.fit(&quick).unwrap();
         assert!(fit.fits && fit.best.factors.breaks < 1.0, "{fit:?}");
         let found = fit.best.factors.applied(&quick);

@@ -85,9 +85,9 @@ pub struct Options {
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     learn: Option<Option<PathBuf>>,
 
-    /// Motion that another washout computed for the recording, compared with these parameters:
-    /// CSV with felt forces, poses of the platform or lengths of the legs, or a folder with such a
-    /// file for each recording, under the recording's name.
+    /// Motion that another washout computed for the recording, compared with these parameters: CSV
+    /// with felt forces, poses of the platform or lengths of the legs. A folder has such a file for
+    /// each recording, under the recording's name.
     /// docs/your-washout.md lists the columns. It is judged at the washout location, at the
     /// scale and on the rig of the first parameters
     #[arg(long, value_name = "FILE")]
