@@ -23,7 +23,7 @@ fn main() -> Result<(), ParameterError> {
         ("adaptive", presets::ADAPTIVE),
         ("optimal", presets::OPTIMAL),
         ("robust", presets::ROBUST),
-        ("predictive", presets::PREDICTIVE),
+        ("predictive", ""),
     ];
     for (name, set) in sets {
         let times = least_times(&presets::parameters(set), &ride)?;

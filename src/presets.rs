@@ -29,29 +29,6 @@ use crate::washout::Washout;
 /// shakes the rider's head.
 pub const PAPER: &str = include_str!("../presets/paper.toml");
 
-/// For a ride of small, quick motions at constant speed, such as in a truck's wake
-/// (the paper's second run).
-///
-/// Break frequencies are low, so that the platform's travel reproduces everything above 0.1 Hz.
-/// Roll rates are scaled down, because a rolled platform adds gravity to the felt sway.
-/// Otherwise as [`PAPER`].
-///
-/// Not for longitudinal runs: accelerations that last would drive the platform
-/// into its safety units.
-pub const SMALL_MOTIONS: &str = include_str!("../presets/small-motions.toml");
-
-/// For motorcycles: the classical strategy with less surge, and with tilt that is small and slow. A
-/// slalom's braking and accelerating at 7 m/s2 then fits.
-pub const MOTORCYCLE: &str = include_str!("../presets/motorcycle.toml");
-
-/// For cars, which turn slowly and sway hard: the classical strategy with less sway and slow tilt.
-/// Roll, pitch and heave go down to a low frequency.
-pub const CAR: &str = include_str!("../presets/car.toml");
-
-/// For a ride that ends in an abrupt stop, if the vehicle model gives its speed: tilt and
-/// surge act before it comes.
-pub const PREACTION: &str = include_str!("../presets/preaction.toml");
-
 /// The classical strategy. The start values of its parameters are made for any kind of motion.
 pub const CLASSICAL: &str = include_str!("../presets/classical.toml");
 
@@ -63,9 +40,6 @@ pub const OPTIMAL: &str = include_str!("../presets/optimal.toml");
 
 /// The robust strategy.
 pub const ROBUST: &str = include_str!("../presets/robust.toml");
-
-/// The predictive strategy, which is the start value.
-pub const PREDICTIVE: &str = include_str!("../presets/predictive.toml");
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
 /// wider, since what comes after is known.

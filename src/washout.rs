@@ -193,9 +193,9 @@ impl Washout {
     /// limit.
     ///
     /// ```
-    /// use moris_washout::{Input, Preview, Washout, presets};
+    /// use moris_washout::{Input, Parameters, Preview, Washout};
     ///
-    /// let mut washout = Washout::new(&presets::parameters(presets::PREDICTIVE))?;
+    /// let mut washout = Washout::new(&Parameters::default())?;
     /// // Braking at 3 m/s2 begins in 1 s.
     /// let surge = std::array::from_fn(|k| if k < 5 { 0.0 } else { -3.0 });
     /// for _ in 0..50 {

@@ -15,7 +15,7 @@ pub struct StartOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE|NAME"))]
     pub rig: Option<PathBuf>,
 
-    /// Parameter file, or preset (motorcycle, car, ...), to embed in the washout's FMU; in another
+    /// Parameter file, or preset (classical, paper, ...), to embed in the washout's FMU; in another
     /// model's if that one alone is chosen. May be given several times: later ones override
     /// earlier ones, and all of them the rig
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE|NAME"))]
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn values_that_one_of_the_models_takes_are_not() {
         let all: Vec<&FmuModel> = MODELS.iter().collect();
-        let both = StartOptions { parameters: vec!["small-motions".to_owned()], ..rig() };
+        let both = StartOptions { parameters: vec!["paper".to_owned()], ..rig() };
         assert!(both.check_used(&all).is_ok());
         assert!(parameters("mine.toml").check_used(&[&MOTORCYCLE]).is_ok());
         assert!(rig().check_used(&[&MOTORCYCLE, &STEWART_PLATFORM]).is_ok());

@@ -167,22 +167,22 @@ def test_a_singular_rig_is_surveyed_and_refused():
 
 
 def test_parameters_are_written_as_the_workbench_reads_them(tmp_path):
-    file = moris.write_parameters(tmp_path / "mine.toml", ["car", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
-    assert moris.parameters(parameters=file) == moris.parameters(parameters=["car", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
+    file = moris.write_parameters(tmp_path / "mine.toml", ["classical", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
+    assert moris.parameters(parameters=file) == moris.parameters(parameters=["classical", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
 
 
 def test_a_built_fmu_has_the_parameters_as_start_values(tmp_path):
     from fmpy import read_model_description
 
-    file = moris.build_fmu(parameters=["car", {"tilt.rateLimit": 0.031}], output=tmp_path, source=ROOT)
+    file = moris.build_fmu(parameters=["classical", {"tilt.rateLimit": 0.031}], output=tmp_path, source=ROOT)
     start = {variable.name: variable.start for variable in read_model_description(str(file)).modelVariables}
-    values = moris.parameters(parameters=["car", {"tilt.rateLimit": 0.031}])
+    values = moris.parameters(parameters=["classical", {"tilt.rateLimit": 0.031}])
     assert float(start["tilt.rateLimit"]) == 0.031
     assert float(start["splitter.x.omega1"]) == values["splitter.x.omega1"]
 
 
 def test_an_fmu_from_a_base_is_the_built_one_to_the_byte(tmp_path, fmu):
-    values = {"parameters": ["car", {"tilt.rateLimit": 0.031}]}
+    values = {"parameters": ["classical", {"tilt.rateLimit": 0.031}]}
     own = moris.build_fmu(**values, output=tmp_path / "Büro — 1 %20", base=fmu)
     built = moris.build_fmu(**values, output=tmp_path, source=ROOT)
     assert own.name == fmu.name and own.read_bytes() == built.read_bytes() != fmu.read_bytes()

@@ -58,7 +58,7 @@ def test_a_sweep_has_the_measures_of_single_simulations(here, recordings):
 
 
 def test_a_preview_is_an_error_of_the_sets_without_the_predictive_strategy(recordings):
-    swept = moris.sweep(recordings[0], ["car", "predictive"], preview=2.0)
+    swept = moris.sweep(recordings[0], ["classical", "default"], preview=2.0)
     assert [result.error for result in swept.value] == [
         'preview is for the predictive strategy alone; add strategy="predictive"',
         None,
@@ -66,7 +66,7 @@ def test_a_preview_is_an_error_of_the_sets_without_the_predictive_strategy(recor
 
 
 def test_a_sweep_previews_the_recordings(recordings):
-    swept = moris.sweep(recordings[0], ["preview", "predictive"], preview=2.0)
+    swept = moris.sweep(recordings[0], ["preview", "default"], preview=2.0)
     for result in swept.value:
         measures = moris.simulate(recordings[0], parameters=result.parameters, preview=2.0).measures
         assert result["specific force x RMS error"][0] == measures["specific force x RMS error"]

@@ -7,7 +7,7 @@ in it out.
     target/report/venv/bin/python tests/report/picture.py report/ride.html docs/report.svg --time 34.5 --tuned
 
     python3 examples/vehicle.py 60 &
-    cargo moris live --from udp:4444 --format csv --dry --engage --parameters car --page --for 60
+    cargo moris live --from udp:4444 --format csv --dry --engage --page --for 60
     target/report/venv/bin/python tests/report/picture.py "http://127.0.0.1:PORT/?token=..." docs/live-page.svg --time 30
 """
 

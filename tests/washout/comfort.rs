@@ -11,14 +11,12 @@ use crate::common::random::Random;
 use crate::common::{G, accelerating, ride_between};
 
 /// The sets.
-const SETS: [(&str, &str); 7] = [
+const SETS: [(&str, &str); 5] = [
     ("classical", presets::CLASSICAL),
-    ("motorcycle", presets::MOTORCYCLE),
-    ("car", presets::CAR),
     ("adaptive", presets::ADAPTIVE),
     ("optimal", presets::OPTIMAL),
     ("robust", presets::ROBUST),
-    ("predictive", presets::PREDICTIVE),
+    ("predictive", ""),
 ];
 
 /// Goes from 0 to 1 without a kink in `duration` from `start` on.

@@ -77,7 +77,7 @@ const SETS: [(&str, &[(&str, f64)]); 11] = [
         ],
     ),
     (presets::PAPER, &[]),
-    (presets::SMALL_MOTIONS, &[]),
+    (include_str!("../../examples/paper-runs/small-motions.toml"), &[]),
     ("", &[("strategy", 2.0), ("adaptive.gain1", 5.0), ("adaptive.gain2", 5.0)]),
     ("", &[("strategy", 3.0), ("limit.specificForce.x", 1e6)]),
     ("", &[]),

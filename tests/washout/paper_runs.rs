@@ -78,7 +78,8 @@ fn the_wake_is_ridden_inside_the_stroke_with_the_default_set() {
 
 #[test]
 fn the_wake_is_tracked_with_its_own_set() {
-    let mut washout = Washout::new(&presets::parameters(presets::SMALL_MOTIONS)).unwrap();
+    let mut washout =
+        Washout::new(&presets::parameters(include_str!("../../examples/paper-runs/small-motions.toml"))).unwrap();
     let (mut felt, mut desired) = ([vec![], vec![]], [vec![], vec![]]);
     for k in 0..(WAKE_TIME / STEP) as usize {
         let t = k as f64 * STEP;

@@ -2,7 +2,7 @@
 //! as without preaction.
 
 use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::{Input, Output, Parameters, Washout, presets};
+use moris_washout::{Input, Output, Parameters, Washout};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -15,7 +15,7 @@ const STEP: f64 = 0.001;
 const TRAVEL: &[(&str, f64)] = &[("safety.x.positionLimit", 0.45)];
 
 fn preaction(on: bool) -> Parameters {
-    parameters(&[TRAVEL, &presets::values(if on { presets::PREACTION } else { "" })].concat())
+    parameters(&[TRAVEL, &[("preaction", if on { 2.0 } else { 1.0 })]].concat())
 }
 
 /// Motion of a vehicle: acceleration \[m/s2\] and speed \[m/s\] at a time \[s\].

@@ -18,7 +18,7 @@ use moris_washout::{Input, Parameters, Washout};
 fn values() -> NamedValues {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/rigs/narrow.toml");
     let mut values = load_rig(&file).unwrap().values();
-    values.extend(load_set("small-motions", WASHOUT.functions.identity.rows).unwrap());
+    values.extend(load_set("paper", WASHOUT.functions.identity.rows).unwrap());
     values
 }
 

@@ -18,7 +18,7 @@ fn rig(name: &str) -> RigFile {
 /// A rig that is not the default and parameters that are not, in this order.
 fn values() -> NamedValues {
     let mut values = rig("narrow.toml").values();
-    values.extend(load_set("small-motions", WASHOUT.functions.identity.rows).unwrap());
+    values.extend(load_set("paper", WASHOUT.functions.identity.rows).unwrap());
     values
 }
 

@@ -22,16 +22,17 @@ impl ParameterSet {
 pub const PAPER: ParameterSet = ParameterSet { name: "paper", texts: &[presets::PAPER] };
 
 /// For small quick motion, as in run b.
-pub const SMALL_MOTIONS: ParameterSet = ParameterSet { name: "small-motions", texts: &[presets::SMALL_MOTIONS] };
+pub const SMALL_MOTIONS: ParameterSet =
+    ParameterSet { name: "small-motions", texts: &[include_str!("../small-motions.toml")] };
 
 /// The set of the paper's runs, and ahead of a stop; of the stroke, as much as the paper's rig has.
 pub const PREACTION: ParameterSet = ParameterSet {
     name: "paper + preaction",
-    texts: &[presets::PAPER, "\"safety.x.positionLimit\" = 0.45", presets::PREACTION],
+    texts: &[presets::PAPER, "\"safety.x.positionLimit\" = 0.45", "\"preaction\" = \"on\""],
 };
 
 /// The strategy that feels best.
-pub const RIDE: ParameterSet = ParameterSet { name: "predictive", texts: &[presets::PREDICTIVE] };
+pub const RIDE: ParameterSet = ParameterSet { name: "predictive", texts: &[] };
 
 /// The five strategies, each with its own preset.
 pub const STRATEGIES: [ParameterSet; 5] = [

@@ -265,7 +265,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let setup = options.setup.load_to_drive()?;
     let from = options.from.as_deref().unwrap_or_default();
-    let input = Input::open(from, options, &setup.parameters_name)?;
+    let input = Input::open(from, options)?;
     let features = &input.features;
     let laps = options.learn.as_ref().map(|file| known_laps(file.as_deref(), features, &setup)).transpose()?;
     // The motorcycle's signs are known, and its falls are like nothing that the test knows.

@@ -85,11 +85,11 @@ enum Source {
 }
 
 impl Input {
-    /// The source that an option names, of a session with parameters of this name.
+    /// The source that an option names.
     ///
     /// # Errors
     /// The port, the format or the recording cannot be used.
-    pub fn open(from: &str, options: &Options, parameters_name: &str) -> Result<Input> {
+    pub fn open(from: &str, options: &Options) -> Result<Input> {
         let Options { format, map, listen, learn, .. } = options;
         let (format, map, listen) = (format.as_deref(), map.as_deref(), *listen);
         if from == "ride" {
@@ -108,7 +108,7 @@ impl Input {
             let features = Features {
                 is_inside: true,
                 has_position: recording.road.is_some(),
-                shape: Some(drawn::vehicle(&recording, parameters_name)),
+                shape: Some(drawn::vehicle(&recording)),
                 ..Features::default()
             };
             return Ok(Input { features, source: Source::Played(Box::new(recording)) });

@@ -44,11 +44,11 @@ fn every_parameter_survives_being_written_and_read() {
 #[test]
 fn only_what_has_changed_can_be_written() {
     assert!(changed(&Parameters::default()).is_empty());
-    let small = presets::parameters(presets::SMALL_MOTIONS);
+    let small = presets::parameters(presets::PAPER);
     let text = write("", &changed(&small), Parameters::ROWS);
     // The set says its values in full, and some are the default's.
     let names = changed(&small);
-    assert!(names.len() > 20 && names.len() < presets::values(presets::SMALL_MOTIONS).len());
+    assert!(names.len() > 20 && names.len() < presets::values(presets::PAPER).len());
     assert_eq!(text.matches(" = ").count(), names.len());
     assert_eq!(overlaid(&Parameters::default(), &values(&text)), small);
 }
@@ -120,17 +120,17 @@ fn sets_go_by_name_and_lie_over_one_another() {
     let file = directory.path().join("mine.toml");
     fs::write(&file, "splitter.x.omega1 = 0.5").unwrap();
     let mine = file.display().to_string();
-    let setup = Setup::load(None, &["small-motions".to_owned(), mine.clone()]).unwrap();
-    assert_eq!((setup.parameters.splitter.omega1.x, setup.parameters.splitter.omega1.y), (0.5, 0.35));
-    assert_eq!(setup.parameters_name, "small-motions + mine");
-    let setup = Setup::load(None, &[mine, "small-motions".to_owned()]).unwrap();
-    assert_eq!(setup.parameters.splitter.omega1.x, 0.35);
+    let setup = Setup::load(None, &["paper".to_owned(), mine.clone()]).unwrap();
+    assert_eq!((setup.parameters.splitter.omega1.x, setup.parameters.splitter.omega1.y), (0.5, 2.5));
+    assert_eq!(setup.parameters_name, "paper + mine");
+    let setup = Setup::load(None, &[mine, "paper".to_owned()]).unwrap();
+    assert_eq!(setup.parameters.splitter.omega1.x, 2.5);
 }
 
 #[test]
 fn neither_a_set_nor_a_file_is_told() {
-    let message = load_set("small-motion", Parameters::ROWS).unwrap_err().to_string();
-    assert!(message.contains("small-motion") && message.contains("did you mean small-motions?"), "{message}");
+    let message = load_set("papr", Parameters::ROWS).unwrap_err().to_string();
+    assert!(message.contains("papr") && message.contains("did you mean paper?"), "{message}");
     let message = load_set("missing.toml", Parameters::ROWS).unwrap_err().to_string();
     assert!(message.contains("cannot read missing.toml"), "{message}");
 }
@@ -142,10 +142,4 @@ fn parameters_that_do_not_go_together_are_refused() {
     fs::write(&file, "actuator.minLength = 1.7").unwrap();
     let message = Setup::load(None, &[file.display().to_string()]).unwrap_err().to_string();
     assert!(message.contains("actuator.minLength: is 1.7 m; it must be below actuator.maxLength"), "{message}");
-}
-
-#[test]
-fn the_set_preaction_turns_preaction_on_and_changes_nothing_else() {
-    let setup = Setup::load(None, &["preaction".to_owned()]).unwrap();
-    assert_eq!(changed(&setup.parameters), vec![("preaction".to_owned(), 2.0)]);
 }

@@ -15,9 +15,8 @@ pub struct SetupOptions {
     #[arg(long, value_name = "FILE|NAME")]
     pub rig: Option<PathBuf>,
 
-    /// Parameter file, or a preset: default, classical, motorcycle, car, paper, small-motions,
-    /// preaction, adaptive, optimal, robust, predictive, preview. May be given several times: later
-    /// ones override earlier ones
+    /// Parameter file, or a preset: default, classical, paper, adaptive, optimal, robust, preview.
+    /// May be given several times: later ones override earlier ones
     #[arg(long, value_name = "FILE|NAME")]
     pub parameters: Vec<String>,
 

@@ -96,7 +96,7 @@ fn a_held_throttle_with_help_stays_on_the_road() {
 #[test]
 fn laps_are_learned_from_the_first_one_on() {
     let laps = |learns: bool| {
-        let mut ride = Ride::new(&presets::parameters(presets::PREDICTIVE)).unwrap();
+        let mut ride = Ride::new(&Parameters::default()).unwrap();
         ride.learn(learns);
         while ride.laps().len() < 2 {
             go(&mut ride, 1.0, |ride| at_speed(ride, (0.9 * output(ride).planned_speed).max(3.0)));

@@ -24,7 +24,6 @@ use crate::controls::Handling;
 use crate::telemetry::Features;
 use crate::watch::{Part, watch};
 use moris_analysis::page::simulator::parameters;
-use moris_analysis::page::vehicle::of_parameters;
 
 /// Most connections at once whose request has not come yet: a new one closes the oldest.
 const MAX_STRANGERS: usize = 128;
@@ -61,7 +60,7 @@ impl Start {
             parameters: parameters(&setup.parameters, &setup.rig_alone),
             subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
             handling: features.handling,
-            vehicle: features.shape.unwrap_or_else(|| of_parameters(&setup.parameters_name)),
+            vehicle: features.shape.unwrap_or(Vehicle::Motorcycle),
             road: features.road.clone(),
             track,
         }

@@ -170,9 +170,7 @@ fn a_lost_controller_is_a_fault_after_which_the_place_is_unknown() {
 
 #[test]
 fn parking_is_short() {
-    for (name, set) in
-        [("default", ""), ("car", moris_washout::presets::CAR), ("optimal", moris_washout::presets::OPTIMAL)]
-    {
+    for (name, set) in [("default", ""), ("optimal", moris_washout::presets::OPTIMAL)] {
         let mut judged = Judged::new(&Settings::default());
         judged.session = Session::new(&moris_washout::presets::parameters(set), &Settings::default()).unwrap();
         judged.session.handle(Event::Start).unwrap();

@@ -45,7 +45,7 @@ fn tuned(parameters: &Parameters, name: &str, value: impl Fn(f64) -> Option<f64>
 
 #[test]
 fn scales_and_paces_glide_and_sliders_are_no_jolt() {
-    for set in ["", presets::CAR, presets::OPTIMAL] {
+    for set in ["", presets::OPTIMAL] {
         let parameters = presets::parameters(set);
         for (name, low, high) in
             [("scale.specificForce.x", 0.1, 1.2), ("scale.specificForce.y", 0.1, 1.0), ("softLimit.pace", 3.0, 8.0)]
@@ -174,7 +174,7 @@ fn sliders_moved_at_random_are_no_jolt() {
         Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
     });
     let slots = SLIDERS.map(|(name, ..)| slot_of(name).unwrap());
-    for set in ["", presets::CAR, presets::ADAPTIVE, presets::OPTIMAL, presets::ROBUST, presets::CLASSICAL] {
+    for set in ["", presets::ADAPTIVE, presets::OPTIMAL, presets::ROBUST, presets::CLASSICAL] {
         let parameters = presets::parameters(set);
         for moved in [0b000001_u32, 0b001000, 0b010000, 0b001010, 0b111111] {
             let mut coin = coin(u64::from(moved));

@@ -108,7 +108,7 @@ fn errors_of_a_stop(brake: f64, set: &str) -> (usize, Vec<f64>) {
 #[test]
 fn preaction_halves_the_error_of_a_stop() {
     for brake in [0.1, 0.15, 0.2] {
-        let [(rms_off, peak_off), (rms, peak)] = ["", presets::PREACTION].map(|set| {
+        let [(rms_off, peak_off), (rms, peak)] = ["", "\"preaction\" = \"on\""].map(|set| {
             let (stop, errors) = errors_of_a_stop(brake, set);
             let around = &errors[stop - 5000..stop + 5000];
             let rms = (around.iter().map(|error| error * error).sum::<f64>() / around.len() as f64).sqrt();

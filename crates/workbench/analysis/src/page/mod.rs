@@ -86,7 +86,7 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words
             ("Made by".to_owned(), format!("moris {}", moris_pages::VERSION)),
         ],
         rig: (&first.setup.parameters).into(),
-        vehicle: vehicle(recording, &first.setup.parameters_name),
+        vehicle: vehicle(recording),
         runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
         selected: 0,
         simulator: None,

@@ -14,16 +14,9 @@ const BEND: f64 = 0.05;
 const LEAST_SPEED: f64 = 3.0;
 const LEAST_CORRELATION: f64 = 0.7;
 
-/// A car if the parameters are those for one, or if the lateral force of bends goes with the yaw
-/// rate.
-pub fn vehicle(recording: &Recording, parameters_name: &str) -> Vehicle {
-    let is_flat = turns_flat(recording.inputs(), recording.step());
-    if is_flat { Vehicle::Car } else { of_parameters(parameters_name) }
-}
-
-/// A car if the parameters are those for one.
-pub fn of_parameters(parameters_name: &str) -> Vehicle {
-    if parameters_name.split(" + ").any(|set| set == "car") { Vehicle::Car } else { Vehicle::Motorcycle }
+/// A car if the lateral force of bends goes with the yaw rate, else a motorcycle.
+pub fn vehicle(recording: &Recording) -> Vehicle {
+    if turns_flat(recording.inputs(), recording.step()) { Vehicle::Car } else { Vehicle::Motorcycle }
 }
 
 fn turns_flat(inputs: &[Input], step: f64) -> bool {

@@ -167,16 +167,15 @@ fn runs_with_other_parameters_stand_beside_the_first() {
     let directory = tempfile::tempdir().unwrap();
     write_recording(directory.path(), "ride.csv");
     let narrow = rigs().join("narrow.toml").display().to_string();
-    let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "small-motions"]);
+    let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "paper"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let printed = text(&output.stdout);
     assert!(
-        printed.contains("Narrow mock-up, 0.45 m stroke, parameters default:")
-            && printed.contains("parameters small-motions:"),
+        printed.contains("Narrow mock-up, 0.45 m stroke, parameters default:") && printed.contains("parameters paper:"),
         "{printed}"
     );
     assert!(text(&output.stderr).contains("ride: reading\nride: simulating\n"), "{}", text(&output.stderr));
-    for file in ["ride.outputs.csv", "ride.small-motions.outputs.csv", "ride.html"] {
+    for file in ["ride.outputs.csv", "ride.paper.outputs.csv", "ride.html"] {
         assert!(directory.path().join("moris-report").join(file).exists(), "{file}");
     }
 }
@@ -202,7 +201,7 @@ fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
     }
     for arguments in [
         &["simulate", "ride.csv", "other/ride.csv"][..],
-        &["simulate", "ride.csv", "--compare", "small-motions", "--compare", "small-motions"],
+        &["simulate", "ride.csv", "--compare", "paper", "--compare", "paper"],
         &["simulate", "ride.csv", "ride.outputs.csv"],
     ] {
         let output = moris(here, arguments);
@@ -222,7 +221,7 @@ fn errors_say_what_to_do_and_fail() {
         assert!(!output.status.success(), "{arguments:?}");
         text(&output.stderr)
     };
-    assert!(failure(&["simulate", "ride.csv", "--parameters", "small-motion"]).contains("did you mean small-motions?"));
+    assert!(failure(&["simulate", "ride.csv", "--parameters", "papr"]).contains("did you mean paper?"));
     assert!(failure(&["simulate", "missing.csv"]).contains("cannot read missing.csv"));
     assert!(failure(&["simulate", "ride.csv", "--columns", "ax=acc"]).contains("--columns ax=NAME"));
     assert!(failure(&["simulate", "ride.csv", "--columns", "bx=acc"]).contains("there is no key bx"));
@@ -236,15 +235,15 @@ fn errors_say_what_to_do_and_fail() {
 #[test]
 fn parameters_print_a_file_that_reads_back() {
     let directory = tempfile::tempdir().unwrap();
-    let output = moris(directory.path(), &["parameters", "--parameters", "small-motions"]);
+    let output = moris(directory.path(), &["parameters", "--parameters", "paper"]);
     assert!(output.status.success());
     fs::write(directory.path().join("all.toml"), &output.stdout).unwrap();
     let changed = |set: &str| {
         let output = moris(directory.path(), &["parameters", "--changed", "--parameters", set]);
         text(&output.stdout).lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n")
     };
-    assert!(changed("small-motions").contains("\"splitter.x.omega1\" = 0.35"));
-    assert_eq!(changed("all.toml"), changed("small-motions"));
+    assert!(changed("paper").contains("\"splitter.x.omega1\" = 2.5"));
+    assert_eq!(changed("all.toml"), changed("paper"));
 }
 
 #[test]
@@ -256,8 +255,8 @@ fn the_names_of_version_0_1_are_hidden_aliases() {
         assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
         text(&output.stdout)
     };
-    let new = printed(&["simulate", "ride.csv", "--no-bound", "--compare", "preaction"]);
-    assert_eq!(printed(&["run", "ride.csv", "--no-bound", "--against", "preaction"]), new);
+    let new = printed(&["simulate", "ride.csv", "--no-bound", "--compare", "robust"]);
+    assert_eq!(printed(&["run", "ride.csv", "--no-bound", "--against", "robust"]), new);
     let help = printed(&["--help"]);
     assert!(help.contains("simulate") && help.contains("frequency-response"), "{help}");
     assert!(!help.contains("  run") && !help.contains("  respond"), "{help}");
@@ -541,9 +540,9 @@ fn the_page_of_a_long_recording_has_its_largest_size() {
         page
     };
     if crate::cases::cases(true, false) {
-        assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
+        assert!(page(&["paper"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
     }
-    let thinned = page(&["car", "motorcycle", "small-motions", "paper"]);
+    let thinned = page(&["optimal", "robust", "adaptive", "paper"]);
     let resolution = thinned.split("\"Curves\",\"").nth(1).unwrap().split(";").next().unwrap();
     let interval = resolution.strip_prefix("least and greatest value of every ").unwrap().strip_suffix(" ms").unwrap();
     assert!((4.0..=8.5).contains(&interval.parse::<f64>().unwrap()), "as much as fits, not {interval} ms");

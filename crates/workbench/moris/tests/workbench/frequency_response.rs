@@ -106,7 +106,9 @@ fn a_rate_is_felt_as_a_force_through_gravity() {
 
 #[test]
 fn another_set_has_its_own_response() {
-    let washout = Washout::new(&presets::parameters(presets::SMALL_MOTIONS)).unwrap();
+    let washout =
+        Washout::new(&presets::parameters(include_str!("../../../../../examples/paper-runs/small-motions.toml")))
+            .unwrap();
     for frequency in [0.1, 0.398_107_170_553_497_3, 1.0, 10.0] {
         let s = Complex::new(0.0, frequency);
         let [found, roll] = [Heave, Roll].map(|channel| {

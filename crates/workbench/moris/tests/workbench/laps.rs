@@ -76,8 +76,7 @@ fn positions_of_other_names_and_units_are_measured_and_missing_ones_named() {
     let directory = tempfile::tempdir().unwrap();
     write_rounds(&directory.path().join("rounds.csv"), 2.0, ["east [m]", "north [m]"]);
     let measure = |more: &[&str]| {
-        let output =
-            moris(directory.path(), &[&["measure", "rounds.csv", "--parameters", "predictive"], more].concat());
+        let output = moris(directory.path(), &[&["measure", "rounds.csv", "--parameters", "default"], more].concat());
         [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned()).concat()
     };
     let named = measure(&["--learn", "--columns", "x=east,y=north"]);
@@ -93,7 +92,7 @@ fn positions_of_other_names_and_units_are_measured_and_missing_ones_named() {
 
 /// The row of the sway in what `measure` prints with these options.
 fn sway(directory: &Path, file: &str, options: &[&str]) -> String {
-    let output = moris(directory, &[&["measure", file, "--parameters", "predictive"], options].concat());
+    let output = moris(directory, &[&["measure", file, "--parameters", "default"], options].concat());
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let row = text.lines().find(|line| line.contains("sway")).map(str::to_owned);
     row.unwrap_or_else(|| panic!("{text}{}", String::from_utf8_lossy(&output.stderr)))

@@ -206,8 +206,7 @@ fn a_preview_of_the_recording_lowers_the_errors_of_the_predictive_strategy() {
     let directory = tempfile::tempdir().unwrap();
     write_recording(&directory.path().join("ride.csv"));
     let error = |preview: &str| {
-        let (output, text) =
-            measure(directory.path(), &["ride.csv", "--parameters", "predictive", "--preview", preview]);
+        let (output, text) = measure(directory.path(), &["ride.csv", "--parameters", "default", "--preview", preview]);
         assert!(output.status.success(), "{text}");
         assert_eq!(text.contains("preview of 2 s"), preview == "2", "{text}");
         cells(&text, "surge")[3].parse::<f64>().unwrap()
