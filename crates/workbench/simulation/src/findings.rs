@@ -259,16 +259,15 @@ fn bound_limits(tilt: &TiltParameters, axis: Axis) -> String {
 }
 
 impl ChannelFigures {
-    /// How much worse than a platform at rest: 1 is where that begins. A force is by its error. A
-    /// rate is by its error, too, where it is also sensed as false. Where hardly any motion is
-    /// desired, it is the false cues alone. The rotation of tilt coordination is not counted where
-    /// it is slower than the threshold of perception: it turns the rider by design.
+    /// How much worse than a platform at rest: 1 is where that begins. It is by the error, where it
+    /// is also sensed as false cues. Where hardly any motion is desired, it is by the false cues
+    /// alone. The rotation of tilt coordination is not counted where it is slower than the
+    /// threshold of perception: it turns the rider by design.
     pub(crate) fn severity(&self) -> f64 {
         let error = self.without_tilt.unwrap_or(self.felt.rms_error);
         let false_cues = self.cues.false_cues / FALSE_CUES;
         match (self.is_desired(), self.axis.is_rotation()) {
-            (true, false) => error / (WORSE_THAN_REST * self.at_rest),
-            (true, true) => false_cues.min(error / (WORSE_THAN_REST * self.at_rest)),
+            (true, _) => false_cues.min(error / (WORSE_THAN_REST * self.at_rest)),
             (false, true) if error < self.least_desired() => 0.0,
             (false, _) => false_cues,
         }
@@ -276,9 +275,6 @@ impl ChannelFigures {
 
     /// The figure that [`ChannelFigures::severity`] is of, as a clause.
     pub(crate) fn figure(&self) -> String {
-        if self.is_desired() && !self.axis.is_rotation() {
-            return format!("an error of {} of what is desired", percent(self.ratio()));
-        }
         format!("false cues for {} of the time", percent(self.cues.false_cues))
     }
 
@@ -313,8 +309,8 @@ impl ChannelFigures {
             )
         } else if rms_error <= FAITHFUL * self.at_rest {
             (Weight::Good, "is reproduced well")
-        } else if rms_error > WORSE_THAN_REST * self.at_rest && self.without_tilt.is_some() {
-            (Weight::Note, "has a larger error than a platform at rest, by the rotation of tilt coordination")
+        } else if rms_error > WORSE_THAN_REST * self.at_rest {
+            (Weight::Note, "has a larger error than a platform at rest, which is hardly sensed")
         } else {
             (Weight::Note, "is reproduced in part")
         };
@@ -382,13 +378,16 @@ mod tests {
     #[test]
     fn a_channel_worse_than_at_rest_or_falsely_cued_has_a_sentence() {
         let of = |desired, error, false_cues| finding_on(desired, error, false_cues).unwrap();
-        let (weight, text) = of(4.0, 5.8, 0.0);
+        let (weight, text) = of(4.0, 5.8, 0.06);
         assert_eq!(weight, Weight::Warning);
         assert_eq!(
             text,
             "Roll rate has a larger error than a platform at rest: correlation 0.50, an RMS error of 5.80 °/s, 145 % of what is \
-             desired."
+             desired. Its cues are false for 6 % of the time."
         );
+        // It must be sensed as false, too.
+        let (weight, text) = of(4.0, 5.8, 0.0);
+        assert!(weight == Weight::Note && text.contains("at rest, which is hardly sensed: "), "{text}");
         let (weight, text) = of(4.0, 3.0, 0.22);
         assert!(
             weight == Weight::Warning

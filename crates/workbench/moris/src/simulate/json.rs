@@ -41,8 +41,8 @@ struct SetResult {
     /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
     /// the time; null for another washout's motion without poses and legs.
     fits: Option<bool>,
-    /// False if a force has a larger error than on a platform at rest, or a rate that is
-    /// also sensed as false.
+    /// False if a channel has a larger error than on a platform at rest, which is also sensed as
+    /// false.
     better_than_rest: bool,
     /// The verdict with what to change.
     verdict: String,
