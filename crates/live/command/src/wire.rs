@@ -163,8 +163,10 @@ impl Wire {
         let mut values = *commanded;
         if let Some((at, last)) = self.last {
             let gap = now.saturating_sub(at).as_secs_f64();
-            let mut time = (commanded.time - last.time).clamp(0.0, self.interval);
-            if was_lost || gap > STANDSTILL_TIME.max(STANDS_INTERVALS * self.interval) {
+            let standstill = STANDSTILL_TIME.max(STANDS_INTERVALS * self.interval);
+            // Of frames that were left out, too: a glide goes on in the commands' time.
+            let mut time = (commanded.time - last.time).clamp(0.0, standstill);
+            if was_lost || gap > standstill {
                 let speed = GLIDE_SPEED * self.actuators.speed;
                 let is_slow = was_lost || gap > STANDSTILL_INTERVALS;
                 self.begin(Beginning::Rest(numbers(&last)), if is_slow { speed.min(LOST_SPEED) } else { speed });
@@ -177,7 +179,7 @@ impl Wire {
                 values = self.with_glide(&last, commanded, 0.0);
             }
             let [before, now] = [&last, &values].map(numbers);
-            self.change = std::array::from_fn(|k| (now[k] - before[k]) / self.interval);
+            self.change = std::array::from_fn(|k| (now[k] - before[k]) / self.interval.max(time));
         }
         self.last = Some((now, values));
         values
@@ -223,7 +225,7 @@ impl Wire {
                 }
             }
         }
-        let speed = |k: usize| (values.length[k] - last.length[k]) / self.interval;
+        let speed = |k: usize| (values.length[k] - last.length[k]) / self.interval.max(time);
         values.velocity = std::array::from_fn(speed);
         values
     }

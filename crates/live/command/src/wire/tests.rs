@@ -81,6 +81,32 @@ fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
     }
 }
 
+/// A busy computer leaves frames out while the actuators come in from a standstill.
+#[test]
+fn frames_left_out_within_a_glide_are_no_jolt() {
+    for seed in 0..20 {
+        let (mut random, mut wire) = (Random(seed), Wire::new(INTERVAL, ACTUATORS));
+        let commanded = |time: f64| Values { time, length: [1.3 + 0.08 * (1.6 * time).sin(); 6], ..Values::default() };
+        wire.pass(Duration::ZERO, &commanded(0.0));
+        let mut frames = Vec::new();
+        for k in 50..1000 {
+            // At most every other one.
+            let is_left_out = frames.last().is_some_and(|last: &Values| last.time > f64::from(k - 2) * INTERVAL)
+                && random.next() < 0.2;
+            if !is_left_out {
+                let time = f64::from(k) * INTERVAL;
+                frames.push(wire.pass(Duration::from_secs_f64(time), &commanded(time)));
+            }
+        }
+        let speed = |pair: &[Values]| (pair[1].length[0] - pair[0].length[0]) / (pair[1].time - pair[0].time);
+        for three in frames.windows(3) {
+            let turn = 2.0 * (speed(&three[1..]) - speed(&three[..2])) / (three[2].time - three[0].time);
+            // The commands' 0.2 m/s2 and the glide's own.
+            assert!(turn.abs() < 0.6, "{seed}, {} s: {turn} m/s2", three[1].time);
+        }
+    }
+}
+
 /// Gaps of any length, losses and stops of the whole computer at any time, also within a glide.
 #[test]
 fn nothing_that_happens_to_frames_makes_a_jump_or_leaves_the_stroke() {
