@@ -2,14 +2,16 @@
 
 import io
 import os
+import subprocess
 import zipfile
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
-from conftest import ANGLES, AXES, TARGET, example, only_all_cases
+from conftest import ANGLES, AXES, ROOT, TARGET, example, only_all_cases
 from fmpy import read_model_description
+from fmpy.ssp.simulation import simulate_ssp
 from lxml import etree
 
 ENDS = ("startElement", "startConnector", "endElement", "endConnector")
@@ -141,6 +143,18 @@ def test_the_example_rides_the_lap_near_its_preview(laps):
         later = np.interp(result["time"] + 0.2 * k, result["time"], desired)
         settled = (result["time"] > 1.5) & (result["time"] < 10.0)
         assert np.max(np.abs(previewed - later)[settled]) < 0.05
+
+
+def test_an_own_vehicle_takes_the_place_of_the_motorcycle(ssp, tmp_path):
+    command = ["cargo", "build-ssp", "--vehicle", str(ssp.with_name("Motorcycle.fmu")), "--output", str(tmp_path)]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    package = tmp_path / "OwnVehicle.ssp"
+    root = etree.fromstring(file(package, "SystemStructure.ssd"))
+    etree.XMLSchema(file=str(SCHEMAS / "SystemStructureDescription.xsd")).assertValid(root)
+    result = simulate_ssp(str(package), stop_time=0.5, step_size=1e-3)
+    assert abs(result["vehicle.vehicle.specificForce.z"][-1] - 9.80665) < 1e-3
+    assert abs(result["washout.vehicle.specificForce.z"][-1] - 9.80665) < 1e-3
+    assert all(1.0 <= result[f"platform.command[{k}].length"][-1] <= 1.6 for k in range(1, 7))
 
 
 def test_it_is_valid_against_the_schemas_of_ssp_1_0(system, parameters):

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
-use moris_build_fmu::ssp::{Form, SYSTEMS, System};
+use moris_build_fmu::ssp::{Form, SYSTEMS, System, Vehicle};
 use moris_build_fmu::{Platform, workspace};
 
 /// Builds a package of connected FMUs with their parameters.
@@ -27,6 +27,16 @@ struct Arguments {
     #[arg(long)]
     flat: bool,
 
+    /// Vehicle's FMU (FMI 2.0) in the place of the motorcycle: the package is OwnVehicle.ssp, in
+    /// the form of --flat. Its outputs go to the washout's inputs of the same name
+    #[arg(long, value_name = "FILE", conflicts_with = "system")]
+    vehicle: Option<PathBuf>,
+
+    /// Output of the vehicle, and the washout's input that it goes to, such as
+    /// --connect acc_x=vehicle.specificForce.x. May be given several times
+    #[arg(long, value_name = "OUTPUT=INPUT", requires = "vehicle")]
+    connect: Vec<String>,
+
     /// Platforms of the FMUs, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
@@ -42,7 +52,15 @@ fn main() -> ExitCode {
     let form = if arguments.flat { Form::Flat } else { Form::Whole };
     let is_named = |system: &&&System| system.name == arguments.system;
     let system = SYSTEMS.iter().find(is_named).expect("names of systems are checked");
-    match system.build(form, &arguments.platform, &output, |line| println!("{line}")) {
+    let report = |line: &str| println!("{line}");
+    let built = match &arguments.vehicle {
+        None => system.build(form, &arguments.platform, &output, report),
+        Some(file) => Vehicle::open(file, &arguments.connect).and_then(|vehicle| {
+            vehicle.connections.iter().for_each(|line| report(line));
+            System::with_vehicle(vehicle, &arguments.platform, &output, report)
+        }),
+    };
+    match built {
         Ok(built) => {
             println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
             ExitCode::SUCCESS

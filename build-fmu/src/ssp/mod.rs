@@ -1,6 +1,8 @@
 //! System structure packages (SSP 1.0): the simulator's three FMUs, connected, and the parameters
 //! they start with. The descriptions stand in `systems/`; a package is these and the FMUs.
 
+mod vehicle;
+
 use std::path::Path;
 
 use moris_setup::{NamedValues, parameter_file};
@@ -8,6 +10,8 @@ use moris_setup::{NamedValues, parameter_file};
 use crate::archive::{self, Contents};
 use crate::contents::LICENCES;
 use crate::model::{MOTORCYCLE, STEWART_PLATFORM, WASHOUT};
+pub use vehicle::Vehicle;
+
 use crate::{Built, Error, FmiVersion, FmuModel, Platform, Start, compile_together, fmu, write_whole};
 
 /// Purpose of a package.
@@ -44,7 +48,7 @@ pub const COMPONENTS: [(&str, &FmuModel); 3] =
 
 macro_rules! file {
     ($name:literal) => {
-        include_str!(concat!("../systems/", $name))
+        include_str!(concat!("../../systems/", $name))
     };
 }
 
@@ -118,11 +122,44 @@ impl System {
         form: Form,
         platforms: &[Platform],
         output: &Path,
+        report: impl FnMut(&str),
+    ) -> Result<Built, Error> {
+        let contents = self.texts(form);
+        let starts = self.starts()?;
+        let name = format!("{}{}", self.name, if form == Form::Flat { ".flat" } else { "" });
+        Self::pack(contents, &COMPONENTS, &starts, platforms, &output.join(format!("{name}.ssp")), report)
+    }
+
+    /// Builds `OwnVehicle.ssp`: a vehicle's FMU, the washout and the platform with their start
+    /// values. It has the form [`Form::Flat`].
+    ///
+    /// # Errors
+    /// As of [`System::build`].
+    pub fn with_vehicle(
+        vehicle: Vehicle,
+        platforms: &[Platform],
+        output: &Path,
+        report: impl FnMut(&str),
+    ) -> Result<Built, Error> {
+        let mut contents = MOTORCYCLE_SIMULATOR.texts(Form::Flat);
+        contents.retain(|path, _| !path.ends_with(".ssv"));
+        contents.insert(DESCRIPTION.to_owned(), vehicle.description.into_bytes());
+        contents.insert(vehicle::VEHICLE_FMU.to_owned(), vehicle.bytes);
+        let components = &COMPONENTS[1..];
+        let starts: Vec<Start> = components.iter().map(|(_, model)| Start::own(model)).collect();
+        Self::pack(contents, components, &starts, platforms, &output.join("OwnVehicle.ssp"), report)
+    }
+
+    /// Adds the components' FMUs to a package, and writes it.
+    fn pack(
+        mut contents: Contents,
+        components: &[(&str, &FmuModel)],
+        starts: &[Start],
+        platforms: &[Platform],
+        file: &Path,
         mut report: impl FnMut(&str),
     ) -> Result<Built, Error> {
-        let mut contents = self.texts(form);
-        let starts = self.starts()?;
-        let components = || COMPONENTS.iter().map(|&(_, model)| model).zip(&starts);
+        let components = || components.iter().map(|&(_, model)| model).zip(starts);
         let own = components().filter(|(_, start)| start.is_own());
         compile_together(&own.map(|(model, _)| (model, FmiVersion::Fmi2)).collect::<Vec<_>>(), platforms)?;
         for (model, start) in components() {
@@ -130,8 +167,7 @@ impl System {
             contents.insert(format!("resources/{}", FmiVersion::Fmi2.fmu_file(model.name)), bytes);
         }
         let package = archive::pack(&contents)?;
-        let file = output.join(format!("{}{}.ssp", self.name, if form == Form::Flat { ".flat" } else { "" }));
-        write_whole(&file, &package)?;
-        Ok(Built { file, size: package.len() })
+        write_whole(file, &package)?;
+        Ok(Built { file: file.to_owned(), size: package.len() })
     }
 }

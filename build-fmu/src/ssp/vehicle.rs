@@ -1,0 +1,182 @@
+//! A package with a vehicle's FMU of one's own in the place of the motorcycle.
+
+use std::fmt::Write;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use quick_xml::de::from_str;
+use quick_xml::escape::escape;
+use serde::Deserialize;
+
+use super::MOTORCYCLE_SIMULATOR;
+use crate::Error;
+
+/// Name of the component that is replaced, as it stands in the system's description.
+const REPLACED: &str = "motorcycle";
+/// Path of the vehicle's FMU in the package.
+pub const VEHICLE_FMU: &str = "resources/Vehicle.fmu";
+/// Inputs of the washout without which nothing is felt.
+const REQUIRED_INPUTS: [&str; 3] = ["vehicle.specificForce.x", "vehicle.specificForce.y", "vehicle.specificForce.z"];
+
+/// A vehicle's FMU of FMI 2.0, and what it is connected to.
+pub struct Vehicle {
+    /// The FMU.
+    pub bytes: Vec<u8>,
+    /// The description of the system, with the vehicle in it.
+    pub description: String,
+    /// The connections, as `output -> input`.
+    pub connections: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct Model {
+    #[serde(rename = "@fmiVersion")]
+    fmi_version: String,
+    #[serde(rename = "CoSimulation")]
+    co_simulation: Option<serde::de::IgnoredAny>,
+    #[serde(rename = "ModelVariables", default)]
+    variables: Variables,
+}
+
+#[derive(Default, Deserialize)]
+struct Variables {
+    #[serde(rename = "ScalarVariable", default)]
+    all: Vec<Variable>,
+}
+
+#[derive(Deserialize)]
+struct Variable {
+    #[serde(rename = "@name")]
+    name: String,
+    #[serde(rename = "@causality")]
+    causality: Option<String>,
+    #[serde(rename = "Real")]
+    real: Option<Real>,
+}
+
+#[derive(Deserialize)]
+struct Real {
+    #[serde(rename = "@unit")]
+    unit: Option<String>,
+}
+
+impl Vehicle {
+    /// The vehicle in this file. Outputs are connected to the washout's inputs of the same name, and
+    /// as `connected` says by `OUTPUT=INPUT`.
+    ///
+    /// # Errors
+    /// The file is no FMU of FMI 2.0 for co-simulation, lacks a variable, or leaves a specific force
+    /// without an output.
+    pub fn open(file: &Path, connected: &[String]) -> Result<Self, Error> {
+        let refused = |reason: String| Error::Base { file: file.to_owned(), reason };
+        let bytes = fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+        let model: Model =
+            from_str(&model_description(file)?).map_err(|error| refused(format!("is no FMU: {error}")))?;
+        if !model.fmi_version.starts_with('2') || model.co_simulation.is_none() {
+            return Err(refused("is not of FMI 2.0 for co-simulation, as SSP 1.0 needs; export it so".to_owned()));
+        }
+        let of = |causality: &str| {
+            let is_such =
+                |variable: &&Variable| variable.causality.as_deref() == Some(causality) && variable.real.is_some();
+            model.variables.all.iter().filter(is_such).collect::<Vec<_>>()
+        };
+        let (inputs, outputs) = (of("input"), of("output"));
+        let is_output = |name: &str| outputs.iter().any(|output| output.name == name);
+        let (_, base) = MOTORCYCLE_SIMULATOR.flat[0];
+        let washout_inputs = washout_inputs(base);
+        let mut connections: Vec<(&str, &str)> = Vec::new();
+        for pair in connected {
+            let Some((output, input)) = pair.split_once('=').filter(|(output, _)| is_output(output)) else {
+                let names: Vec<&str> = outputs.iter().map(|output| output.name.as_str()).collect();
+                let reason = format!("has no output for {pair}; write OUTPUT=INPUT with one of {}", names.join(", "));
+                return Err(refused(reason));
+            };
+            if !washout_inputs.contains(&input) {
+                let reason = format!("cannot be connected to {input}; write one of {}", washout_inputs.join(", "));
+                return Err(refused(reason));
+            }
+            connections.push((output, input));
+        }
+        for &input in &washout_inputs {
+            if is_output(input) && connections.iter().all(|(_, connected)| *connected != input) {
+                connections.push((input, input));
+            }
+        }
+        let is_open = |input: &&&str| connections.iter().all(|(_, connected)| connected != *input);
+        if let Some(open) = REQUIRED_INPUTS.iter().find(is_open) {
+            return Err(refused(format!("has no output {open}; name its own with --connect OUTPUT={open}")));
+        }
+        let description = description(base, &inputs, &outputs, &connections);
+        let connections = connections.iter().map(|(output, input)| format!("{output} -> {input}")).collect();
+        Ok(Vehicle { bytes, description, connections })
+    }
+}
+
+fn model_description(file: &Path) -> Result<String, Error> {
+    let opened = File::open(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+    let mut archive = zip::ZipArchive::new(opened)?;
+    let mut text = String::new();
+    let read = archive.by_name("modelDescription.xml")?.read_to_string(&mut text);
+    read.map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+    Ok(text)
+}
+
+/// Names of the washout's inputs that take the vehicle's motion.
+fn washout_inputs(base: &str) -> Vec<&str> {
+    base.lines()
+        .filter(|line| {
+            line.contains(&format!("startElement=\"{REPLACED}\"")) && line.contains("endElement=\"washout\"")
+        })
+        .filter_map(|line| line.split("endConnector=\"").nth(1)?.split('"').next())
+        .collect()
+}
+
+/// The system's description with the vehicle in the place of the motorcycle, and without the
+/// parameters that are made for a motorcycle.
+fn description(base: &str, inputs: &[&Variable], outputs: &[&Variable], connections: &[(&str, &str)]) -> String {
+    let (mut text, mut skipped) = (String::new(), None);
+    let mut is_connected = false;
+    for line in base.lines() {
+        let trimmed = line.trim();
+        if let Some(end) = skipped {
+            skipped = (trimmed != end).then_some(end);
+        } else if trimmed.starts_with(&format!("<ssd:Component name=\"{REPLACED}\"")) {
+            text += &component(inputs, outputs);
+            skipped = Some("</ssd:Component>");
+        } else if trimmed == "<ssd:ParameterBindings>" {
+            skipped = Some("</ssd:ParameterBindings>");
+        } else if !trimmed.contains(&format!("Element=\"{REPLACED}\"")) {
+            text += &format!("{line}\n");
+        } else if !std::mem::replace(&mut is_connected, true) {
+            for (output, input) in connections {
+                let _ = writeln!(
+                    text,
+                    "      <ssd:Connection startElement=\"vehicle\" startConnector=\"{}\" endElement=\"washout\" \
+                     endConnector=\"{input}\"/>",
+                    escape(*output)
+                );
+            }
+        }
+    }
+    text
+}
+
+fn component(inputs: &[&Variable], outputs: &[&Variable]) -> String {
+    let connector = |variable: &&Variable, kind: &str| {
+        let unit = variable.real.as_ref().and_then(|real| real.unit.as_deref());
+        let unit = unit.map_or_else(String::new, |unit| format!(" unit=\"{}\"", escape(unit)));
+        format!(
+            "          <ssd:Connector name=\"{}\" kind=\"{kind}\">\n            <ssc:Real{unit}/>\n          \
+             </ssd:Connector>\n",
+            escape(variable.name.as_str())
+        )
+    };
+    let inputs = inputs.iter().map(|input| connector(input, "input"));
+    let connectors: String = inputs.chain(outputs.iter().map(|output| connector(output, "output"))).collect();
+    format!(
+        "      <ssd:Component name=\"vehicle\" type=\"application/x-fmu-sharedlibrary\" source=\"{VEHICLE_FMU}\" \
+         implementation=\"CoSimulation\">\n        <ssd:Connectors>\n{connectors}        </ssd:Connectors>\n        \
+         <ssd:ElementGeometry x1=\"0\" y1=\"0\" x2=\"60\" y2=\"60\"/>\n      </ssd:Component>\n"
+    )
+}
