@@ -28,7 +28,7 @@ pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     check_rig(rig, structure.max_step)
 }
 
-/// What is doubtful about parameters that can be used, in sentences; [`check`] accepts them.
+/// Doubts about parameters that can be used, in sentences; [`check`] accepts them.
 ///
 /// - Limits of the safety units farther from neutral than the rig reaches along their axis alone.
 ///   The legs come to the ends of their stroke before.
@@ -101,6 +101,10 @@ struct Changed {
     places: Vec<(&'static Row, usize, usize)>,
 }
 
+/// A parameter and the value at which it changes nothing by itself: files of a fit have it for
+/// those who switch the automatic scale on.
+const NEUTRAL_VALUE: (&str, f64) = ("automaticScale.start", 1.0);
+
 /// Names of a list that are written out.
 const MAX_NAMES: usize = 3;
 
@@ -121,6 +125,9 @@ impl Changed {
         let mut unusual = Vec::new();
         for &(row, element, slot) in &self.places {
             let name = row.variable_name(element);
+            if (name.as_str(), self.slots[slot]) == NEUTRAL_VALUE {
+                continue;
+            }
             match row.conditions(element).find(|condition| !condition.values.contains(&&*self.text(condition.variable)))
             {
                 Some(unmet) => match idle.iter_mut().find(|(condition, _)| condition.is_same(unmet)) {

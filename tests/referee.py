@@ -26,7 +26,7 @@ from pathlib import Path
 RECORDING_SUFFIXES = {".csv", ".txt", ".tsv", ".vbo"}
 RECORDING_COMMANDS = [["simulate", "{recording}", "--no-bound", "--json", "--report", "{out}"], ["measure", "{recording}"]]
 COMMANDS = [
-    *(["parameters", name] for name in ("default", "classical", "motorcycle", "car", "adaptive", "optimal", "robust")),
+    *(["parameters", name] for name in ("default", "classical", "adaptive", "optimal", "robust")),
     ["schema", "simulation"],
     *(["schema", name] for name in ("rig", "parameters", "conventions")),
     *([name, "--help"] for name in ("simulate", "measure", "fit", "bench", "tune", "rig", "build-fmu")),

@@ -100,8 +100,7 @@ fn ramps(t: f64) -> f64 {
 /// Time of a corner \[ms\], and the sign of the force's change there.
 type Corner = (usize, f64);
 
-/// A tilt that begins kicks the head above it back, unless travel takes this away. It does not in
-/// the sets `motorcycle` and `car`, by up to 0.15 m/s2.
+/// A tilt that begins kicks the head above it back, unless travel takes this away.
 #[test]
 fn a_ramps_corner_is_felt_without_a_kick_back() {
     // At 8 s the classical strategy's demand is beyond a limit of the legs, which 2 m/s2 reach.
@@ -111,7 +110,7 @@ fn a_ramps_corner_is_felt_without_a_kick_back() {
         (|t| [2.0 * ramps(t), 0.0, 0.0], &[(2000, 1.0), (8000, -1.0)], 0.02),
         (|t| [2.0 * ramps(t), 2.0 * ramps(t), 0.0], &[(8000, -1.0)], 0.17),
     ];
-    for (set, changed) in SETS.into_iter().filter(|(set, _)| !["motorcycle", "car"].contains(set)) {
+    for (set, changed) in SETS {
         for (force, corners, bound) in drives {
             let (forces, _) = felt(&presets::parameters(changed), force);
             for (axis, &(from, direction)) in (0..2).flat_map(|axis| corners.iter().map(move |corner| (axis, corner))) {

@@ -58,6 +58,8 @@ fn a_parameter_without_effect_or_beyond_the_usual_range_is_named() {
     );
     assert_eq!(of(&[("scale.specificForce.x", -1.0)]), ["scale.specificForce.x is -1, but usual are 0.01 to 1"]);
     assert!(of(&[("scale.specificForce.x", 0.0), ("input.rateCutoff", 0.0)]).is_empty(), "0 switches off");
+    assert!(of(&[("automaticScale.start", 1.0)]).is_empty(), "files of a fit have it");
+    assert_eq!(of(&[("automaticScale.start", 0.5)]).len(), 1);
 }
 
 #[test]

@@ -56,14 +56,14 @@ fn values_are_in_the_descriptions_under_another_guid() {
         assert_eq!(start("rig.neutralHeight"), "1.02");
         match fmi {
             FmiVersion::Fmi2 | FmiVersion::Fmi2Reals | FmiVersion::Fmi3(Layout::Scalars) => {
-                assert_eq!((start("splitter.y.omega1"), start("rig.base[1].x")), ("0.35".into(), "0.95".into()))
+                assert_eq!((start("splitter.y.omega1"), start("rig.base[1].x")), ("2.5".into(), "0.95".into()))
             }
-            FmiVersion::Fmi3(Layout::Arrays) => assert_eq!(start("splitter.omega1"), "0.35 0.35 0.35"),
+            FmiVersion::Fmi3(Layout::Arrays) => assert_eq!(start("splitter.omega1"), "2.5 2.5 2.5"),
         }
         let files = contents(&WASHOUT, &embedded, fmi, Vec::new(), &Extras::default());
         let listed = String::from_utf8(files["documentation/start-values.toml"].clone()).unwrap();
         assert!(
-            listed.contains("\"splitter.y.omega1\" = 0.35") && listed.contains("\"rig.neutralHeight\" = 1.02"),
+            listed.contains("\"splitter.y.omega1\" = 2.5") && listed.contains("\"rig.neutralHeight\" = 1.02"),
             "{listed}"
         );
         let page = String::from_utf8(files["documentation/index.html"].clone()).unwrap();

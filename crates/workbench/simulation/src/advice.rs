@@ -139,7 +139,7 @@ impl Changes {
 /// An alternative, simulated on the whole recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alternative {
-    /// What is different.
+    /// The difference.
     pub changes: Changes,
     /// All parameters.
     pub parameters: Parameters,
@@ -265,7 +265,7 @@ impl<'a> Advisor<'a> {
         Some(Advisor { fault, manoeuvre, part, parameters, preview, before })
     }
 
-    /// What to try.
+    /// The changes that are tried, simplest first.
     pub fn candidates(&self) -> Vec<Candidate> {
         let Parameters { structure, tilt, conditioning, soft_limit, automatic_scale, .. } = &self.parameters;
         let is_predictive = structure.strategy == StrategyKind::Predictive;

@@ -153,7 +153,7 @@ pub struct Search<'a> {
     desired: Desired,
     heave: Option<Vec<f64>>,
     previewer: Option<Previewer>,
-    /// What a scale is searched for.
+    /// Aims of the search for a scale.
     pub aims: Aims,
 }
 
@@ -359,7 +359,7 @@ mod tests {
         for name in ["lane-change", "emergency-stop"] {
             let drive = DRIVES.iter().find(|drive| drive.name == name).unwrap().manoeuvre();
             let search = Search::new(&drive, 0.0, Aims::default());
-            let mut parameters = presets::parameters(presets::PREDICTIVE);
+            let mut parameters = Parameters::default();
             let factors = search.fit(&parameters).unwrap().best.factors;
             parameters.automatic_scale.automatic = AutomaticScale::On;
             let shape = search.shape(&factors.applied(&parameters)).unwrap();

@@ -17,7 +17,7 @@ const READ_WRONGLY: &str = " A unit, a sign or an axis of the felt motion may be
 /// Sentence where alternatives were simulated, and none is better.
 const NOTHING_BETTER: &str = " No other scale, strategy, preview or tilt that was simulated is better.";
 
-/// What a verdict may be about, in order of importance.
+/// Subjects of a verdict, in order of importance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// A safety unit or an actuator's limit stops the platform.

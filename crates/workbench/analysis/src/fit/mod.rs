@@ -63,7 +63,7 @@ pub struct Common {
     /// The factors, and the worst of the recordings: least shape, largest inverted time and error,
     /// least size.
     pub worst: Candidate,
-    /// How many recordings reach the aims with them.
+    /// Number of recordings that reach the aims with them.
     pub fitting: usize,
 }
 

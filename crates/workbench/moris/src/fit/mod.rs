@@ -138,7 +138,7 @@ fn all_strategies(options: &Options) -> Result<Vec<Strategy>> {
     kinds.iter().map(load).collect()
 }
 
-/// What the figures in a parameter file are.
+/// Explanation of the figures in a parameter file.
 const FIGURES: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
     inverted the largest fraction of the time with the wrong sign, size that of the vehicle's force.";
 
