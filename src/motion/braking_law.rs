@@ -58,10 +58,13 @@ impl Limits {
         let Motion { position, velocity, .. } = *motion;
         let next = self.nearest_velocity(motion, demanded, step);
         let arrived = position + 0.5 * velocity * step + 0.5 * next * step;
+        // The law keeps the limits but for rounding, which this removes. Where a limit was lowered onto a
+        // motion that cannot stop within it, the motion brakes beyond it: a stop at it would be a blow.
         let inside = (self.min..=self.max).contains(&position);
+        let kept = arrived.clamp(self.min, self.max);
+        let is_rounding = (arrived - kept).abs() <= REJOIN_DISTANCE * self.acceleration * step * step;
         Motion {
-            // The law keeps the limits but for rounding; this removes the rounding.
-            position: if inside { arrived.clamp(self.min, self.max) } else { arrived },
+            position: if inside && is_rounding { kept } else { arrived },
             velocity: next,
             acceleration: ((next - velocity) / step).clamp(-self.acceleration, self.acceleration),
         }

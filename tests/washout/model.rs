@@ -1,6 +1,6 @@
 //! The washout as a model: what a host of the model calls is the washout itself.
 
-use moris_interface::{Group, MOST_INTERNAL_STEPS, Model};
+use moris_interface::{Group, MOST_INTERNAL_STEPS, Model, SlotModel};
 use moris_washout::interface::{Inputs, TuningGroup};
 use moris_washout::{Input, Parameters, Preview, Washout, presets};
 
@@ -64,4 +64,26 @@ fn each_row_that_is_tuned_is_in_a_group_and_has_a_usual_range_above_zero() {
         assert!(*group == TuningGroup::Order || ranges.clone().count() > 0, "{group:?}");
         assert!(in_group().count() > 0 && ranges.into_iter().all(|(least, _)| least > 0.0), "{group:?}");
     }
+}
+
+/// Hosts that set every input to zero are told why nothing moves, or why everything sinks.
+#[test]
+fn inputs_of_zeros_are_warned_of_with_the_remedy() {
+    let of = |engaged: f64, upward: f64, removal: f64| {
+        let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
+        Washout::start_slots(&mut slots);
+        for (name, value) in [("engaged", engaged), ("vehicle.specificForce.z", upward), ("gravityRemoval", removal)] {
+            slots[Washout::IDENTITY.slot(name).unwrap()] = value;
+        }
+        Washout::warnings_in(&slots)
+    };
+    // The start value.
+    let removal = 1.0;
+    assert!(of(1.0, 9.8, removal).is_empty());
+    let both = of(0.0, 0.0, removal);
+    assert_eq!(both.len(), 2, "{both:?}");
+    assert!(both[0].starts_with("engaged is false: the platform stays at rest; set it to true"), "{both:?}");
+    assert!(both[1].contains("as in free fall") && both[1].contains("add gravity, or set gravityRemoval"), "{both:?}");
+    // Accelerations without gravity are 0 at rest.
+    assert!(of(1.0, 0.0, 3.0).is_empty());
 }

@@ -391,3 +391,70 @@ fn no_tunable_parameter_is_felt_as_a_jolt() {
     }
     assert!(failed.is_empty(), "jolts of {}: free and at a limit [m/s2]\n{}", names.join(", "), failed.join("\n"));
 }
+
+/// Largest change of the felt force within 20 ms \[m/s2\], while a host writes these values every
+/// 40 ms from the fourth second on.
+fn jolt_with_writes(strategy: usize, write: impl Fn(&mut Vec<f64>, f64)) -> f64 {
+    let mut slots = start_slots();
+    slots[Washout::IDENTITY.slot("strategy").unwrap()] = 1.0 + strategy as f64;
+    let mut washout = Washout::from_slots(&slots).unwrap();
+    let drive = |t: f64| {
+        let smooth = (t / 3.0).min(1.0).powi(2);
+        accelerating(3.0 * smooth * (0.7 * t).sin(), 2.0 * smooth * (0.5 * t).sin(), 0.0)
+    };
+    let mut felt: Vec<Vector3<f64>> = Vec::new();
+    for k in 0..12_000 {
+        if k >= 3_000 && k % 40 == 0 {
+            write(&mut slots, k as f64 * STEP);
+            washout.retune_from(&slots).unwrap();
+        }
+        washout.step_between(&drive(k as f64 * STEP), &drive((k + 1) as f64 * STEP), STEP);
+        felt.push(washout.output().felt_specific_force);
+    }
+    (JOLT..felt.len()).map(|k| (felt[k] - felt[k - JOLT]).amax()).fold(0.0, f64::max)
+}
+
+/// A tilt limit that is lowered onto a moving tilt: the tilt brakes beyond it. Stopped at once it
+/// was felt as 27 m/s2.
+#[test]
+fn a_tilt_limit_written_on_and_on_is_no_blow() {
+    let slot = Washout::IDENTITY.slot("tilt.angleLimit").unwrap();
+    for strategy in 0..5 {
+        for seed in 0..crate::cases::cases(8, 3) {
+            let write = |slots: &mut Vec<f64>, t: f64| slots[slot] = 0.275 + 0.175 * (1e4 * (t + seed as f64)).sin();
+            let jolt = jolt_with_writes(strategy, write);
+            println!("strategy {strategy}, seed {seed}: {jolt:.3} m/s2");
+            assert!(jolt < 1.0, "strategy {strategy}, seed {seed}: {jolt} m/s2 within 20 ms");
+        }
+    }
+}
+
+/// Two sets, as for the ground and the air, blended by a signal over 2 s, there and back.
+#[test]
+fn two_sets_blended_by_a_signal_are_felt_smoothly() {
+    let identity = Washout::IDENTITY;
+    let other = [
+        ("scale.specificForce.x", 0.4),
+        ("scale.specificForce.y", 0.3),
+        ("scale.angularVelocity.x", 0.2),
+        ("limit.specificForce.x", 3.0),
+        ("tilt.rateLimit", 0.1),
+        ("tilt.angleLimit", 0.2),
+        ("splitter.x.omega1", 1.0),
+        ("splitter.z.omega1", 6.0),
+        ("softLimit.pace", 5.0),
+    ];
+    for strategy in 0..5 {
+        let start = start_slots();
+        let write = |slots: &mut Vec<f64>, t: f64| {
+            let signal = (0.5 * (t - 3.0)).min(1.0) - (0.5 * (t - 7.0)).clamp(0.0, 1.0);
+            for (name, value) in other {
+                let slot = identity.slot(name).unwrap();
+                slots[slot] = start[slot] + signal * (value - start[slot]);
+            }
+        };
+        let jolt = jolt_with_writes(strategy, write);
+        println!("strategy {strategy}: {jolt:.3} m/s2");
+        assert!(jolt < 0.5, "strategy {strategy}: {jolt} m/s2 within 20 ms");
+    }
+}

@@ -67,7 +67,7 @@ fn values_are_in_the_descriptions_under_another_guid() {
             "{listed}"
         );
         let page = String::from_utf8(files["documentation/index.html"].clone()).unwrap();
-        assert!(page.contains("0.35") && page.contains(&token(&text)));
+        assert!(page.contains("2.5") && page.contains(&token(&text)));
     }
 }
 
