@@ -1,6 +1,6 @@
 //! Validation of parameters: each alone, and in combination.
 
-use alloc::{borrow::ToOwned, format, string::String, vec::Vec};
+use alloc::{borrow::ToOwned, format, string::String, vec, vec::Vec};
 
 use moris_interface::{Condition, Group, Kind, ParameterError, Row, check_fixed, refuse, shown, slot_count, slots_of};
 
