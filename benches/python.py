@@ -3,7 +3,7 @@
     python3 benches/python.py [--sweep]
 
 Needs the package (`pip install .[dask]`), fmpy, and the FMU (`cargo build-fmu`). Each figure is the least of many short runs
-that take turns, so that another load of the machine hardly counts. The table is that of docs/python.md.
+that take turns, so that another load of the machine hardly counts.
 """
 
 import argparse

@@ -68,7 +68,8 @@ pub use moris_interface::{Group, MOST_INTERNAL_STEPS, ParameterError, SHORTEST_S
 pub use validate::{check, check_rig, warnings};
 pub use washout::{InputCourse, Washout};
 
-// The snippets of this page, as doc tests.
+// The snippets of these pages, as doc tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-mod page {}
+#[doc = include_str!("../docs/rust.md")]
+mod pages {}

@@ -4,7 +4,7 @@
 
 Without a time the plugs follow each other at once; with one they are spread over it, as in a ride. Says what happened, and draws
 it. Fails if a leg leaves its stroke or its speed, if the frames let a rider feel a jolt, or if an event has not the effect that
-docs/live.md names. The picture in docs/live.md is that of 150 s.
+docs/live-reference.md names. The picture there is that of 150 s.
 
 Vehicle, command and controller need a machine that keeps real time. Where a process wakes too late, a failure says nothing of the
 command: the exit status is then 77, and the last line says so.

@@ -155,7 +155,7 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
             source_name: source_name.to_owned(),
             what: "key",
             nearest: if is_other_kind(&name) { Vec::new() } else { nearest(&name, RIG_FILE_KEYS.split(' ')) },
-            otherwise: if is_other_kind(&name) { OTHER_KIND } else { "docs/workbench.md lists the keys of a rig file" },
+            otherwise: if is_other_kind(&name) { OTHER_KIND } else { "docs/rig.md lists the keys of a rig file" },
             name,
         });
     }

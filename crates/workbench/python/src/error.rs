@@ -26,7 +26,7 @@ pub fn setup(py: Python, error: &Error) -> PyErr {
         Error::UnknownName { what, name, nearest, .. } => {
             let remedy = match nearest.as_slice() {
                 [] if *what == "parameter" => "moris.parameters() lists them".to_owned(),
-                [] => "docs/workbench.md lists the keys of a rig".to_owned(),
+                [] => "docs/rig.md lists the keys of a rig".to_owned(),
                 near => format!("did you mean {}?", near.join(" or ")),
             };
             let message = format!("there is no {what} {name}; {remedy}");
