@@ -62,12 +62,12 @@ struct Real {
 }
 
 impl Vehicle {
-    /// The vehicle in this file. Outputs are connected to the washout's inputs of the same name, and
-    /// as `connected` says by `OUTPUT=INPUT`.
+    /// The vehicle in this file. Outputs are connected to the washout's inputs of the same name,
+    /// and as `connected` says by `OUTPUT=INPUT`.
     ///
     /// # Errors
-    /// The file is no FMU of FMI 2.0 for co-simulation, lacks a variable, or leaves a specific force
-    /// without an output.
+    /// The file is no FMU of FMI 2.0 for co-simulation, lacks a variable, or leaves a specific
+    /// force without an output.
     pub fn open(file: &Path, connected: &[String]) -> Result<Self, Error> {
         let refused = |reason: String| Error::Base { file: file.to_owned(), reason };
         let bytes = fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
