@@ -9,6 +9,8 @@
 - Sentences: their length in words, in the pages, in the documentation packed into the FMUs, in doc comments and in Python's
   docstrings. Code, tables and headings do not count. A list's item ends a sentence; a link counts as its
   text, a piece of code as one word. A mean of at most 16 words a page (not of docstrings), none above 30.
+- Wording of the pages: no sentence begins with a pronoun in place of its subject, and none has a word of BETTER_WORDS, which
+  has a better one for each. PERMITTED_OPENINGS has the exceptions.
 - Lines: at most 100 columns of prose, in the pages and in doc comments. Tables, code, pictures,
   addresses and descriptions of variables may be wider.
 
@@ -38,6 +40,26 @@ DOC_COMMENT = re.compile(r"^\s*//[/!] ?(?P<text>.*)$")
 # A row of a table of variables: the comment above it is the variable's description, one line.
 VARIABLE = re.compile(r'\s*(?:Tunable |Fixed )?"[\w.@#\[\]]+" \w+:')
 OPENING = re.compile(r"(What|Whether|How)\b")
+# "This page has" names its subject; "This has" does not.
+PRONOUN_OPENING = re.compile(
+    r"[*(]*(It|They|Them|He|She|Who|Whoever|(This|These|Those|That)(?= "
+    r"(is|are|was|were|has|have|had|does|do|can|may|must|will|would|takes|gives|needs|holds|makes|costs|means|shows|says)\b))\b"
+)
+BETTER_WORDS = {
+    "asks? more": "exceeds",
+    "as a person": "as the operator",
+    "go(es)? on": "continues",
+    "hardly": "nearly no",
+    "mak(e|es|ing) up for": "compensates",
+    "of a person": "of the operator",
+    "of one's own": "of your own",
+    "seldom": "rarely",
+    "what it would": "what the platform would",
+    "who sets": "the default is",
+}
+BANNED_WORD = re.compile(rf"\b({'|'.join(BETTER_WORDS)})\b", re.IGNORECASE)
+# Beginnings of sentences to which the two rules do not apply, each with its reason.
+PERMITTED_OPENINGS: dict[str, str] = {}
 LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 # A point, question or exclamation mark ends a sentence if a capital, a digit or code follows; a colon does not.
 SENTENCE_END = re.compile(r"(?<=[.!?])[)\"'*]*\s+(?=[\"'(*`]*[A-Z0-9`])")
@@ -259,6 +281,22 @@ def lengths(pages):
     return found, all_counts
 
 
+def wording(pages):
+    """Sentences of the pages that begin with a pronoun or have a banned word."""
+    found = []
+    for page in pages:
+        for begin, paragraph in paragraphs(page):
+            for sentence in sentences(paragraph):
+                pronoun, banned = PRONOUN_OPENING.match(sentence), BANNED_WORD.search(sentence)
+                if sentence.startswith(tuple(PERMITTED_OPENINGS)) or not (pronoun or banned):
+                    continue
+                better = "name the subject"
+                if not pronoun:
+                    better = next(b for w, b in BETTER_WORDS.items() if re.fullmatch(w, banned[0], re.IGNORECASE))
+                found.append(Finding(page, begin, f"{(pronoun or banned)[0]!r} ({better}): {sentence}"))
+    return found
+
+
 def fragments(sources):
     """Doc comments of few words."""
     texts = ((file, begin, " ".join(run).split()) for file in sources for begin, run in doc_comments(file))
@@ -300,18 +338,20 @@ def main():
     for file in [*sources, *pages] if arguments.wrap else []:
         wrap(file)
     (opening, comments), (long, counts), columns = openings(sources), lengths([*pages, *packed, *sources, *scripts]), wide(sources, pages)
+    worded = wording(pages)
     mean = sum(counts) / max(len(counts), 1)
     fraction = len(opening) / max(comments, 1)
     short = fragments(sources)
     fraction_short = len(short) / max(comments, 1)
     if arguments.list:
-        for finding in [*opening, *(short if fraction_short > FRAGMENTS else []), *long, *columns]:
+        for finding in [*opening, *(short if fraction_short > FRAGMENTS else []), *long, *worded, *columns]:
             print(finding)
     print(f"{len(opening)} of {comments} doc comments begin with What, Whether or How: {fraction:.1%} (at most {OPENINGS:.1%})")
     print(f"{len(short)} doc comments have at most {FRAGMENT} words: {fraction_short:.1%} (at most {FRAGMENTS:.1%})")
     print(f"{len(counts)} sentences of {mean:.1f} words in the mean: {len(long)} above {LONGEST}, or pages above {MEAN:.0f} (none)")
+    print(f"{len(worded)} sentences of the pages begin with a pronoun or have a banned word (none)")
     print(f"{len(columns)} lines of prose above {COLUMNS} columns (none)")
-    met = fraction <= OPENINGS and fraction_short <= FRAGMENTS and not long and not columns
+    met = fraction <= OPENINGS and fraction_short <= FRAGMENTS and not long and not worded and not columns
     return 1 if arguments.check and not met else 0
 
 

@@ -3,9 +3,29 @@
 import subprocess
 import sys
 
+import prose
+import pytest
 from conftest import ROOT
 
 
 def test_the_prose_keeps_its_rules():
     done = subprocess.run([sys.executable, "tests/prose.py", "--check", "--list"], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    "sentence, found",
+    [
+        ("It stops.", "It"),
+        ("This is a limit.", "This"),
+        ("The platform stops. They return.", "They"),
+        ("The rider hardly notices it.", "hardly"),
+        ("This page lists limits.", None),
+        ("The platform stops: it returns.", None),
+    ],
+)
+def test_pronoun_openings_and_banned_words_are_found(tmp_path, sentence, found):
+    page = tmp_path / "page.md"
+    page.write_text(f"# Title\n\n{sentence}\n")
+    texts = [finding.text for finding in prose.wording([page])]
+    assert len(texts) == (found is not None) and all(text.startswith(repr(found)) for text in texts), texts
