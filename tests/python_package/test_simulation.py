@@ -27,6 +27,25 @@ def test_a_simulation_is_a_run_of_the_washout(ride):
     assert np.array_equal(simulation["vehicle.specificForce"], force)
 
 
+def test_a_comparison_has_every_strategy_and_other_washouts_of_each_recording(ride):
+    def at_rest(recording):
+        neutral = [0.0, 0.0, moris.parameters()["rig.neutralHeight"], 0.0, 0.0, 0.0]
+        return moris.measure(recording, pose=np.tile(neutral, (round(recording.duration / recording.step) + 1, 1)))
+
+    slower = ride | {"ax": 0.5 * ride["ax"]}
+    compared = moris.compare([ride, slower], {"at rest": at_rest})
+    names = [*get_args(_types.Strategy), "at rest"]
+    assert [one.name for one in compared] == names * 2
+    table = compared.to_pandas()
+    assert list(table.index.get_level_values("washout")) == names * 2
+    robust = moris.simulate(ride, strategy="robust")
+    assert table["specific force x RMS error"].iloc[4] == robust.measures["specific force x RMS error"]
+    assert compared[5].measures["specific force x RMS error"] > 1.01 * robust.measures["specific force x RMS error"]
+    figure = compared.plot()
+    assert [len(axis.lines) for axis in figure.axes] == [len(names) + 1] * 4
+    assert len(moris.compare(ride, strategies=["optimal"])) == 1
+
+
 def test_a_preview_is_the_recordings_own_future(ride):
     """Means over a triangle around each element, as docs/strategies/predictive.md says."""
     force = np.column_stack([ride["ax"], ride["ay"], ride["az"]])

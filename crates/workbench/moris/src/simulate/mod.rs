@@ -70,8 +70,9 @@ pub struct Options {
     #[command(flatten)]
     setup: SetupOptions,
 
-    /// Parameters to compare with the first ones: files or shipped sets
-    #[arg(long, alias = "against", value_name = "FILE|NAME")]
+    /// Parameters to compare with the first ones: files, shipped sets, or "strategies", the other
+    /// strategies with the first parameters
+    #[arg(long, alias = "against", value_name = "FILE|NAME|strategies")]
     compare: Vec<String>,
 
     /// Also simulate the predictive strategy with a preview of the recording's
@@ -235,6 +236,9 @@ impl Case {
     }
 }
 
+/// Value of `--compare` that means every other strategy.
+const ALL_STRATEGIES: &str = "strategies";
+
 /// The parameters, the ones to compare, again those of the predictive strategy with the preview,
 /// and the motions of other washouts.
 fn cases(options: &Options) -> Result<Vec<Case>> {
@@ -247,6 +251,13 @@ fn cases(options: &Options) -> Result<Vec<Case>> {
     let judged: Vec<Case> = felt.chain(fmu).collect();
     let mut cases = vec![Case::of(first)];
     for other in &options.compare {
+        if other == ALL_STRATEGIES {
+            let own = cases[0].setup.parameters.structure.strategy;
+            let others = StrategyKind::ALL.iter().filter(|kind| **kind != own);
+            let with = |kind: &StrategyKind| SetupOptions { strategy: Some(*kind), ..options.setup.clone() }.load();
+            cases.extend(others.map(with).collect::<Result<Vec<_>, _>>()?.into_iter().map(Case::of));
+            continue;
+        }
         let setup = Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?;
         cases.push(Case::of(setup));
     }

@@ -516,6 +516,19 @@ fn a_preview_is_simulated_beside_the_strategy_without_it() {
     assert!(text(&refused.stderr).contains("--preview is for the predictive strategy alone"), "{refused:?}");
 }
 
+#[test]
+fn every_strategy_stands_beside_the_first() {
+    let directory = tempfile::tempdir().unwrap();
+    write_recording(directory.path(), "ride.csv");
+    let arguments = ["simulate", "ride.csv", "--no-bound", "--json", "--strategy", "robust", "--compare", "strategies"];
+    let output = moris(directory.path(), &arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for name in ["classical", "adaptive", "optimal", "predictive"] {
+        assert!(directory.path().join(format!("moris-report/ride.{name}.outputs.csv")).exists(), "{name}");
+    }
+    assert!(!directory.path().join("moris-report/ride.robust.outputs.csv").exists());
+}
+
 /// A minute at 1 kHz: two sets are shown with every sample, three with the extremes of intervals.
 #[test]
 fn the_page_of_a_long_recording_has_its_largest_size() {

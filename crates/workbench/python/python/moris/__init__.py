@@ -4,6 +4,7 @@ Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z, so that p
 are in SI units. Variables have the names that they have in the FMU.
 """
 
+from ._compare import Comparison, compare
 from ._errors import BoundError, BuildError, ExecutorError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
 from ._fit import AxisShape, Candidate, Fit, fit
 from ._fmu import build_fmu
@@ -27,6 +28,7 @@ __all__ = [
     "BoundError",
     "BuildError",
     "Candidate",
+    "Comparison",
     "ExecutorError",
     "Fit",
     "FrequencyResponse",
@@ -51,6 +53,7 @@ __all__ = [
     "best",
     "bound",
     "build_fmu",
+    "compare",
     "fit",
     "frequency_response",
     "measure",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -40,6 +41,24 @@ def plot(simulation: Simulation, figure: Any = None) -> Any:
     for axis in axes[2]:
         axis.set_xlabel("time [s]")
     figure.suptitle(simulation.name)
+    return figure
+
+
+def plot_felt(simulations: Sequence[Simulation], figure: Any = None) -> Any:
+    """Felt surge and sway of each simulation over the desired one, a row for each recording."""
+    recordings = list({id(one.recording): one.recording for one in simulations}.values())
+    figure = _figure(figure, (11, 3.2 * len(recordings)))
+    axes = figure.subplots(len(recordings), 2, squeeze=False)
+    for row, recording in zip(axes, recordings):
+        of_it = [one for one in simulations if one.recording is recording]
+        for k, axis in enumerate(row):
+            axis.plot(of_it[0].time, of_it[0].desired[0][:, k], color="0.6", linewidth=2.0, label="desired")
+            for one in of_it:
+                axis.plot(one.time, one["rider.specificForce"][:, k], linewidth=0.9, label=one.name)
+            _frame(axis, f"{recording.name}: {FORCES[k]} [m/s²]")
+        row[0].legend(loc="upper right", fontsize="small")
+    for axis in axes[-1]:
+        axis.set_xlabel("time [s]")
     return figure
 
 
