@@ -146,6 +146,11 @@ impl Steps<'_> {
             digest.take(&commands);
             self.frames.take(&commands);
             self.shared.state.store(commands.state as u8, Ordering::Relaxed);
+            // The reason before what follows from it.
+            if self.session.source().health() != health {
+                health = self.session.source().health();
+                self.note(Note::Source(commands.time, health), &mut summary);
+            }
             if commands.state != state {
                 state = commands.state;
                 if state == State::Parking {
@@ -153,10 +158,6 @@ impl Steps<'_> {
                     let _ = self.parking.push(self.session.without_road());
                 }
                 self.note(Note::State(commands.time, state), &mut summary);
-            }
-            if self.session.source().health() != health {
-                health = self.session.source().health();
-                self.note(Note::Source(commands.time, health), &mut summary);
             }
             if summary.steps.is_multiple_of(TELEMETRY_CHECK_STEPS) {
                 let Steps { session, journal, .. } = &mut *self;

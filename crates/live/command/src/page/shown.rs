@@ -59,8 +59,9 @@ impl Shown {
     pub fn of(session: &Session, lateness: &Lateness, is_lost: bool) -> Self {
         let Values { time, length, pose, force, .. } = Values::from(session.commands());
         let lamps = lamps::lit(session.washout()).map(f64::from);
+        let scale = session.washout().output().scale_factor;
         let mut parts = [time].into_iter().chain(session.passed().0.iter().copied());
-        let mut rest = force.into_iter().chain(pose).chain(length).chain(lamps);
+        let mut rest = force.into_iter().chain(pose).chain(length).chain(lamps).chain([scale]);
         Shown {
             numbers: std::array::from_fn(|_| parts.next().or_else(|| rest.next()).unwrap_or_default()),
             state: session.state(),
@@ -118,7 +119,7 @@ mod tests {
             ("platform_z", commands.pose.position.z),
             ("leg6", commands.length[5]),
             ("leg_acceleration", 0.0),
-            ("scale", 0.0),
+            ("scale", 1.0),
         ] {
             assert!((of(name) - expected).abs() <= 5e-6, "{name}");
         }

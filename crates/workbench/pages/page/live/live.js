@@ -31,6 +31,8 @@ function say(text) {
 
 /** States in which the platform rests. */
 const RESTING = ["off", "settled", "neutral"];
+/** States in which the legs are where they park. */
+const PARKED = ["off", "settled"];
 /** The next sensible command in a state; in the others the platform is on its way. */
 const NEXT = { off: "start", settled: "start", neutral: "engage", fault: "clear", engaged: "disengage" };
 
@@ -115,7 +117,7 @@ function take({ rows, state, health, delay, late, lines, changed, holder, is_los
     strips.surge.push(view.time, view.desired_x, view.felt_x);
     strips.sway.push(view.time, view.desired_y, view.felt_y);
     now.recorded?.push(RECORDED.map((name) => view[name]).join(","));
-    now.view = { ...view, lean: 0 };
+    now.view = { ...view, lean: 0, parked: PARKED.includes(state) };
     lamps.show(now.view, view.time);
   }
   track.take(learned);
@@ -151,6 +153,7 @@ function connect() {
   events.addEventListener("end", () => {
     events.close();
     setText("state", "ended");
+    setText("health", "");
     now.controls = now.drives = false;
   });
   events.addEventListener("error", () => {

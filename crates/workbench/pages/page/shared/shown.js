@@ -1,6 +1,7 @@
 // What pages with a running platform show beside its drawing: lamps, colours, the state as the drawing takes it.
 
 import { byId, element } from "./dom.js";
+import { fixed } from "./format.js";
 import { colour } from "./palette.js";
 import { rotation } from "./vector.js";
 
@@ -11,7 +12,6 @@ const LAMPS = [
   ["stroke", "Stroke", "A leg is within 5 % of its stroke from an end."],
   ["leg_speed", "Leg speed", "A leg has more than 90 % of its largest speed."],
   ["leg_acceleration", "Leg accel.", "A leg has more than 90 % of its largest acceleration."],
-  ["scale", "Smaller scale", "The automatic scale makes force and rates smaller, so that they are felt the right way round."],
 ];
 /** Time for which a lamp stays lit, so that it can be seen [s]. */
 const GLOW = 0.4;
@@ -28,9 +28,13 @@ export class Lamps {
       list.append(lamp);
       return [name, lamp];
     });
+    this.scale = element("li", { title: "The automatic scale makes force and rates smaller, so that they are felt the right way round." });
+    list.append(this.scale);
   }
 
   show(view, time) {
+    const scale = `Scale ${fixed(view.scale, 2)}`;
+    if (this.scale.textContent !== scale) this.scale.textContent = scale;
     for (const [name, lamp] of this.lamps) {
       if (view[name]) this.lit.set(name, time + GLOW);
       lamp.classList.toggle("lit", time < (this.lit.get(name) ?? 0));
@@ -58,6 +62,7 @@ export function machineState(view) {
     rotation: rotation(view.platform_roll, view.platform_pitch, view.platform_yaw),
     lean: view.lean,
     legs: [1, 2, 3, 4, 5, 6].map((leg) => view[`leg${leg}`]),
+    parked: view.parked ?? false,
     desired: [view.desired_x, view.desired_y, view.desired_z],
     felt: [view.felt_x, view.felt_y, view.felt_z],
   };

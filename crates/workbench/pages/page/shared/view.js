@@ -121,7 +121,8 @@ export class View {
     const body = 0.62 * this.rig.stroke[0];
     const ends = legEnds(this.rig, state);
     ends.forEach(([foot, top], i) => {
-      const paint = strokeColour(state.legs[i], this.rig.stroke);
+      // Parked legs are meant to be at their end.
+      const paint = state.parked ? channels(colour("--leg-easy")) : strokeColour(state.legs[i], this.rig.stroke);
       const along = direction(minus(top, foot));
       const mouth = plus(foot, scaled(body, along));
       this.addRod([mouth, top], 0.035, mixed(paint, [255, 255, 255], 0.35));

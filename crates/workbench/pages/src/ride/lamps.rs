@@ -7,11 +7,8 @@ use moris_washout::Washout;
 const NEAR_END: f64 = 0.05;
 const NEAR_LIMIT: f64 = 0.9;
 
-/// Automatic scale below which its lamp lights.
-const SMALL_SCALE: f64 = 0.9;
-
 /// Names of the lamps.
-pub const NAMES: [&str; 7] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration", "scale"];
+pub const NAMES: [&str; 6] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
 
 /// The lamps that are lit now.
 pub fn lit(washout: &Washout) -> [bool; NAMES.len()] {
@@ -25,6 +22,5 @@ pub fn lit(washout: &Washout) -> [bool; NAMES.len()] {
         now.stroke_margin < NEAR_END * (rig.max_length - rig.min_length),
         any(&now.leg_velocity, rig.velocity_limit),
         any(&rates.leg_velocity, rig.acceleration_limit),
-        now.scale_factor < SMALL_SCALE,
     ]
 }

@@ -332,6 +332,7 @@ impl Ride {
         );
         view.extend(["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"].into_iter().zip(out.length));
         view.extend(lamps::NAMES.into_iter().zip(lamps));
+        view.push(("scale", out.scale_factor));
         view
     }
 }
