@@ -9,40 +9,40 @@ use alloc::{vec, vec::Vec};
 use serde::{Deserialize, Serialize};
 
 use crate::account::Gain;
-use crate::smooth::{LAG, LATEST, LATEST_LAG};
+use crate::smooth::{LAG_TICKS, LATEST_FORCE_TICKS, LATEST_LAG};
 use crate::ticks::TICK;
 
 /// Times ahead: the preview's elements, and one more to interpolate.
-pub const AHEAD: usize = 21;
+pub const FORECAST_POINTS: usize = 21;
 /// Ticks from one to the next.
-pub const SPACING: usize = 4;
+pub const POINT_SPACING_TICKS: usize = 4;
 /// Forecasts that are kept.
-const KEPT: usize = AHEAD * SPACING + LAG + 1;
+const KEPT_FORECASTS: usize = FORECAST_POINTS * POINT_SPACING_TICKS + LAG_TICKS + 1;
 /// Time constant of the fit \[s\].
 const FIT_TIME: f64 = 60.0;
 /// Weight of the prior of b: squared force, summed over ticks \[(m/s2)^2\].
-const PRIOR: f64 = 50.0;
+const PRIOR_WEIGHT: f64 = 50.0;
 /// Time constant with which a trend fades \[s\].
 const TREND_TIME: f64 = 1.5;
 /// Time constant of the prior of b \[s\].
 const LASTING_TIME: f64 = 0.5;
 /// Range of b.
-const CARRIED: [f64; 2] = [0.0, 1.0];
+const COEFFICIENT_RANGE: [f64; 2] = [0.0, 1.0];
 /// Time constants with which a mean squared error follows larger and smaller ones \[s\]. The first
 /// is that of a forecast that proves itself, too.
 const ERROR_TIMES: [f64; 2] = [2.0, 8.0];
 /// Time constant of the mean squared error at present \[s\].
 const NOW_TIME: f64 = 0.5;
 /// A forecast proves itself where its squared error now is below this part of that without memory.
-const PROVED: f64 = 0.25;
+const PROVED_ERROR_RATIO: f64 = 0.25;
 /// Elements whose errors count: 0.4, 1 and 2 s ahead.
-const COMPARED: [usize; 3] = [1, 4, 9];
+const COMPARED_ELEMENTS: [usize; 3] = [1, 4, 9];
 /// Forecasts without memory.
-const PLAIN: usize = 4;
+const MEMORYLESS_FORECASTS: usize = 4;
 /// Squared error added to the least one without memory \[(m/s2)^2\].
-const FLOOR: f64 = 0.002;
+const ERROR_FLOOR: f64 = 0.002;
 /// Ratio of the squared errors at which the forecast has half of the trust.
-const HALF: f64 = 0.6;
+const HALF_TRUST_RATIO: f64 = 0.6;
 
 /// A forecast, kept until its times have come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,19 +53,19 @@ struct Made {
     /// The preview was given.
     is_given: bool,
     /// Force of the earlier passes at the times to come \[m/s2\].
-    passes: [f64; AHEAD],
+    passes: [f64; FORECAST_POINTS],
     /// Present force less that of the earlier passes \[m/s2\].
     difference: f64,
     /// The forecast at the compared times \[m/s2\].
-    forces: [f64; COMPARED.len()],
+    forces: [f64; COMPARED_ELEMENTS.len()],
     present: Present,
     /// What a wave was expected to be at the compared times \[m/s2\].
-    waves: [f64; COMPARED.len()],
+    waves: [f64; COMPARED_ELEMENTS.len()],
 }
 
 /// Time ahead of an element \[s\].
 pub fn time_ahead(element: usize) -> f64 {
-    TICK * ((element + 1) * SPACING) as f64
+    TICK * ((element + 1) * POINT_SPACING_TICKS) as f64
 }
 
 /// Growth of a trend up to an element's time; it fades \[s\].
@@ -87,7 +87,8 @@ struct Fit {
 
 impl Fit {
     fn carried(&self, prior: f64) -> f64 {
-        ((self.products + PRIOR * prior) / (self.squares + PRIOR)).clamp(CARRIED[0], CARRIED[1])
+        ((self.products + PRIOR_WEIGHT * prior) / (self.squares + PRIOR_WEIGHT))
+            .clamp(COEFFICIENT_RANGE[0], COEFFICIENT_RANGE[1])
     }
 }
 
@@ -115,11 +116,11 @@ impl Wave {
     /// The forecast, by L D L' of the sums with a prior.
     fn forecast(&self, present: &Present) -> f64 {
         let s = &self.squares;
-        let d0 = s[0][0] + PRIOR;
+        let d0 = s[0][0] + PRIOR_WEIGHT;
         let [l1, l2] = [s[1][0] / d0, s[2][0] / d0];
-        let d1 = s[1][1] + PRIOR - l1 * s[1][0];
+        let d1 = s[1][1] + PRIOR_WEIGHT - l1 * s[1][0];
         let m2 = (s[2][1] - l1 * s[2][0]) / d1;
-        let d2 = s[2][2] + PRIOR - l2 * s[2][0] - m2 * m2 * d1;
+        let d2 = s[2][2] + PRIOR_WEIGHT - l2 * s[2][0] - m2 * m2 * d1;
         let solved = |v: &Present| {
             let y1 = v[1] - l1 * v[0];
             [v[0], y1, v[2] - l2 * v[0] - m2 * y1]
@@ -135,14 +136,14 @@ pub struct Record {
     /// A ring, with the latest forecast at `latest`.
     made: Vec<Made>,
     latest: usize,
-    fits: [Fit; AHEAD],
+    fits: [Fit; FORECAST_POINTS],
     /// Mean squared error of the forecasts, and of the passes at present \[(m/s2)^2\].
     error: f64,
     error_now: f64,
     /// Those without memory, at each of the compared times: of the present force held, of no force,
     /// of a trend, and of a wave.
-    plain: [[f64; PLAIN]; COMPARED.len()],
-    waves: [Wave; COMPARED.len()],
+    plain: [[f64; MEMORYLESS_FORECASTS]; COMPARED_ELEMENTS.len()],
+    waves: [Wave; COMPARED_ELEMENTS.len()],
     /// Of the forecasts whose times have come with the latest tick.
     gain: Gain,
 }
@@ -150,13 +151,13 @@ pub struct Record {
 impl Default for Record {
     fn default() -> Self {
         Record {
-            made: vec![Made::default(); KEPT],
+            made: vec![Made::default(); KEPT_FORECASTS],
             latest: 0,
-            fits: [Fit::default(); AHEAD],
+            fits: [Fit::default(); FORECAST_POINTS],
             error: 0.0,
             error_now: 0.0,
-            plain: [[0.0; PLAIN]; COMPARED.len()],
-            waves: [Wave::default(); COMPARED.len()],
+            plain: [[0.0; MEMORYLESS_FORECASTS]; COMPARED_ELEMENTS.len()],
+            waves: [Wave::default(); COMPARED_ELEMENTS.len()],
             gain: Gain::default(),
         }
     }
@@ -168,27 +169,27 @@ impl Record {
         self.made.fill(Made::default());
     }
 
-    /// Goes on to the next tick with the force [`LAG`] ticks ago, and the present one with its
+    /// Goes on to the next tick with the force [`LAG_TICKS`] ticks ago, and the present one with its
     /// slope. `passes` are the forces of the earlier passes to come and at present, if there are
     /// any. Returns the forecast.
     pub fn tick(
         &mut self,
         truth: f64,
         [held, slope]: [f64; 2],
-        passes: Option<(&[f64; AHEAD], f64)>,
-    ) -> Option<[f64; AHEAD]> {
-        self.latest = (self.latest + 1) % KEPT;
+        passes: Option<(&[f64; FORECAST_POINTS], f64)>,
+    ) -> Option<[f64; FORECAST_POINTS]> {
+        self.latest = (self.latest + 1) % KEPT_FORECASTS;
         self.compare(truth);
-        let before = &self.made[(self.latest + KEPT - LATEST) % KEPT];
+        let before = &self.made[(self.latest + KEPT_FORECASTS - LATEST_FORCE_TICKS) % KEPT_FORECASTS];
         let present = [held, slope, if before.is_known { before.present[1] } else { slope }];
         let waves = self.waves.map(|wave| wave.forecast(&present));
         self.made[self.latest] = Made { is_known: true, present, waves, ..Made::default() };
         let (passes, now) = passes?;
         let difference = held - now;
         self.error_now += TICK / NOW_TIME * (difference * difference - self.error_now);
-        let forecast: [f64; AHEAD] =
+        let forecast: [f64; FORECAST_POINTS] =
             core::array::from_fn(|k| passes[k] + self.fits[k].carried(lasting_part(k)) * difference);
-        let forces = COMPARED.map(|k| forecast[k]);
+        let forces = COMPARED_ELEMENTS.map(|k| forecast[k]);
         self.made[self.latest] = Made {
             is_known: true,
             is_made: true,
@@ -206,7 +207,8 @@ impl Record {
         let [rising, falling] = ERROR_TIMES.map(|time| TICK / time);
         let keep = 1.0 - TICK / FIT_TIME;
         for (k, fit) in self.fits.iter_mut().enumerate() {
-            let made = &self.made[(self.latest + KEPT - LAG - (k + 1) * SPACING) % KEPT];
+            let made =
+                &self.made[(self.latest + KEPT_FORECASTS - LAG_TICKS - (k + 1) * POINT_SPACING_TICKS) % KEPT_FORECASTS];
             if made.is_made {
                 fit.squares = keep * fit.squares + made.difference * made.difference;
                 fit.products = keep * fit.products + made.difference * (truth - made.passes[k]);
@@ -214,17 +216,20 @@ impl Record {
         }
         let [mut square, mut without, mut count] = [0.0; 3];
         self.gain = Gain::default();
-        for (k, element) in COMPARED.into_iter().enumerate() {
-            let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
+        for (k, element) in COMPARED_ELEMENTS.into_iter().enumerate() {
+            let made = &self.made
+                [(self.latest + KEPT_FORECASTS - LAG_TICKS - (element + 1) * POINT_SPACING_TICKS) % KEPT_FORECASTS];
             let [held, slope, _] = made.present;
             let plain = [held, 0.0, held + slope * trend_growth(element), made.waves[k]];
             let squares = plain.map(|forecast| (forecast - truth) * (forecast - truth));
             if made.is_made {
-                let best = (0..PLAIN).min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b])).unwrap_or(0);
+                let best = (0..MEMORYLESS_FORECASTS)
+                    .min_by(|a, b| self.plain[k][*a].total_cmp(&self.plain[k][*b]))
+                    .unwrap_or(0);
                 without += squares[best];
                 let error = (made.forces[k] - truth) * (made.forces[k] - truth);
                 square += error;
-                let gain = (squares[best] - error) / COMPARED.len() as f64;
+                let gain = (squares[best] - error) / COMPARED_ELEMENTS.len() as f64;
                 if made.is_given {
                     self.gain.given += gain;
                 } else {
@@ -241,10 +246,10 @@ impl Record {
         }
         if count > 0.0 {
             let mean = square / count;
-            let is_quick = mean > self.error || square < PROVED * without;
+            let is_quick = mean > self.error || square < PROVED_ERROR_RATIO * without;
             self.error += if is_quick { rising } else { falling } * (mean - self.error);
         } else {
-            self.error = self.error_without_memory() + FLOOR;
+            self.error = self.error_without_memory() + ERROR_FLOOR;
         }
     }
 
@@ -260,7 +265,7 @@ impl Record {
 
     /// The weight that the forecast deserves against those without memory, from 0 to 1.
     pub fn trust(&self) -> f64 {
-        let ratio = self.error.max(self.error_now) / (HALF * (self.error_without_memory() + FLOOR));
+        let ratio = self.error.max(self.error_now) / (HALF_TRUST_RATIO * (self.error_without_memory() + ERROR_FLOOR));
         1.0 / (1.0 + ratio * ratio * ratio * ratio)
     }
 
@@ -268,6 +273,6 @@ impl Record {
     /// a trend, or a wave \[(m/s2)^2\].
     pub fn error_without_memory(&self) -> f64 {
         self.plain.iter().map(|errors| errors.iter().copied().fold(f64::INFINITY, f64::min)).sum::<f64>()
-            / COMPARED.len() as f64
+            / COMPARED_ELEMENTS.len() as f64
     }
 }

@@ -4,23 +4,23 @@ use moris_washout::Preview;
 use serde::{Deserialize, Serialize};
 
 use crate::account::Account;
-use crate::forecast::{AHEAD, Record, SPACING, time_ahead};
-use crate::line::{CAPACITY, Line, Point};
-use crate::pass::{PASSES, Pass, UNKNOWN, fade};
-use crate::search::{APART, LEAST_AGE, Search};
-use crate::smooth::{LAG, LATEST_LAG, Smooth};
+use crate::forecast::{FORECAST_POINTS, POINT_SPACING_TICKS, Record, time_ahead};
+use crate::line::{Line, MAX_POINTS, Point};
+use crate::pass::{MAX_PASSES, Pass, UNKNOWN_PASS_ERROR, fade};
+use crate::search::{LEAST_AGE, MIN_PASS_DISTANCE, Search};
+use crate::smooth::{LAG_TICKS, LATEST_LAG, Smooth};
 use crate::ticks::{Sample, TICK, Ticks};
 
 /// Ticks of the vehicle's way with which a found pass is compared.
-const COMPARED: u64 = 80;
+const COMPARED_TICKS: u64 = 80;
 /// Below this speed there is no line to follow \[m/s\].
 const LEAST_SPEED: f64 = 1.0;
 /// Squared error added to those of passes before they are weighed \[(m/s2)^2\].
 const WEIGHT_FLOOR: f64 = 0.02;
 /// Difference of the pace from 1 at which a pass has half of its weight.
-const ALIKE: f64 = 0.05;
+const HALF_WEIGHT_PACE_DIFFERENCE: f64 = 0.05;
 /// Trust from which on there is a preview, and below which there is none any more.
-const GIVEN: [f64; 2] = [0.5, 0.2];
+const PREVIEW_TRUST_THRESHOLDS: [f64; 2] = [0.5, 0.2];
 
 /// A memory of the road, and the preview by it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,9 +28,9 @@ pub struct Laps {
     ticks: Ticks,
     smooth: Smooth,
     line: Line,
-    passes: [Option<Pass>; PASSES],
+    passes: [Option<Pass>; MAX_PASSES],
     /// Force of surge and sway to come by the passes \[m/s2\].
-    forecast: Option<[[f64; AHEAD]; 2]>,
+    forecast: Option<[[f64; FORECAST_POINTS]; 2]>,
     records: [Record; 2],
     search: Search,
     account: Account,
@@ -104,9 +104,9 @@ impl Laps {
         }
         let elements = preview.surge.len();
         preview.count = elements as i32;
-        let fraction = self.ticks.since() / (SPACING as f64 * TICK);
+        let fraction = self.ticks.since() / (POINT_SPACING_TICKS as f64 * TICK);
         for k in 0..elements {
-            let at = |forecast: &[f64; AHEAD]| forecast[k] + fraction * (forecast[k + 1] - forecast[k]);
+            let at = |forecast: &[f64; FORECAST_POINTS]| forecast[k] + fraction * (forecast[k + 1] - forecast[k]);
             (preview.surge[k], preview.sway[k]) = (at(surge), at(sway));
         }
         preview
@@ -126,8 +126,8 @@ fn overall_trust(records: &[Record; 2]) -> f64 {
 struct Whole<'a> {
     smooth: &'a mut Smooth,
     line: &'a mut Line,
-    passes: &'a mut [Option<Pass>; PASSES],
-    forecast: &'a mut Option<[[f64; AHEAD]; 2]>,
+    passes: &'a mut [Option<Pass>; MAX_PASSES],
+    forecast: &'a mut Option<[[f64; FORECAST_POINTS]; 2]>,
     records: &'a mut [Record; 2],
     search: &'a mut Search,
     account: &'a mut Account,
@@ -138,7 +138,7 @@ impl Whole<'_> {
     fn interrupt(&mut self) {
         *self.smooth = Smooth::default();
         self.line.interrupt();
-        *self.passes = [None; PASSES];
+        *self.passes = [None; MAX_PASSES];
         *self.search = Search::default();
         *self.is_given = false;
         *self.forecast = None;
@@ -181,7 +181,7 @@ impl Whole<'_> {
         let sway = sway.tick(point.force[1], held[1], of_axis(1));
         *self.forecast = surge.zip(sway).map(|(surge, sway)| [surge, sway]);
         self.account.tick(point.force, [self.records[0].gain(), self.records[1].gain()]);
-        let is_trusted = overall_trust(self.records) > GIVEN[usize::from(*self.is_given)];
+        let is_trusted = overall_trust(self.records) > PREVIEW_TRUST_THRESHOLDS[usize::from(*self.is_given)];
         *self.is_given = self.forecast.is_some() && is_trusted && self.account.allows(*self.is_given);
         if *self.is_given {
             self.records.iter_mut().for_each(Record::give);
@@ -191,9 +191,10 @@ impl Whole<'_> {
     /// Keeps the latest of passes that have come together, and gives up those that are not past.
     fn drop_doubles(&mut self) {
         let newest = self.line.next() as f64 - LEAST_AGE as f64;
-        for k in 0..PASSES {
+        for k in 0..MAX_PASSES {
             let Some(pass) = self.passes[k] else { continue };
-            let doubles = self.passes[..k].iter().flatten().any(|other| (other.number - pass.number).abs() < APART);
+            let doubles =
+                self.passes[..k].iter().flatten().any(|other| (other.number - pass.number).abs() < MIN_PASS_DISTANCE);
             if doubles || pass.number > newest {
                 self.passes[k] = None;
             }
@@ -214,12 +215,12 @@ impl Whole<'_> {
         let now = self.line.next() - 1;
         // As if ten points of an unknown pass had been compared.
         let mut count = 10.0;
-        let mut sums = [UNKNOWN * count; 2];
+        let mut sums = [UNKNOWN_PASS_ERROR * count; 2];
         let run = self.line.point(now).map(|point| point.run);
-        for back in 0..COMPARED.min(number).min(now) {
+        for back in 0..COMPARED_TICKS.min(number).min(now) {
             // The vehicle's last point is older than its place.
             let (Some(own), Some(then)) =
-                (self.line.point(now - back), self.line.point(number.saturating_sub(back + LAG as u64)))
+                (self.line.point(now - back), self.line.point(number.saturating_sub(back + LAG_TICKS as u64)))
             else {
                 break;
             };
@@ -235,21 +236,21 @@ impl Whole<'_> {
     }
 
     /// Forces to come and present forces by the passes, weighted by their errors.
-    fn by_passes(&self) -> Option<([[f64; AHEAD]; 2], [f64; 2])> {
-        let mut ahead = [[0.0; AHEAD]; 2];
+    fn by_passes(&self) -> Option<([[f64; FORECAST_POINTS]; 2], [f64; 2])> {
+        let mut ahead = [[0.0; FORECAST_POINTS]; 2];
         let mut now = [0.0; 2];
         let mut weights = [0.0; 2];
         // Parts of the differences of the pace that are left at the times ahead.
-        let fades: [f64; AHEAD] = core::array::from_fn(|k| fade(time_ahead(k)));
+        let fades: [f64; FORECAST_POINTS] = core::array::from_fn(|k| fade(time_ahead(k)));
         for pass in self.passes.iter().flatten() {
-            let mut forces = [[0.0; 2]; AHEAD];
+            let mut forces = [[0.0; 2]; FORECAST_POINTS];
             let is_known = forces.iter_mut().enumerate().all(|(k, force)| {
                 let there = pass.force_ahead(self.line, time_ahead(k), fades[k]);
                 *force = there.unwrap_or_default();
                 there.is_some()
             });
             let Some(present) = pass.force_ago(self.line, LATEST_LAG).filter(|_| is_known) else { continue };
-            let difference = (pass.pace - 1.0) / ALIKE;
+            let difference = (pass.pace - 1.0) / HALF_WEIGHT_PACE_DIFFERENCE;
             let alike = 1.0 / (1.0 + difference * difference);
             for axis in 0..2 {
                 let weight = alike / (pass.errors[axis] + WEIGHT_FLOOR);
@@ -265,4 +266,4 @@ impl Whole<'_> {
     }
 }
 
-const _: () = assert!(CAPACITY as u64 > LEAST_AGE);
+const _: () = assert!(MAX_POINTS as u64 > LEAST_AGE);

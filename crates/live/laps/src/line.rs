@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 use crate::ticks::distance;
 
 /// Points that are kept: 27 minutes.
-pub const CAPACITY: usize = 1 << 15;
+pub const MAX_POINTS: usize = 1 << 15;
 /// Lists of points by cell.
-const LISTS: usize = 1 << 13;
+const CELL_LIST_COUNT: usize = 1 << 13;
 /// Side of a cell \[m\].
-const CELL: f64 = 10.0;
+const CELL_SIZE: f64 = 10.0;
 /// Least distance of listed points \[m\].
-const LISTED: f64 = 2.0;
+const MIN_LISTED_DISTANCE: f64 = 2.0;
 /// Points visited in a cell, at most.
-const VISITS: usize = 128;
+const MAX_CELL_VISITS: usize = 128;
 /// Rows and columns of the cells around a place.
-pub const ROWS: usize = 3;
+pub const NEIGHBOUR_ROWS: usize = 3;
 /// Number that is no point's.
-const NONE: u64 = u64::MAX;
+const NO_POINT: u64 = u64::MAX;
 
 /// A point of the line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Point {
     pub run: u32,
 }
 
-/// The points, numbered from 0 on; the latest [`CAPACITY`] are kept.
+/// The points, numbered from 0 on; the latest [`MAX_POINTS`] are kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line {
     points: Vec<Point>,
@@ -54,9 +54,9 @@ pub struct Line {
 impl Default for Line {
     fn default() -> Self {
         Line {
-            points: vec![Point::default(); CAPACITY],
-            before: vec![NONE; CAPACITY],
-            lists: vec![NONE; LISTS],
+            points: vec![Point::default(); MAX_POINTS],
+            before: vec![NO_POINT; MAX_POINTS],
+            lists: vec![NO_POINT; CELL_LIST_COUNT],
             next: 0,
             run: 0,
             listed: None,
@@ -72,10 +72,10 @@ impl Line {
 
     /// Adds a point to the present stretch.
     pub fn push(&mut self, point: &Point) {
-        let slot = self.next as usize % CAPACITY;
+        let slot = self.next as usize % MAX_POINTS;
         self.points[slot] = Point { run: self.run, ..*point };
-        self.before[slot] = NONE;
-        if self.listed.is_none_or(|listed| distance(&listed, &point.position) >= LISTED) {
+        self.before[slot] = NO_POINT;
+        if self.listed.is_none_or(|listed| distance(&listed, &point.position) >= MIN_LISTED_DISTANCE) {
             let list = list(cell(&point.position));
             self.before[slot] = self.lists[list];
             self.lists[list] = self.next;
@@ -92,14 +92,14 @@ impl Line {
 
     /// The kept points, the oldest first.
     pub fn points(&self) -> impl Iterator<Item = &Point> {
-        let first = self.next.saturating_sub(CAPACITY as u64);
-        (first..self.next).map(|number| &self.points[number as usize % CAPACITY])
+        let first = self.next.saturating_sub(MAX_POINTS as u64);
+        (first..self.next).map(|number| &self.points[number as usize % MAX_POINTS])
     }
 
     /// A point that is kept.
     pub fn point(&self, number: u64) -> Option<&Point> {
-        let is_kept = number < self.next && self.next - number <= CAPACITY as u64;
-        is_kept.then(|| &self.points[number as usize % CAPACITY])
+        let is_kept = number < self.next && self.next - number <= MAX_POINTS as u64;
+        is_kept.then(|| &self.points[number as usize % MAX_POINTS])
     }
 
     /// The line at a number with a fraction; none where it is interrupted.
@@ -114,14 +114,14 @@ impl Line {
     /// point with number `first`.
     pub fn visit_around(&self, position: &[f64; 3], row: usize, first: u64, mut visit: impl FnMut(u64, &Point)) {
         let [x, y] = cell(position);
-        for column in 0..ROWS {
+        for column in 0..NEIGHBOUR_ROWS {
             let [dx, dy] = [column, row].map(|place| place as i64 - 1);
             let mut number = self.lists[list([x.wrapping_add(dx), y.wrapping_add(dy)])];
-            for _ in 0..VISITS {
+            for _ in 0..MAX_CELL_VISITS {
                 let Some(point) = self.point(number).filter(|_| number >= first) else { break };
                 // Those of other cells in the list are far away.
                 visit(number, point);
-                let before = self.before[number as usize % CAPACITY];
+                let before = self.before[number as usize % MAX_POINTS];
                 if before >= number {
                     break;
                 }
@@ -152,10 +152,10 @@ impl Between<'_> {
 }
 
 fn cell(position: &[f64; 3]) -> [i64; 2] {
-    [0, 1].map(|axis| libm::floor(position[axis] / CELL) as i64)
+    [0, 1].map(|axis| libm::floor(position[axis] / CELL_SIZE) as i64)
 }
 
 fn list([x, y]: [i64; 2]) -> usize {
     let mixed = (x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (y as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
-    (mixed >> 32) as usize % LISTS
+    (mixed >> 32) as usize % CELL_LIST_COUNT
 }

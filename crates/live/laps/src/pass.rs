@@ -3,34 +3,34 @@
 use serde::{Deserialize, Serialize};
 
 use crate::line::Line;
-use crate::smooth::{LAG, RoadPoint};
+use crate::smooth::{LAG_TICKS, RoadPoint};
 use crate::ticks::TICK;
 
 /// Passes that are followed at once.
-pub const PASSES: usize = 6;
+pub const MAX_PASSES: usize = 6;
 /// Distance from the remembered line within which the vehicle is on it \[m\].
-pub const NEAR: f64 = 10.0;
+pub const ON_LINE_DISTANCE: f64 = 10.0;
 /// Cosine of the angle between two directions that are the same.
 pub const SAME_DIRECTION: f64 = 0.8;
 /// Points before and after the expected one among which the nearest is searched.
-const BACK: u64 = 6;
-const AHEAD: u64 = 8;
+const SEARCHED_POINTS_BEHIND: u64 = 6;
+const SEARCHED_POINTS_AHEAD: u64 = 8;
 /// Ticks off the line after which the pass is given up.
-const PATIENCE: u32 = 10;
+const MAX_OFF_LINE_TICKS: u32 = 10;
 /// Least and greatest pace.
-const PACES: [f64; 2] = [0.5, 2.0];
+const PACE_RANGE: [f64; 2] = [0.5, 2.0];
 /// Time constant of the pace \[s\].
 const PACE_TIME: f64 = 0.1;
 /// Time constant with which the pace is expected to become that of the pass \[s\].
 const PACE_FADE: f64 = 3.0;
 /// Difference of the pace from 1 up to which it mostly wanders; beyond, it is expected to return.
-const WANDER: f64 = 0.1;
+const WANDERING_PACE_DIFFERENCE: f64 = 0.1;
 /// Fraction of a difference in place that is corrected at each tick.
-const CORRECTION: f64 = 0.4;
+const CORRECTION_PER_TICK: f64 = 0.4;
 /// Time constant of the squared error \[s\].
 const ERROR_TIME: f64 = 2.0;
 /// Squared error of a pass of which nothing is known \[(m/s2)^2\].
-pub const UNKNOWN: f64 = 4.0;
+pub const UNKNOWN_PASS_ERROR: f64 = 4.0;
 
 /// Part of a difference of the pace from 1 that is left after so many seconds.
 pub fn fade(time: f64) -> f64 {
@@ -61,7 +61,7 @@ impl Pass {
         let expected = self.number + self.pace;
         match nearest(line, place, expected) {
             Some(found) => {
-                self.number = expected + CORRECTION * (found - expected);
+                self.number = expected + CORRECTION_PER_TICK * (found - expected);
                 self.missed = 0;
             }
             None => {
@@ -71,10 +71,10 @@ impl Pass {
         }
         let Some(here) = line.at(self.number) else { return false };
         if here.speed() > 0.0 {
-            let pace = (place.speed / here.speed()).clamp(PACES[0], PACES[1]);
+            let pace = (place.speed / here.speed()).clamp(PACE_RANGE[0], PACE_RANGE[1]);
             self.pace += (pace - self.pace) * (TICK / PACE_TIME);
         }
-        self.missed <= PATIENCE
+        self.missed <= MAX_OFF_LINE_TICKS
     }
 
     /// The force to come at a time whose [`fade`] is this; none where the line is not
@@ -82,7 +82,8 @@ impl Pass {
     pub fn force_ahead(&self, line: &Line, time: f64, fade: f64) -> Option<[f64; 2]> {
         let excess = self.pace - 1.0;
         let square = excess * excess;
-        let change = -excess * fade / PACE_FADE * square / (square + WANDER * WANDER);
+        let change =
+            -excess * fade / PACE_FADE * square / (square + WANDERING_PACE_DIFFERENCE * WANDERING_PACE_DIFFERENCE);
         let pace = 1.0 + excess * fade;
         let there = line.at(self.number + (time + excess * PACE_FADE * (1.0 - fade)) / TICK)?;
         Some([there.force(0) + change * there.speed(), there.force(1) * pace * pace])
@@ -94,9 +95,9 @@ impl Pass {
         Some([there.force(0), there.force(1) * self.pace * self.pace])
     }
 
-    /// Compares the pass with the force [`LAG`] ticks ago.
+    /// Compares the pass with the force [`LAG_TICKS`] ticks ago.
     pub fn compare(&mut self, line: &Line, truth: [f64; 2]) {
-        let Some(force) = self.force_ago(line, LAG as f64 * TICK) else { return };
+        let Some(force) = self.force_ago(line, LAG_TICKS as f64 * TICK) else { return };
         for axis in 0..2 {
             let error = force[axis] - truth[axis];
             self.errors[axis] += (error * error - self.errors[axis]) * (TICK / ERROR_TIME);
@@ -108,7 +109,7 @@ impl Pass {
 fn nearest(line: &Line, place: &RoadPoint, around: f64) -> Option<f64> {
     let middle = around.max(0.0) as u64;
     let mut best: Option<(f64, f64)> = None;
-    for number in middle.saturating_sub(BACK)..middle + AHEAD {
+    for number in middle.saturating_sub(SEARCHED_POINTS_BEHIND)..middle + SEARCHED_POINTS_AHEAD {
         let Some((from, to)) = line.point(number).zip(line.point(number + 1)) else { continue };
         if from.run != to.run || dot(&from.direction, &place.direction) < SAME_DIRECTION {
             continue;
@@ -119,7 +120,7 @@ fn nearest(line: &Line, place: &RoadPoint, around: f64) -> Option<f64> {
         let fraction = if length > 0.0 { (dot(&offset, &along) / length).clamp(0.0, 1.0) } else { 0.0 };
         let apart: [f64; 3] = core::array::from_fn(|k| offset[k] - fraction * along[k]);
         let square = dot(&apart, &apart);
-        if square <= NEAR * NEAR && best.is_none_or(|(least, _)| square < least) {
+        if square <= ON_LINE_DISTANCE * ON_LINE_DISTANCE && best.is_none_or(|(least, _)| square < least) {
             best = Some((square, number as f64 + fraction));
         }
     }

@@ -2,15 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::line::{Line, ROWS};
-use crate::pass::{NEAR, PASSES, Pass, SAME_DIRECTION, dot};
+use crate::line::{Line, NEIGHBOUR_ROWS};
+use crate::pass::{MAX_PASSES, ON_LINE_DISTANCE, Pass, SAME_DIRECTION, dot};
 use crate::smooth::RoadPoint;
 use crate::ticks::distance;
 
 /// Points by which a pass is older than the vehicle, at least: 8 s.
 pub const LEAST_AGE: u64 = 160;
 /// Points by which two passes are apart, at least.
-pub const APART: f64 = 100.0;
+pub const MIN_PASS_DISTANCE: f64 = 100.0;
 /// Ticks from the beginning of a search to that of the next one.
 const SEARCH_INTERVAL_TICKS: usize = 10;
 
@@ -22,12 +22,12 @@ pub struct Search {
     /// The vehicle then.
     place: RoadPoint,
     /// Nearest points of the latest passes, and their distances \[m\].
-    found: [Option<(u64, f64)>; PASSES],
+    found: [Option<(u64, f64)>; MAX_PASSES],
 }
 
 impl Search {
     /// Goes on by a tick. Returns the present point of a pass that is not followed yet.
-    pub fn tick(&mut self, line: &Line, place: &RoadPoint, followed: &[Option<Pass>; PASSES]) -> Option<u64> {
+    pub fn tick(&mut self, line: &Line, place: &RoadPoint, followed: &[Option<Pass>; MAX_PASSES]) -> Option<u64> {
         if self.ticks == SEARCH_INTERVAL_TICKS {
             *self = Search::default();
         }
@@ -36,7 +36,7 @@ impl Search {
         }
         let ticks = self.ticks;
         self.ticks += 1;
-        if ticks < ROWS {
+        if ticks < NEIGHBOUR_ROWS {
             self.visit(line, ticks, followed);
             return None;
         }
@@ -45,7 +45,7 @@ impl Search {
     }
 
     /// Looks at a row of cells; the latest passes are preferred.
-    fn visit(&mut self, line: &Line, row: usize, followed: &[Option<Pass>; PASSES]) {
+    fn visit(&mut self, line: &Line, row: usize, followed: &[Option<Pass>; MAX_PASSES]) {
         let Search { place, found, .. } = self;
         let next = line.next();
         // Older ones would not be followed.
@@ -53,13 +53,16 @@ impl Search {
         let oldest_followed = followed.iter().map(oldest).min().unwrap_or(0);
         line.visit_around(&place.position, row, oldest_followed, |number, point| {
             let apart = distance(&point.position, &place.position);
-            if apart > NEAR || number + LEAST_AGE > next || dot(&point.direction, &place.direction) < SAME_DIRECTION {
+            if apart > ON_LINE_DISTANCE
+                || number + LEAST_AGE > next
+                || dot(&point.direction, &place.direction) < SAME_DIRECTION
+            {
                 return;
             }
-            if followed.iter().flatten().any(|pass| (pass.number - number as f64).abs() < APART) {
+            if followed.iter().flatten().any(|pass| (pass.number - number as f64).abs() < MIN_PASS_DISTANCE) {
                 return;
             }
-            let same = found.iter_mut().flatten().find(|(other, _)| other.abs_diff(number) < APART as u64);
+            let same = found.iter_mut().flatten().find(|(other, _)| other.abs_diff(number) < MIN_PASS_DISTANCE as u64);
             if let Some(same) = same {
                 if apart < same.1 {
                     *same = (number, apart);
@@ -77,4 +80,4 @@ impl Search {
     }
 }
 
-const _: () = assert!(ROWS + PASSES <= SEARCH_INTERVAL_TICKS);
+const _: () = assert!(NEIGHBOUR_ROWS + MAX_PASSES <= SEARCH_INTERVAL_TICKS);

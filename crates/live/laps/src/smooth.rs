@@ -10,30 +10,31 @@ use crate::line::Point;
 use crate::ticks::{TICK, Tick, distance};
 
 /// Ticks by which the smoothed force lags.
-pub const LAG: usize = 4;
+pub const LAG_TICKS: usize = 4;
 /// Ticks that a smoothed force is made of.
-const WIDTH: usize = 2 * LAG;
+const TRIANGLE_TICKS: usize = 2 * LAG_TICKS;
 /// Weights of the ticks: the triangle at their middles.
-const WEIGHTS: [f64; WIDTH] = [0.03125, 0.09375, 0.15625, 0.21875, 0.21875, 0.15625, 0.09375, 0.03125];
+const TRIANGLE_WEIGHTS: [f64; TRIANGLE_TICKS] =
+    [0.03125, 0.09375, 0.15625, 0.21875, 0.21875, 0.15625, 0.09375, 0.03125];
 /// Ticks of the latest force.
-pub const LATEST: usize = 4;
+pub const LATEST_FORCE_TICKS: usize = 4;
 /// Time by which it lags \[s\].
-pub const LATEST_LAG: f64 = 0.5 * LATEST as f64 * TICK;
+pub const LATEST_LAG: f64 = 0.5 * LATEST_FORCE_TICKS as f64 * TICK;
 /// Ticks over which a position is averaged.
-const POSITIONS: usize = 4;
+const POSITION_TICKS: usize = 4;
 /// Ticks over which a direction and a speed are taken.
-const STRETCH: usize = 6;
+const DIRECTION_TICKS: usize = 6;
 /// Places that are kept.
-const KEPT: usize = WIDTH;
+const KEPT_PLACES: usize = TRIANGLE_TICKS;
 
 /// The last ticks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Smooth {
-    forces: [[f64; 2]; WIDTH],
-    positions: [[f64; 3]; POSITIONS],
+    forces: [[f64; 2]; TRIANGLE_TICKS],
+    positions: [[f64; 3]; POSITION_TICKS],
     /// Averaged positions and speeds, the latest first.
-    places: [RoadPoint; KEPT],
-    /// Ticks so far, at most [`KEPT`] and [`POSITIONS`] together.
+    places: [RoadPoint; KEPT_PLACES],
+    /// Ticks so far, at most [`KEPT_PLACES`] and [`POSITION_TICKS`] together.
     count: usize,
 }
 
@@ -52,32 +53,32 @@ impl Smooth {
     /// Takes a tick.
     pub fn push(&mut self, tick: &Tick) {
         if self.count == 0 {
-            self.positions = [tick.position; POSITIONS];
+            self.positions = [tick.position; POSITION_TICKS];
         }
-        self.count = (self.count + 1).min(KEPT + POSITIONS);
+        self.count = (self.count + 1).min(KEPT_PLACES + POSITION_TICKS);
         self.forces.rotate_right(1);
         self.forces[0] = tick.force;
         self.positions.rotate_right(1);
         self.positions[0] = tick.position;
         let position =
-            core::array::from_fn(|axis| self.positions.iter().map(|p| p[axis]).sum::<f64>() / POSITIONS as f64);
+            core::array::from_fn(|axis| self.positions.iter().map(|p| p[axis]).sum::<f64>() / POSITION_TICKS as f64);
         self.places.rotate_right(1);
         if self.count == 1 {
-            self.places = [RoadPoint { position, ..RoadPoint::default() }; KEPT];
+            self.places = [RoadPoint { position, ..RoadPoint::default() }; KEPT_PLACES];
         }
-        let before = self.places[STRETCH].position;
+        let before = self.places[DIRECTION_TICKS].position;
         let length = distance(&before, &position);
         let direction = match length {
             0.0 => [0.0; 3],
             _ => core::array::from_fn(|axis| (position[axis] - before[axis]) / length),
         };
-        let speed = tick.speed.map_or(length / (STRETCH as f64 * TICK), f64::abs);
+        let speed = tick.speed.map_or(length / (DIRECTION_TICKS as f64 * TICK), f64::abs);
         self.places[0] = RoadPoint { position, direction, speed };
     }
 
     /// True once all kept ticks are the vehicle's.
     pub fn is_full(&self) -> bool {
-        self.count == KEPT + POSITIONS
+        self.count == KEPT_PLACES + POSITION_TICKS
     }
 
     /// The place at the latest tick.
@@ -89,15 +90,19 @@ impl Smooth {
     /// \[m/s2, m/s3\].
     pub fn latest(&self) -> [[f64; 2]; 2] {
         let mean = |axis: usize, from: usize| {
-            self.forces[from..from + LATEST].iter().map(|force| force[axis]).sum::<f64>() / LATEST as f64
+            self.forces[from..from + LATEST_FORCE_TICKS].iter().map(|force| force[axis]).sum::<f64>()
+                / LATEST_FORCE_TICKS as f64
         };
-        core::array::from_fn(|axis| [mean(axis, 0), (mean(axis, 0) - mean(axis, LATEST)) / (LATEST as f64 * TICK)])
+        core::array::from_fn(|axis| {
+            [mean(axis, 0), (mean(axis, 0) - mean(axis, LATEST_FORCE_TICKS)) / (LATEST_FORCE_TICKS as f64 * TICK)]
+        })
     }
 
-    /// The point of the line [`LAG`] ticks ago.
+    /// The point of the line [`LAG_TICKS`] ticks ago.
     pub fn point(&self) -> Point {
-        let RoadPoint { position, direction, speed } = self.places[LAG];
-        let force = |axis: usize| self.forces.iter().zip(WEIGHTS).map(|(force, weight)| weight * force[axis]).sum();
+        let RoadPoint { position, direction, speed } = self.places[LAG_TICKS];
+        let force =
+            |axis: usize| self.forces.iter().zip(TRIANGLE_WEIGHTS).map(|(force, weight)| weight * force[axis]).sum();
         Point { position, direction, speed, force: core::array::from_fn(force), run: 0 }
     }
 }

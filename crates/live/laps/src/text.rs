@@ -3,13 +3,13 @@
 use alloc::{format, string::String, vec::Vec};
 
 use crate::laps::Laps;
-use crate::line::{CAPACITY, Point};
+use crate::line::{MAX_POINTS, Point};
 
 /// First line of the text, and the names of the columns.
-const FIRST: &str = "moris-laps,1";
-const COLUMNS: &str = "run,x,y,z,direction_x,direction_y,direction_z,speed,surge,sway";
+const FORMAT_LINE: &str = "moris-laps,1";
+const COLUMN_NAMES: &str = "run,x,y,z,direction_x,direction_y,direction_z,speed,surge,sway";
 /// Largest position \[m\], speed \[m/s\] and force \[m/s2\].
-const LARGEST: [f64; 3] = [1e9, 1e4, 1e3];
+const MAX_VALUES: [f64; 3] = [1e9, 1e4, 1e3];
 
 /// Reason for which a text is no memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +29,7 @@ impl core::error::Error for NoMemory {}
 impl Laps {
     /// The remembered points as text, rounded to millimetres. [`Laps::of_text`] reads it.
     pub fn text(&self) -> String {
-        let mut text = format!("{FIRST}\n{COLUMNS}\n");
+        let mut text = format!("{FORMAT_LINE}\n{COLUMN_NAMES}\n");
         let (mut before, mut count) = (None, 0);
         for Point { position: [x, y, z], direction: [a, b, c], speed, force: [surge, sway], run } in self.points() {
             count += u32::from(before.replace(*run).is_some_and(|before| before != *run));
@@ -53,10 +53,10 @@ impl Laps {
     /// ```
     pub fn of_text(text: &str) -> Result<Laps, NoMemory> {
         let mut lines = text.lines().enumerate().map(|(place, line)| (place + 1, line));
-        for expected in [FIRST, COLUMNS] {
+        for expected in [FORMAT_LINE, COLUMN_NAMES] {
             lines.next().filter(|(_, line)| *line == expected).ok_or(NoMemory { line: 1 })?;
         }
-        let mut points = Vec::with_capacity(CAPACITY.min(text.len() / 40));
+        let mut points = Vec::with_capacity(MAX_POINTS.min(text.len() / 40));
         for (line, fields) in lines {
             points.push(point(fields).ok_or(NoMemory { line })?);
         }
@@ -72,7 +72,7 @@ fn point(line: &str) -> Option<Point> {
         let number: f64 = fields.next()?.parse().ok()?;
         (number.abs() <= largest).then_some(number)
     };
-    let [place, speed, force] = LARGEST;
+    let [place, speed, force] = MAX_VALUES;
     let point = Point {
         position: [number(place)?, number(place)?, number(place)?],
         direction: [number(1.0)?, number(1.0)?, number(1.0)?],

@@ -7,12 +7,12 @@ pub const TICK: f64 = 0.05;
 /// A longer step is a gap in the samples \[s\].
 const LONGEST_STEP: f64 = 0.5;
 /// Displacement within a step that no vehicle has: this, and so many times that of its speed \[m\].
-const JUMP: f64 = 15.0;
+const TELEPORT_DISTANCE: f64 = 15.0;
 const JUMP_FACTOR: f64 = 3.0;
 /// Time constant of the speed that a displacement is compared with \[s\].
 const SPEED_TIME: f64 = 0.5;
 /// A difference of times below this is rounding \[s\].
-const ROUNDING: f64 = 1e-9;
+const TIME_ROUNDING: f64 = 1e-9;
 
 /// The vehicle at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -71,7 +71,7 @@ impl Ticks {
             return true;
         }
         let displacement = distance(&last.position, &sample.position);
-        if displacement > JUMP + JUMP_FACTOR * self.speed * sample.step {
+        if displacement > TELEPORT_DISTANCE + JUMP_FACTOR * self.speed * sample.step {
             *self = Ticks { last: Some(*sample), ..Ticks::default() };
             return false;
         }
@@ -84,7 +84,7 @@ impl Ticks {
         let (mut done, mut from) = (0.0, last.force);
         loop {
             let left = TICK - self.time;
-            let is_whole = done + left <= sample.step + ROUNDING;
+            let is_whole = done + left <= sample.step + TIME_ROUNDING;
             let end = if is_whole { (done + left).min(sample.step) } else { sample.step };
             let now = at(end / sample.step);
             for (integral, (from, now)) in self.integral.iter_mut().zip(from.iter().zip(&now.force)) {

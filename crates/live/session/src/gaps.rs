@@ -1,10 +1,10 @@
 //! Times from a sample to the arrival of the next: what the delay must be.
 
-use crate::resampler::LONGEST;
+use crate::resampler::MAX_DELAY;
 
 /// Width of a class \[s\].
 const CLASS_WIDTH: f64 = 1e-3;
-/// Number of classes: up to [`LONGEST`].
+/// Number of classes: up to [`MAX_DELAY`].
 const CLASS_COUNT: usize = 250;
 /// Reserve of the delay beyond the time between samples.
 const DELAY_RESERVE: f64 = 1.1;
@@ -38,7 +38,7 @@ impl Gaps {
             self.weights.iter_mut().for_each(|weight| *weight /= self.weight);
             self.weight = 1.0;
         }
-        if gap < LONGEST {
+        if gap < MAX_DELAY {
             self.weights[((gap.max(0.0) / CLASS_WIDTH) as usize).min(CLASS_COUNT - 1)] += self.weight;
         }
     }
@@ -56,7 +56,11 @@ impl Gaps {
             sum += weight;
             if sum > 0.0 && sum >= wanted * (1.0 - 1e-12) {
                 // Samples that come before their time need none.
-                return if class == 0 { 0.0 } else { (DELAY_RESERVE * (class + 1) as f64 * CLASS_WIDTH).min(LONGEST) };
+                return if class == 0 {
+                    0.0
+                } else {
+                    (DELAY_RESERVE * (class + 1) as f64 * CLASS_WIDTH).min(MAX_DELAY)
+                };
             }
         }
         0.0

@@ -4,10 +4,10 @@
 //! difference to what has passed so far is added, and goes to zero: a glide. Value and slope of
 //! what passes are continuous there.
 
-use crate::motion::{ANGLES, CHANNELS, Channels, FELT, Motion, turns};
+use crate::motion::{ANGLES, CHANNEL_COUNT, Channels, Motion, SMALLEST_FELT_SIZES, turns};
 
 /// Shortest and longest glide after a change of the source \[s\].
-pub const GLIDE: [f64; 2] = [1.0, 5.0];
+pub const GLIDE_DURATIONS: [f64; 2] = [1.0, 5.0];
 /// Time for which a felt difference takes to glide \[s\].
 const PER_FELT: f64 = 0.5;
 /// Least time for which a felt difference takes to glide after a gap \[s\].
@@ -52,7 +52,7 @@ impl Glide {
         let left = 1.0 - part * part * (3.0 - 2.0 * part);
         Channels::from_fn(|k, _| {
             let slope = self.slope[k];
-            let time = SLOPE_TIME.min(self.duration).min(SLOPE_CHANGE * FELT[k] / slope.abs());
+            let time = SLOPE_TIME.min(self.duration).min(SLOPE_CHANGE * SMALLEST_FELT_SIZES[k] / slope.abs());
             let passed = if elapsed < time { 1.0 - elapsed / time } else { 0.0 };
             self.difference[k] * left + slope * elapsed * passed * passed
         })
@@ -109,11 +109,11 @@ impl Gate {
         for k in ANGLES {
             difference[k] -= turns(difference[k]);
         }
-        let felt = (0..CHANNELS).map(|k| difference[k].abs() / FELT[k]).fold(0.0, f64::max);
+        let felt = (0..CHANNEL_COUNT).map(|k| difference[k].abs() / SMALLEST_FELT_SIZES[k]).fold(0.0, f64::max);
         let left = self.glide.map_or(0.0, |glide| glide.duration - glide.elapsed);
         let duration = match change {
-            Change::None | Change::Source => (PER_FELT * felt).clamp(GLIDE[0], GLIDE[1]),
-            Change::Gap(time) => time.max(PER_GAP * felt).max(left).min(GLIDE[1]),
+            Change::None | Change::Source => (PER_FELT * felt).clamp(GLIDE_DURATIONS[0], GLIDE_DURATIONS[1]),
+            Change::Gap(time) => time.max(PER_GAP * felt).max(left).min(GLIDE_DURATIONS[1]),
         };
         self.glide = Some(Glide { difference, slope: self.slope - slope, elapsed: 0.0, duration });
     }

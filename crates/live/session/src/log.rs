@@ -12,7 +12,7 @@ use moris_washout::Parameters;
 use nalgebra::Vector3;
 
 use crate::legs::Legs;
-use crate::motion::{CHANNELS, Channels, Motion, Sample};
+use crate::motion::{CHANNEL_COUNT, Channels, Motion, Sample};
 use crate::session::{Commands, Session, Settings};
 use crate::transitions::Event;
 
@@ -169,7 +169,7 @@ impl Entry {
                 let position = [optional(next()?)?, optional(next()?)?, optional(next()?)?];
                 let [paused, has_angles] = [next()? == "1", next()? == "1"];
                 let mut motion = Channels::zeros();
-                for k in 0..CHANNELS {
+                for k in 0..CHANNEL_COUNT {
                     motion[k] = next()?.parse().ok()?;
                 }
                 let position = match position {

@@ -8,10 +8,10 @@ use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use nalgebra::{SVector, Vector3};
 
 /// Numbers in a [`Motion`].
-pub const CHANNELS: usize = 10;
+pub const CHANNEL_COUNT: usize = 10;
 
 /// All numbers of a [`Motion`], or their slopes.
-pub type Channels = SVector<f64, CHANNELS>;
+pub type Channels = SVector<f64, CHANNEL_COUNT>;
 
 /// Specific force \[m/s2\], angular velocity \[rad/s\], roll, pitch and yaw \[rad\] and speed
 /// \[m/s\] of the vehicle. Force and angular velocity are in the vehicle's axes: x forward, y left,
@@ -23,7 +23,7 @@ pub struct Motion(pub Channels);
 pub const ANGLES: std::ops::Range<usize> = 6..9;
 
 /// Size of each channel that is small, but felt.
-pub const FELT: [f64; CHANNELS] = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 1.0];
+pub const SMALLEST_FELT_SIZES: [f64; CHANNEL_COUNT] = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 1.0];
 
 /// The whole turns in an angle \[rad\].
 pub fn turns(angle: f64) -> f64 {
@@ -106,7 +106,7 @@ pub struct Sample {
 }
 
 /// Names of the channels of a [`Motion`], as in tables.
-pub const CHANNEL_NAMES: [&str; CHANNELS] = ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
+pub const CHANNEL_NAMES: [&str; CHANNEL_COUNT] = ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
 
 /// Reason for which a sample is dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,7 +137,7 @@ impl Display for Implausible {
 
 impl Sample {
     /// Largest plausible values: 10 g, 2000 degrees a second as for recordings, and others.
-    const LARGEST: [f64; CHANNELS] = [98.0665, 98.0665, 98.0665, 35.0, 35.0, 35.0, 1e4, 1e4, 1e4, 1e4];
+    const LARGEST: [f64; CHANNEL_COUNT] = [98.0665, 98.0665, 98.0665, 35.0, 35.0, 35.0, 1e4, 1e4, 1e4, 1e4];
 
     /// The first reason for which the sample says nothing; none if all of it is finite and none of
     /// it absurd.

@@ -11,9 +11,9 @@ use nalgebra::Vector3;
 /// Samples that are kept: 0.6 s at 400 Hz.
 const SAMPLE_CAPACITY: usize = 256;
 /// Longest delay \[s\].
-pub const LONGEST: f64 = 0.25;
+pub const MAX_DELAY: f64 = 0.25;
 /// Delay from which on a person is warned \[s\].
-pub const LONG: f64 = 0.06;
+pub const WARNED_DELAY: f64 = 0.06;
 /// Packets that arrive within this time after another came with it \[s\].
 const BURST_TIME: f64 = 1e-3;
 /// A change of an angle within a sample that may be one of its description alone \[rad\].

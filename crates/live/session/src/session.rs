@@ -37,14 +37,14 @@ const NO_WAY: f64 = 1e-9;
 /// Glide after a gap: twice its length, within these \[s\].
 const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
 /// Part of the gaps between samples that the delay covers; of those of a source inside the program.
-const COVERED: [f64; 2] = [0.99, 0.5];
+const COVERED_GAP_FRACTIONS: [f64; 2] = [0.99, 0.5];
 /// Speed at which the delay changes while the vehicle is cued.
 const DELAY_CHANGE: f64 = 0.02;
 /// Part by which a source may change faster within a step than its slope says.
-const PASSES: f64 = 0.1;
+const SLOPE_TOLERANCE: f64 = 0.1;
 
 /// Largest speed and acceleration of the legs on the way home, in those of the actuators.
-const TRAVEL: f64 = 0.25;
+const HOMING_LIMIT_FRACTION: f64 = 0.25;
 
 /// Settings of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -197,7 +197,7 @@ fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f
 /// True if the source has gone on from its motion a step ago as its slopes say.
 fn passes((motion, slope): &(Motion, Channels), at: &At) -> bool {
     let change = at.motion.0 - motion.0;
-    let most = (slope.abs()).sup(&at.slope.abs()) * (1.0 + PASSES) * STEP;
+    let most = (slope.abs()).sup(&at.slope.abs()) * (1.0 + SLOPE_TOLERANCE) * STEP;
     change.iter().zip(&most).all(|(change, most)| change.abs() <= most + 1e-9)
 }
 
@@ -313,7 +313,8 @@ impl Session {
     /// The way to neutral begins at these lengths.
     fn begin_at(&mut self, lengths: [f64; 6]) {
         let rig = &self.washout.parameters().rig;
-        let [speed, acceleration] = [rig.velocity_limit, rig.acceleration_limit].map(|limit| TRAVEL * limit);
+        let [speed, acceleration] =
+            [rig.velocity_limit, rig.acceleration_limit].map(|limit| HOMING_LIMIT_FRACTION * limit);
         let speed = self.settings.travel_speed.min(speed).min(acceleration * Travel::SMOOTHING);
         let way = self.neutral.iter().zip(lengths).map(|(neutral, length)| (neutral - length).abs());
         self.begin = lengths;
@@ -375,9 +376,9 @@ impl Session {
         self.delay
     }
 
-    /// True if the delay is long enough to be noticed: [`LONG`](crate::resampler::LONG).
+    /// True if the delay is long enough to be noticed: [`LONG`](crate::resampler::WARNED_DELAY).
     pub fn is_delay_long(&self) -> bool {
-        self.delay >= crate::resampler::LONG
+        self.delay >= crate::resampler::WARNED_DELAY
     }
 
     /// The vehicle's motion that the washout has received last.
@@ -598,7 +599,7 @@ impl Session {
 
     /// The delay that is given, or that covers most gaps; slowly while the vehicle is cued.
     fn adjust_delay(&mut self) {
-        let part = COVERED[usize::from(self.settings.is_inside)];
+        let part = COVERED_GAP_FRACTIONS[usize::from(self.settings.is_inside)];
         let target = self.settings.delay.unwrap_or_else(|| self.resampler.delay(part));
         let most = if self.state.is_engaged() { DELAY_CHANGE * STEP } else { f64::INFINITY };
         self.delay += (target - self.delay).clamp(-most, most);

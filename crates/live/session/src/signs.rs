@@ -11,7 +11,7 @@ use crate::motion::Sample;
 use crate::relation::{Relation, Sums};
 
 /// Time for which samples are taken \[s\].
-pub const TIME: f64 = 60.0;
+pub const SAMPLING_TIME: f64 = 60.0;
 /// Shortest and longest time between samples that are compared \[s\].
 const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
 /// Correlation from which on a check decides.
@@ -118,7 +118,7 @@ struct Window {
 impl Signs {
     /// Takes a sample of this time.
     pub fn take(&mut self, time: f64, sample: &Sample) {
-        if self.time >= TIME {
+        if self.time >= SAMPLING_TIME {
             return;
         }
         let before = self.last.replace((time, *sample));

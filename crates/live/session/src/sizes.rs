@@ -44,16 +44,16 @@ const OTHER_CORRELATION: f64 = 0.5;
 const OTHER_FACTOR: f64 = 2.0;
 /// Angles up to which a body's rates are those of its angles, about: in radians that are read as
 /// degrees, too \[rad\].
-const LEVEL: f64 = 0.3;
-const LEVEL_IN_DEGREES: f64 = LEVEL * 180.0 / PI;
+const LEVEL_ANGLE: f64 = 0.3;
+const LEVEL_IN_DEGREES: f64 = LEVEL_ANGLE * 180.0 / PI;
 /// Roll and pitch beyond which angles are no radians \[rad\].
 const LARGEST_ANGLE: f64 = 1.6;
 /// A change of an angle within a window that may be a whole turn \[rad\].
-const TURN: f64 = 3.0;
+const WHOLE_TURN_CHANGE: f64 = 3.0;
 /// Part of a turn's force that gravity may make up for: a vehicle that leans more is left out.
-const LEANING: f64 = 0.25;
+const MAX_LEAN_FRACTION: f64 = 0.25;
 /// Speed below which a vehicle may be reversing, or hardly moves \[m/s\].
-const SLOW: f64 = 1.5;
+const MANOEUVRING_SPEED: f64 = 1.5;
 /// Speed below which the source has none \[m/s\].
 const NO_SPEED: f64 = 0.1;
 /// Radius below which no vehicle turns \[m\], and angular velocity that no head keeps \[rad/s\],
@@ -281,19 +281,19 @@ impl Sizes {
         let is_level = |most: f64| roll.abs() < most && pitch.abs() < most;
         if has_attitude && is_level(LEVEL_IN_DEGREES) {
             self.largest_angle = self.largest_angle.max(roll.abs()).max(pitch.abs());
-            for angle in (0..3).filter(|angle| (slope[6 + angle] * time).abs() < TURN) {
+            for angle in (0..3).filter(|angle| (slope[6 + angle] * time).abs() < WHOLE_TURN_CHANGE) {
                 (0..3).for_each(|rate| self.rates[rate][angle].add(slope[6 + angle], mean[3 + rate]));
             }
         }
         let gravity = if has_attitude && is_level(LARGEST_ANGLE) { STANDARD_GRAVITY } else { 0.0 };
         self.yaw.add(mean[5], mean[1]);
-        if speed.abs() < SLOW {
+        if speed.abs() < MANOEUVRING_SPEED {
             return;
         }
         // Nose up, gravity's reaction is forward; with the left side up, to the left.
         self.surge.add(slope[9] - gravity * libm::sin(pitch), mean[0]);
         let banked = gravity * libm::sin(roll) * libm::cos(pitch);
-        if banked.abs() <= LEANING * (speed * mean[5]).abs().max(speed * mean[3].abs()) {
+        if banked.abs() <= MAX_LEAN_FRACTION * (speed * mean[5]).abs().max(speed * mean[3].abs()) {
             (0..3).for_each(|rate| self.bends[rate].add(speed * mean[3 + rate], mean[1] - banked));
         }
     }
@@ -399,7 +399,7 @@ impl MeanForce {
         if self.agrees {
             return;
         }
-        if sample.has_angles && angles.roll.abs().max(angles.pitch.abs()) > LEVEL {
+        if sample.has_angles && angles.roll.abs().max(angles.pitch.abs()) > LEVEL_ANGLE {
             *self = MeanForce::default();
             return;
         }

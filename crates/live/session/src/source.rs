@@ -11,9 +11,9 @@ use crate::standing::Standing;
 use crate::transitions::Event;
 
 /// Time without a good sample after which the source is silent \[s\].
-pub const SILENT: f64 = 0.5;
+pub const SILENT_TIME: f64 = 0.5;
 /// Time without a good sample after which it is stale \[s\].
-pub const STALE: f64 = 1.5;
+pub const STALE_TIME: f64 = 1.5;
 /// A place that differs from the expected one by more than this is another place \[m\].
 const MAX_PLACE_DEVIATION: f64 = 10.0;
 /// An attitude that turns by more within a sample than its rates say is that of another place
@@ -32,9 +32,9 @@ pub enum Health {
     Running,
     /// Good samples of a paused vehicle.
     Paused,
-    /// No good sample for [`SILENT`].
+    /// No good sample for [`SILENT_TIME`].
     Silent,
-    /// No good sample for [`STALE`].
+    /// No good sample for [`STALE_TIME`].
     Stale,
 }
 
@@ -257,8 +257,8 @@ impl Source {
     pub fn listen(&mut self, now: f64) -> Option<Event> {
         let silence = now - self.last_good;
         let (health, event) = match self.health {
-            Health::Running | Health::Paused if silence >= SILENT => (Health::Silent, Event::Silence),
-            Health::Silent if silence >= STALE => (Health::Stale, Event::Stale),
+            Health::Running | Health::Paused if silence >= SILENT_TIME => (Health::Silent, Event::Silence),
+            Health::Silent if silence >= STALE_TIME => (Health::Stale, Event::Stale),
             _ => return None,
         };
         self.health = health;

@@ -1,10 +1,10 @@
 //! Samples that no vehicle causes: far from the one before them, relative to the ride's own
 //! changes, and left again by the next one.
 
-use crate::motion::{CHANNELS, Channels, Sample};
+use crate::motion::{CHANNEL_COUNT, Channels, Sample};
 
 /// Least deviation of a spike, as for recordings: forces, rates, angles, speed.
-const MIN_SPIKE_DEVIATION: [f64; CHANNELS] =
+const MIN_SPIKE_DEVIATION: [f64; CHANNEL_COUNT] =
     [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY, 5.0];
 /// Usual changes from sample to sample beyond which one is a spike.
 const SPIKE_CHANGE_FACTOR: f64 = 10.0;
@@ -59,7 +59,7 @@ impl Spikes {
         let deviation = (sample.motion.0 - last.motion.0).abs();
         // What the ride does within a sample, it may do in each that has been lost.
         let gap = ((time - before) / 0.01).clamp(1.0, 10.0);
-        let is_far = (0..CHANNELS)
+        let is_far = (0..CHANNEL_COUNT)
             .any(|k| deviation[k] > MIN_SPIKE_DEVIATION[k].max(SPIKE_CHANGE_FACTOR * self.usual[k]) * gap.sqrt());
         self.usual += (bounded - self.usual) / AVERAGED_SAMPLES;
         if !is_far {
@@ -69,7 +69,7 @@ impl Spikes {
         // Nearer to the doubtful one than that is to the last: both are true.
         let confirms = doubtful.is_some_and(|(_, doubtful)| {
             let scaled = |from: &Channels, to: &Channels| {
-                (0..CHANNELS)
+                (0..CHANNEL_COUNT)
                     .filter(|k| MIN_SPIKE_DEVIATION[*k].is_finite())
                     .map(|k| ((from - to)[k] / MIN_SPIKE_DEVIATION[k]).abs())
                     .fold(0.0, f64::max)

@@ -10,13 +10,13 @@ use moris_washout::{ParameterError, Parameters, Washout};
 use crate::log::name_of;
 
 /// Steps from one change to the next.
-const INTERVAL: u64 = 40;
+const CHANGE_INTERVAL_STEPS: u64 = 40;
 /// Part by which a limit becomes tighter in an interval.
-const PART: f64 = 0.108;
+const TIGHTENING_FRACTION: f64 = 0.108;
 /// Parts of new limits within which the platform must be before they come into force.
-const INSIDE: f64 = 0.8;
+const INSIDE_FRACTIONS: f64 = 0.8;
 /// Least pace with which a limit is approached \[1/s\], where the soft limits have none.
-const SLOWEST: f64 = 1.0;
+const MIN_PACE: f64 = 1.0;
 
 /// The chosen parameters.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ impl Tuning {
     /// Puts the chosen values into force as far as the platform keeps them gently, if this step is
     /// one for that.
     pub fn apply(&mut self, washout: &mut Washout, step: u64) {
-        if !self.waits || !step.is_multiple_of(INTERVAL) {
+        if !self.waits || !step.is_multiple_of(CHANGE_INTERVAL_STEPS) {
             return;
         }
         let parameters = Parameters::read(&mut Reader::new(&self.target));
@@ -72,9 +72,10 @@ fn with_tilt(parameters: &Parameters, washout: &Washout) -> TiltParameters {
     let axes = [(output.tilt_roll, output.tilt_roll_rate), (output.tilt_pitch, output.tilt_pitch_rate)];
     let fits = axes.into_iter().all(|(angle, rate)| {
         let stopping = rate * rate / (2.0 * tilt.acceleration_limit);
-        angle.abs() + stopping <= INSIDE * tilt.angle_limit && rate.abs() <= INSIDE * tilt.rate_limit
+        angle.abs() + stopping <= INSIDE_FRACTIONS * tilt.angle_limit
+            && rate.abs() <= INSIDE_FRACTIONS * tilt.rate_limit
     });
-    let least = if fits { 1.0 - PART } else { 1.0 };
+    let least = if fits { 1.0 - TIGHTENING_FRACTION } else { 1.0 };
     for (limit, old) in [
         (&mut tilt.angle_limit, before.angle_limit),
         (&mut tilt.rate_limit, before.rate_limit),
@@ -91,15 +92,15 @@ fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
     let (before, mut safety) = (&washout.parameters().safety, parameters.safety);
     let motion = washout.motion();
     let neutral = washout.parameters().rig.neutral_height;
-    let pace = parameters.soft_limit.pace.max(SLOWEST);
+    let pace = parameters.soft_limit.pace.max(MIN_PACE);
     for k in 0..3 {
         let far = (motion.position[k] - if k == 2 { neutral } else { 0.0 }).abs();
         let [speed, change] = [motion.velocity[k].abs(), motion.acceleration[k].abs()];
-        let fits = far + speed / pace <= INSIDE * safety.position_limit[k]
-            && speed <= INSIDE * safety.velocity_limit[k]
-            && change.max(pace * speed) <= INSIDE * safety.acceleration_limit[k];
+        let fits = far + speed / pace <= INSIDE_FRACTIONS * safety.position_limit[k]
+            && speed <= INSIDE_FRACTIONS * safety.velocity_limit[k]
+            && change.max(pace * speed) <= INSIDE_FRACTIONS * safety.acceleration_limit[k];
         // Those that have waited glide, too.
-        let least = if fits { 1.0 - PART } else { 1.0 };
+        let least = if fits { 1.0 - TIGHTENING_FRACTION } else { 1.0 };
         for (limit, old) in [
             (&mut safety.position_limit[k], before.position_limit[k]),
             (&mut safety.velocity_limit[k], before.velocity_limit[k]),

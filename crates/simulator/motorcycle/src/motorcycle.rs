@@ -329,7 +329,8 @@ impl Motorcycle {
         let (mut heave, moment) = self.suspension.push(&state.suspension, extra_weight, input.wind.z);
         let mut accelerations = self.longitudinal.accelerations(&forces, moment);
         if stage == Stage::Fallen {
-            accelerations.speed = if speed > 0.0 { -grip::SLIDING * p.tyres.friction * p.run.gravity } else { 0.0 };
+            accelerations.speed =
+                if speed > 0.0 { -grip::SLIDING_FRICTION_FRACTION * p.tyres.friction * p.run.gravity } else { 0.0 };
             (heave, accelerations.pitch) = settling(&state.suspension);
         }
 
@@ -527,7 +528,7 @@ fn held(state: &lateral::State, limits: (grip::Limits, grip::Limits)) -> (latera
 
 /// The derivative of a fallen motorcycle's lateral state: all rates end, and the tyres' forces.
 fn fallen(state: &lateral::State) -> lateral::State {
-    let mut derivative = -state / grip::SETTLING;
+    let mut derivative = -state / grip::FALLEN_SETTLING_TIME;
     derivative[place::LEAN] = state[place::LEAN_RATE];
     derivative[place::STEER] = state[place::STEER_RATE];
     derivative
@@ -535,7 +536,7 @@ fn fallen(state: &lateral::State) -> lateral::State {
 
 /// Accelerations of a fallen motorcycle's heave and pitch: back to rest, without overshoot.
 fn settling(state: &suspension::State) -> (f64, f64) {
-    let rate = 1.0 / grip::SETTLING;
+    let rate = 1.0 / grip::FALLEN_SETTLING_TIME;
     let back = -(state.velocity * 2.0 + state.position * rate) * rate;
     (back.x, back.y)
 }

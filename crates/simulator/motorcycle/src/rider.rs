@@ -23,7 +23,7 @@ use crate::speeds::Speeds;
 const PLANT_SIZE: usize = lateral::SIZE + 1;
 const LEAN_ERROR_INDEX: usize = lateral::SIZE;
 /// Number of speeds for which gains are computed.
-pub const SPEEDS: usize = 48;
+pub const GAIN_SPEED_COUNT: usize = 48;
 
 /// Gains of the rider at one speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ pub struct State {
 /// The rider's gains for all speeds, and the rider's limits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rider {
-    gains: SVector<GainSet, SPEEDS>,
+    gains: SVector<GainSet, GAIN_SPEED_COUNT>,
     speeds: Speeds,
     parameters: interface::Rider,
     /// Largest tangent of the lean, by the rider's limit and the tyres' friction.
@@ -87,7 +87,7 @@ impl Rider {
             steer_lock: 0.0,
         };
         rider.set_limits(parameters);
-        for k in 0..SPEEDS {
+        for k in 0..GAIN_SPEED_COUNT {
             let speed = rider.knot(k);
             rider.gains[k] = design_gains(lateral, speed, limits).ok_or_else(|| ParameterError {
                 variable: "rider.torqueWeight".into(),
@@ -140,14 +140,14 @@ impl Rider {
         if change.is_finite() { state.error + within(change, LARGEST) } else { state.error }
     }
 
-    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed.
+    /// Speed \[m/s\] of the knot number `k`, below [`GAIN_SPEED_COUNT`], for which gains were computed.
     pub fn knot(&self, k: usize) -> f64 {
-        self.speeds.knot(k, SPEEDS)
+        self.speeds.knot(k, GAIN_SPEED_COUNT)
     }
 
     /// Gains at a speed \[m/s\]: interpolated between two knots.
     pub fn gains(&self, speed: f64) -> GainSet {
-        let (k, fraction) = self.speeds.find(speed, SPEEDS);
+        let (k, fraction) = self.speeds.find(speed, GAIN_SPEED_COUNT);
         self.gains[k].interpolated(&self.gains[k + 1], fraction)
     }
 
@@ -178,7 +178,8 @@ impl Rider {
         State {
             lean: state.lean_rate,
             lean_rate: 2.0 * limits.lean_frequency * (rate - state.lean_rate),
-            error: riding * (lateral[place::LEAN] - libm::tan(state.lean)) - feet * state.error / FORGETTING,
+            error: riding * (lateral[place::LEAN] - libm::tan(state.lean))
+                - feet * state.error / SUPPORT_FORGETTING_TIME,
             torso: state.torso_rate,
             torso_rate: limits.body_lean_frequency
                 * (limits.body_lean_frequency * (torso - state.torso) - 2.0 * state.torso_rate),
@@ -214,7 +215,7 @@ const SLOWEST_FRACTION: f64 = 0.3;
 /// The reference lean needs at most this fraction of the friction.
 const FRICTION_FRACTION: f64 = 0.9;
 /// Time constant with which foot support discharges accumulated errors \[s\].
-pub(crate) const FORGETTING: f64 = 0.5;
+pub(crate) const SUPPORT_FORGETTING_TIME: f64 = 0.5;
 
 /// Rates \[1/s\] at which a reference lean on a path approaches its limit, and its
 /// rate the largest rate.
@@ -292,6 +293,6 @@ fn plant(
     let mut a = SMatrix::<f64, PLANT_SIZE, PLANT_SIZE>::zeros();
     a.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(&lateral.state_matrix(speed, feet));
     a[(LEAN_ERROR_INDEX, place::LEAN)] = 1.0 - feet;
-    a[(LEAN_ERROR_INDEX, LEAN_ERROR_INDEX)] = -feet / FORGETTING;
+    a[(LEAN_ERROR_INDEX, LEAN_ERROR_INDEX)] = -feet / SUPPORT_FORGETTING_TIME;
     (a, lateral.torque.push(0.0) * (1.0 - feet))
 }

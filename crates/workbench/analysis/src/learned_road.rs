@@ -12,7 +12,7 @@ use crate::error::{About, Result, ensure};
 use crate::recording::Recording;
 
 /// Largest file \[bytes\]. A full memory has less than 4 MB.
-const LARGEST: u64 = 16_000_000;
+const MAX_FILE_SIZE: u64 = 16_000_000;
 
 /// The road that recordings learn: each one its own, or all of them one that is kept in a file.
 pub struct Kept<'a> {
@@ -60,7 +60,7 @@ pub fn load(file: &Path) -> Result<Laps> {
     }
     let part = beside(file);
     write(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(file))?;
-    match moris_fmu_host::files::text(file, LARGEST) {
+    match moris_fmu_host::files::text(file, MAX_FILE_SIZE) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
             let text = text.about(|| file.display().to_string())?;

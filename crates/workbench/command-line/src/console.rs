@@ -10,9 +10,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 /// Lines that wait at most; further ones are lost.
-const WAITING: usize = 4096;
+const MAX_WAITING_LINES: usize = 4096;
 /// Time in which the last lines must be written.
-const LAST: Duration = Duration::from_millis(500);
+const LAST_LINES_TIME: Duration = Duration::from_millis(500);
 
 enum Line {
     Text(String),
@@ -37,19 +37,19 @@ pub fn flush() {
 /// Waits until the lines are written. False if their reader does not read.
 fn wait_for(lines: &SyncSender<Line>) -> bool {
     let (mark, written) = sync_channel(1);
-    let end = Instant::now() + LAST;
+    let end = Instant::now() + LAST_LINES_TIME;
     while lines.try_send(Line::Mark(mark.clone())).is_err() {
         if Instant::now() > end {
             return false;
         }
         thread::sleep(Duration::from_millis(1));
     }
-    written.recv_timeout(LAST).is_ok()
+    written.recv_timeout(LAST_LINES_TIME).is_ok()
 }
 
 /// The thread that writes. Nobody joins it: a reader that does not read may stop it for ever.
 fn begin(out: impl Write + Send + 'static) -> SyncSender<Line> {
-    let (lines, received) = sync_channel(WAITING);
+    let (lines, received) = sync_channel(MAX_WAITING_LINES);
     // Without a thread nothing is printed, and the session goes on.
     let _ = thread::Builder::new().name("console".to_owned()).spawn(move || write(out, &received));
     lines
@@ -104,7 +104,7 @@ mod tests {
             let taken = Arc::default();
             let lines = begin(Reader { taken: Arc::clone(&taken), room: 8, blocks });
             let begin = Instant::now();
-            for _ in 0..3 * WAITING {
+            for _ in 0..3 * MAX_WAITING_LINES {
                 let _ = lines.try_send(Line::Text("line\n".to_owned()));
             }
             assert_eq!(wait_for(&lines), !blocks);

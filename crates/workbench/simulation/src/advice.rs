@@ -36,7 +36,7 @@ const MIN_SCALE: f64 = 0.03;
 const MAX_SEARCHED: f64 = 120.0;
 /// Largest severity of the fault, relative to what it was, that counts as better: where the fault
 /// is gone with it, and where it is not.
-const BETTER: [f64; 2] = [0.95, 0.8];
+const BETTER_SEVERITY_RATIOS: [f64; 2] = [0.95, 0.8];
 /// Largest growth of another fault that is there already.
 const NO_WORSE: f64 = 1.05;
 
@@ -375,7 +375,7 @@ impl<'a> Advisor<'a> {
         let is_no_worse =
             |(fault, after): &(Fault, f64)| *after < f64::max(1.0, NO_WORSE * severity(&self.before, *fault));
         let after = alternative.severity(self.fault);
-        let least = BETTER[usize::from(after >= 1.0)] * severity(&self.before, self.fault);
+        let least = BETTER_SEVERITY_RATIOS[usize::from(after >= 1.0)] * severity(&self.before, self.fault);
         after <= least && others.into_iter().all(is_no_worse)
     }
 }

@@ -37,7 +37,7 @@ pub struct AxisAlone {
 
 /// Speed of a leg for a unit of speed along an axis, below which the legs do not set the platform's
 /// speed: the platform is singular there.
-const SINGULAR: f64 = 1e-6;
+const SINGULAR_LEG_SPEED: f64 = 1e-6;
 
 /// Result of the survey over all leg lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,8 +115,8 @@ impl AxisAlone {
         AxisAlone {
             axis,
             range: single_axis_range(rig, axis),
-            speed: (fastest_leg > SINGULAR).then(|| rig.velocity_limit / fastest_leg),
-            acceleration: (fastest_leg > SINGULAR).then(|| rig.acceleration_limit / fastest_leg),
+            speed: (fastest_leg > SINGULAR_LEG_SPEED).then(|| rig.velocity_limit / fastest_leg),
+            acceleration: (fastest_leg > SINGULAR_LEG_SPEED).then(|| rig.acceleration_limit / fastest_leg),
         }
     }
 
@@ -149,7 +149,7 @@ impl fmt::Display for Singularities {
             ),
             Singularities::At(lengths) => writeln!(
                 f,
-                "SINGULAR inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
+                "SINGULAR_LEG_SPEED inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
                  stroke; the washout refuses this rig.",
                 lengths.map(|length| format!("{length:.3}")).join(", ")
             ),

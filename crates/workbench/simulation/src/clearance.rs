@@ -16,9 +16,9 @@ use moris_washout::platform::numbering::{ADVICE, is_opposite};
 use moris_washout::platform::{Geometry, Pose, forward_kinematics, jacobian};
 
 /// Lengths tried for each leg, evenly from the shortest to the longest.
-const LEVELS: usize = 4;
+const LENGTH_LEVELS: usize = 4;
 /// Step at which the search for the smallest distance ends, as a fraction of the stroke.
-const FINEST: f64 = 1e-3;
+const MIN_SEARCH_STEP: f64 = 1e-3;
 
 /// Two legs where they are closest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,9 +37,9 @@ pub struct Approach {
 const ASSUMED_DIAMETER: f64 = 0.05;
 
 /// Two joints closer than this are one that two legs share \[m\].
-const SHARED: f64 = 1e-3;
+const SHARED_JOINT_DISTANCE: f64 = 1e-3;
 /// Part of a leg next to a shared joint that may be within the other leg \[diameters\].
-const FREE: f64 = 3.0;
+const SHARED_JOINT_CLEARANCE: f64 = 3.0;
 
 /// Least distances between the legs.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,10 +101,11 @@ pub fn approaches(rig: &Rig, diameter: f64) -> Vec<Approach> {
     let geometry = Geometry::from(rig);
     let neutral = Pose::neutral(rig);
     let sign = jacobian(&geometry, &neutral).determinant().signum();
-    let reach = Reach { rig, geometry: &geometry, neutral, sign, free: FREE * diameter };
-    let grid: Vec<([f64; 6], Pose)> = (0..LEVELS.pow(6))
+    let reach = Reach { rig, geometry: &geometry, neutral, sign, free: SHARED_JOINT_CLEARANCE * diameter };
+    let grid: Vec<([f64; 6], Pose)> = (0..LENGTH_LEVELS.pow(6))
         .filter_map(|index| {
-            let lengths = array::from_fn(|leg| reach.level_length(index / LEVELS.pow(leg as u32) % LEVELS));
+            let lengths =
+                array::from_fn(|leg| reach.level_length(index / LENGTH_LEVELS.pow(leg as u32) % LENGTH_LEVELS));
             Some((lengths, reach.pose(&lengths, &neutral)?))
         })
         .collect();
@@ -131,7 +132,7 @@ impl Reach<'_> {
     }
 
     fn level_length(&self, level: usize) -> f64 {
-        self.rig.min_length + self.stroke() * level as f64 / (LEVELS - 1) as f64
+        self.rig.min_length + self.stroke() * level as f64 / (LENGTH_LEVELS - 1) as f64
     }
 
     /// The pose with these lengths of the legs; none if it is not found.
@@ -147,7 +148,7 @@ impl Reach<'_> {
         };
         let [a, b] = legs.map(segment);
         // A leg has its free parts at most up to its middle.
-        let is_shared = |joints: &[Vector3<f64>; 6]| (joints[legs[0]] - joints[legs[1]]).norm() < SHARED;
+        let is_shared = |joints: &[Vector3<f64>; 6]| (joints[legs[0]] - joints[legs[1]]).norm() < SHARED_JOINT_DISTANCE;
         let [at_base, at_platform] = [&self.rig.base, &self.rig.platform].map(is_shared);
         let beyond = |[from, to]: [Vector3<f64>; 2]| {
             let free = (to - from) * (self.free / (to - from).norm().max(2.0 * self.free));
@@ -167,8 +168,8 @@ impl Reach<'_> {
                 (best, lengths) = (approach, *candidate);
             }
         }
-        let mut step = 0.5 * self.stroke() / (LEVELS - 1) as f64;
-        while step > FINEST * self.stroke() {
+        let mut step = 0.5 * self.stroke() / (LENGTH_LEVELS - 1) as f64;
+        while step > MIN_SEARCH_STEP * self.stroke() {
             let moves = (0..12).filter_map(|index| {
                 let mut moved = lengths;
                 let signed = if index % 2 == 0 { step } else { -step };

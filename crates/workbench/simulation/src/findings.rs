@@ -18,9 +18,9 @@ use crate::{Finding, Limits, TiltLimit, Weight};
 
 /// Least RMS of the desired motion that counts as desired, of forces \[m/s2\]
 /// and of rates \[rad/s\].
-const LEAST: [f64; 2] = [0.05, 1.0_f64.to_radians()];
+const MIN_DESIRED_RMS: [f64; 2] = [0.05, 1.0_f64.to_radians()];
 /// Relative error up to which a channel counts as reproduced well.
-const FAITHFUL: f64 = 0.25;
+const FAITHFUL_ERROR: f64 = 0.25;
 /// Relative error above which a channel is worse than on a platform at rest, whose own is 1: a
 /// scale of 0 is none.
 const WORSE_THAN_REST: f64 = 1.05;
@@ -39,10 +39,10 @@ const LEAST_PEAK: f64 = 1.0;
 /// Least share of sick people that is worth a sentence \[%\], and the share by which the platform
 /// may exceed the vehicle without a warning.
 const LEAST_SICK: f64 = 1.0;
-const SICKER: f64 = 2.0;
+const SICKNESS_RATIO: f64 = 2.0;
 
 /// Largest fraction of the time with soft limits at which a recording fits the rig.
-const SELDOM: f64 = 0.01;
+const MAX_SOFT_LIMITED_FRACTION: f64 = 0.01;
 /// Fraction of the time from which inverted cues are a warning, and the least correlation of a cue
 /// that is right in time and proportion.
 pub(crate) const INVERTED: f64 = 0.02;
@@ -132,7 +132,7 @@ pub fn fits_the_rig(measures: &Measures) -> bool {
 
 /// True if soft limits, which keep these from acting, were hardly ever active, either.
 pub(crate) fn fits_freely(measures: &Measures) -> bool {
-    fits_the_rig(measures) && measures.effort.limited.soft <= SELDOM
+    fits_the_rig(measures) && measures.effort.limited.soft <= MAX_SOFT_LIMITED_FRACTION
 }
 
 /// True if no channel is worse than on a platform at rest.
@@ -163,7 +163,7 @@ fn soft_limited_time(simulation: &Simulation) -> Option<String> {
 /// Motion sickness in the vehicle and on the platform.
 fn sickness(measures: &Measures) -> Option<Finding> {
     let [vehicle, platform] = measures.rider.sick;
-    let weight = if platform > vehicle + SICKER { Weight::Warning } else { Weight::Note };
+    let weight = if platform > vehicle + SICKNESS_RATIO { Weight::Warning } else { Weight::Note };
     (vehicle.max(platform) >= LEAST_SICK).then(|| {
         finding(
             weight,
@@ -287,7 +287,7 @@ impl ChannelFigures {
     }
 
     fn least_desired(&self) -> f64 {
-        LEAST[usize::from(self.axis.is_rotation())]
+        MIN_DESIRED_RMS[usize::from(self.axis.is_rotation())]
     }
 
     /// A channel on which something is desired, felt, or falsely cued.
@@ -307,7 +307,7 @@ impl ChannelFigures {
                     "is felt though hardly any is desired"
                 },
             )
-        } else if rms_error <= FAITHFUL * self.at_rest {
+        } else if rms_error <= FAITHFUL_ERROR * self.at_rest {
             (Weight::Good, "is reproduced well")
         } else if rms_error > WORSE_THAN_REST * self.at_rest {
             (Weight::Note, "has a larger error than a platform at rest, which is hardly sensed")
@@ -340,7 +340,7 @@ impl ChannelFigures {
     fn bound_sentence(&self, tilt: &TiltParameters) -> String {
         self.bound.map_or_else(String::new, |least| {
             let limits = bound_limits(tilt, self.axis);
-            if least < FAITHFUL * self.felt.rms_error {
+            if least < FAITHFUL_ERROR * self.felt.rms_error {
                 format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² {limits}.")
             } else {
                 format!(" No controller could get below {least:.2} m/s² {limits}.")

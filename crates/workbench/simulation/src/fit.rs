@@ -20,13 +20,13 @@ const SEARCH_STEPS: [f64; 3] = [0.01, 0.002, 0.005];
 pub const SMALLER: f64 = 0.94;
 pub const TRIALS: usize = 6;
 /// Factors that are tried first, the largest first.
-const GRID: [f64; 13] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
+const FIRST_FACTORS: [f64; 13] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
 /// Bisections between two of them.
-const BISECTIONS: usize = 3;
+const BISECTION_COUNT: usize = 3;
 /// Factors on the break frequencies of the classical strategy.
-const BREAKS: [f64; 7] = [1.0, 4.0, 2.5, 1.6, 0.6, 0.35, 0.15];
+const BREAK_FACTORS: [f64; 7] = [1.0, 4.0, 2.5, 1.6, 0.6, 0.35, 0.15];
 /// Factors on heave, the largest first.
-const HEAVE: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
+const HEAVE_FACTORS: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
 
 /// Bounds of the errors that a scale has to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,7 +177,7 @@ impl<'a> Search<'a> {
     /// The parameters cannot be used.
     pub fn fit(&self, parameters: &Parameters) -> Result<Fit, ParameterError> {
         let is_classical = parameters.structure.strategy == StrategyKind::Classical;
-        let breaks: &[f64] = if is_classical { &BREAKS } else { &BREAKS[..1] };
+        let breaks: &[f64] = if is_classical { &BREAK_FACTORS } else { &BREAK_FACTORS[..1] };
         let curves = breaks.iter().map(|&breaks| self.curve(parameters, breaks)).collect::<Result<Vec<_>, _>>()?;
         let best_of = |curve: &Vec<Candidate>| self.best(curve);
         let best = curves
@@ -239,7 +239,7 @@ impl<'a> Search<'a> {
         let at = |scale: f64| self.candidate(parameters, Factors { scale, breaks, heave: 1.0 });
         let mut curve = Vec::new();
         let mut above = None;
-        for scale in GRID {
+        for scale in FIRST_FACTORS {
             let candidate = at(scale)?;
             curve.push(candidate);
             if self.aims.distance(&candidate.shape) > 1.0 {
@@ -247,7 +247,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             let (mut fits, mut fails) = (scale, above.unwrap_or(scale));
-            for _ in 0..BISECTIONS {
+            for _ in 0..BISECTION_COUNT {
                 if fails - fits < 0.02 * fits {
                     break;
                 }
@@ -274,7 +274,7 @@ impl<'a> Search<'a> {
         if asked.sqrt() <= crate::measures::shape::LEAST_DESIRED * (desired.len() as f64).sqrt() {
             return Ok(1.0);
         }
-        for heave in HEAVE {
+        for heave in HEAVE_FACTORS {
             let scaled = Factors { heave, ..factors }.applied(parameters);
             let scale = scaled.conditioning.force_scale[2];
             let felt: Vec<f64> = self.felt(&quick(&scaled))?.iter().map(|force| force[2] - STANDARD_GRAVITY).collect();

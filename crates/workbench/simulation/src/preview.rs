@@ -42,7 +42,7 @@ pub fn parse_seconds(text: &str) -> Result<f64, String> {
 }
 
 /// Tolerance of a count of elements.
-const ROUNDING: f64 = 1e-9;
+const COUNT_ROUNDING: f64 = 1e-9;
 
 impl Previewer {
     /// A preview of so many seconds, at most [`LONGEST_PREVIEW`]; none of no length.
@@ -52,7 +52,7 @@ impl Previewer {
     /// aliased to a slow one.
     pub fn of(manoeuvre: &Manoeuvre, seconds: f64) -> Option<Self> {
         let step = manoeuvre.step();
-        let count = ((seconds / PREVIEW_STEP + ROUNDING) as usize).min(PREVIEW_SAMPLES);
+        let count = ((seconds / PREVIEW_STEP + COUNT_ROUNDING) as usize).min(PREVIEW_SAMPLES);
         let reach = (PREVIEW_STEP / step).round() as usize;
         let force = |axis: usize| manoeuvre.inputs().iter().map(|input| input.specific_force[axis]).collect::<Vec<_>>();
         let forces = [0, 1].map(|axis| averaged(&force(axis), reach));
@@ -69,12 +69,12 @@ impl Previewer {
         let (forces, count) = match &self.source {
             Source::Recording { forces, count } => (forces, *count),
             Source::Given(previews) => {
-                let sample = (time / self.step + ROUNDING) as usize;
+                let sample = (time / self.step + COUNT_ROUNDING) as usize;
                 return previews.get(sample).copied().unwrap_or_default();
             }
         };
         let last = (forces[0].len() - 1) as f64 * self.step;
-        let left = ((last - time) / PREVIEW_STEP + ROUNDING).max(0.0) as usize;
+        let left = ((last - time) / PREVIEW_STEP + COUNT_ROUNDING).max(0.0) as usize;
         let element = |axis: usize, k: usize| {
             let position = (time + (k + 1) as f64 * PREVIEW_STEP) / self.step;
             forces[axis].get(position.round() as usize).copied().unwrap_or(0.0)

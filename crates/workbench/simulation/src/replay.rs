@@ -43,7 +43,7 @@ use nalgebra::Vector3;
 use crate::Manoeuvre;
 
 /// Tolerance of the ratio of two steps against a whole number.
-const ROUNDING: f64 = 1e-6;
+const STEP_RATIO_TOLERANCE: f64 = 1e-6;
 
 /// Communication steps with which a manoeuvre is replayed. Between its samples it is linear.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ impl<'a> Replay<'a> {
     pub fn in_steps(manoeuvre: &'a Manoeuvre, step: f64, slopes: bool) -> Option<Self> {
         let whole = |ratio: f64| {
             let count = ratio.round();
-            (count >= 1.0 && (ratio - count).abs() <= ROUNDING * count).then_some(count as usize)
+            (count >= 1.0 && (ratio - count).abs() <= STEP_RATIO_TOLERANCE * count).then_some(count as usize)
         };
         let sample = manoeuvre.step();
         match (whole(sample / step), whole(step / sample)) {

@@ -5,7 +5,7 @@ use moris_washout::Output;
 use crate::Simulation;
 
 /// Spans closer to each other than this are one \[s\].
-const GAP: f64 = 0.1;
+const MAX_JOINED_GAP: f64 = 0.1;
 
 /// The spans of a simulation in which a flag was set.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ impl Spans {
             count += 1;
             let [begin, end] = [index - 1, index].map(|index| index as f64 * step);
             match spans.last_mut() {
-                Some([_, last]) if begin - *last <= GAP => *last = end,
+                Some([_, last]) if begin - *last <= MAX_JOINED_GAP => *last = end,
                 _ => spans.push([begin, end]),
             }
         }

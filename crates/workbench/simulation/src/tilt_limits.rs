@@ -34,11 +34,11 @@ impl TiltLimit {
 pub type TiltFlags = [[Vec<bool>; 3]; 2];
 
 /// An angle or rate counts as at its limit from this fraction of it on.
-const REACHED: f64 = 0.98;
+const REACHED_FRACTION: f64 = 0.98;
 /// The same of the acceleration between two samples, of which the limit may act on a part only.
 const REACHED_ACCELERATION: f64 = 0.9;
 /// An acceleration limit that acts in one direction for a shorter time only smooths noise \[s\].
-const SUSTAINED: f64 = 0.1;
+const MIN_SUSTAINED_TIME: f64 = 0.1;
 
 /// The limits that act, from samples of the tilt of roll and pitch \[rad\] and its rates \[rad/s\].
 /// `lags` is true where the tilt lagged behind its target in the step before the sample.
@@ -46,7 +46,7 @@ pub fn tilt_limits(times: &[f64], lags: &[bool], tilt: [&[f64]; 2], rate: [&[f64
     [0, 1].map(|axis| {
         let is_accelerated = sustained(times, rate[axis], REACHED_ACCELERATION * limits.tilt_acceleration);
         let acting = |k: usize| {
-            let at = |value: f64, limit: f64| limit > 0.0 && value.abs() >= REACHED * limit;
+            let at = |value: f64, limit: f64| limit > 0.0 && value.abs() >= REACHED_FRACTION * limit;
             if !lags[k] {
                 None
             } else if at(rate[axis][k], limits.tilt_rate) {
@@ -77,7 +77,7 @@ fn sustained(times: &[f64], rate: &[f64], least: f64) -> Vec<bool> {
             next += 1;
         }
         let duration = times[next - 1] - times[first - 1];
-        if sign_here != 0.0 && duration >= SUSTAINED * (1.0 - 1e-9) {
+        if sign_here != 0.0 && duration >= MIN_SUSTAINED_TIME * (1.0 - 1e-9) {
             flags[first..next].fill(true);
         }
         first = next;

@@ -3,13 +3,13 @@
 use moris_interface::{ParameterError, refuse};
 use serde::{Deserialize, Serialize};
 
-use super::preview_rider::{INTERVAL, PreviewRider, SAMPLES, plant_state};
+use super::preview_rider::{PREVIEW_INTERVAL, PREVIEW_INTERVALS, PreviewRider, plant_state};
 use super::speed_plan::{Limits, SpeedPlan};
 use super::table::Table;
 use crate::interface::Parameters;
 use crate::lateral::{Lateral, place};
 use crate::longitudinal::Longitudinal;
-use crate::rider::{FORGETTING, Rider, within};
+use crate::rider::{Rider, SUPPORT_FORGETTING_TIME, within};
 use crate::state::{PathState, State};
 
 /// A path, the plan of the speed along it, and the gains of the rider who follows it.
@@ -108,7 +108,7 @@ impl Follower {
     pub fn ahead(&self, state: &State, longitudinal: &Longitudinal) -> Ahead {
         let (distance, speed) = (state.place.distance, state.speed);
         let gains = self.rider.gains(speed);
-        let mut steady_leans = [0.0; SAMPLES + 1];
+        let mut steady_leans = [0.0; PREVIEW_INTERVALS + 1];
         let (mut place, mut pace, mut planned) = (distance, speed, 0.0);
         for (k, steady_lean) in steady_leans.iter_mut().enumerate() {
             let plan = self.plan_at(place);
@@ -116,8 +116,8 @@ impl Follower {
             if k < SMOOTHED_SAMPLES {
                 planned += plan.1 / SMOOTHED_SAMPLES as f64;
             }
-            let change = self.acceleration(plan, pace) * INTERVAL;
-            place += (pace + 0.5 * change).max(0.0) * INTERVAL;
+            let change = self.acceleration(plan, pace) * PREVIEW_INTERVAL;
+            place += (pace + 0.5 * change).max(0.0) * PREVIEW_INTERVAL;
             pace = (pace + change).max(0.0);
         }
         let now = self.plan_at(distance).0;
@@ -166,7 +166,7 @@ impl Follower {
         PathState {
             distance: along,
             deviation: state.speed * sin + to_right * cos,
-            integral: accumulated - feet * integral / FORGETTING,
+            integral: accumulated - feet * integral / SUPPORT_FORGETTING_TIME,
             heading: state.lateral[place::YAW_RATE] - curvature * along,
         }
     }

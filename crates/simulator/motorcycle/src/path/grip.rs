@@ -42,9 +42,9 @@ impl Friction {
 const LEAST_FRACTION: f64 = 0.1;
 
 /// Deceleration of a motorcycle that slides on its side, as a fraction of gravity times friction.
-pub const SLIDING: f64 = 0.4;
+pub const SLIDING_FRICTION_FRACTION: f64 = 0.4;
 /// Time constant with which roll and yaw rates of a fallen motorcycle end \[s\].
-pub const SETTLING: f64 = 0.1;
+pub const FALLEN_SETTLING_TIME: f64 = 0.1;
 
 /// Roll beyond the rider's limit at which the motorcycle has fallen \[rad\], and the largest roll.
 const FALLEN_ROLL_MARGIN: f64 = 0.35;

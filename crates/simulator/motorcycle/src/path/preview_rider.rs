@@ -13,7 +13,7 @@
 //!
 //! with P from the Riccati equation: R. S. Sharp, "Motorcycle steering control by road preview",
 //! J. Dyn. Syst. Meas. Control 129 (2007) 373-382, in continuous time. The integral is taken over
-//! [`SAMPLES`] intervals in which ρ is linear.
+//! [`PREVIEW_INTERVALS`] intervals in which ρ is linear.
 
 use moris_washout::riccati;
 use nalgebra::{SMatrix, SVector};
@@ -43,8 +43,8 @@ pub type Plant = SVector<f64, PLANT_SIZE>;
 type PlantMatrix = SMatrix<f64, PLANT_SIZE, PLANT_SIZE>;
 
 /// Intervals of the preview, and the duration of each \[s\].
-pub const SAMPLES: usize = 30;
-pub const INTERVAL: f64 = 0.1;
+pub const PREVIEW_INTERVALS: usize = 30;
+pub const PREVIEW_INTERVAL: f64 = 0.1;
 
 /// Number of speeds for which gains are computed.
 const GAIN_SPEEDS: usize = 24;
@@ -55,7 +55,7 @@ pub struct PreviewGains {
     /// Gain of the plant's state.
     pub gain: Plant,
     /// Gains of the changes of ρ over the preview's intervals.
-    pub preview: SVector<f64, SAMPLES>,
+    pub preview: SVector<f64, PREVIEW_INTERVALS>,
     /// The steady turn with lean 1.
     pub turn: Plant,
     /// Lean of a steady turn divided by its lateral acceleration, as v^2 times the curvature
@@ -75,8 +75,8 @@ impl PreviewGains {
     }
 
     /// The control's feedforward part, from ρ now and at the ends of the intervals.
-    pub fn feedforward(&self, steady_leans: &[f64; SAMPLES + 1]) -> f64 {
-        (0..SAMPLES).map(|k| self.preview[k] * (steady_leans[k + 1] - steady_leans[k])).sum()
+    pub fn feedforward(&self, steady_leans: &[f64; PREVIEW_INTERVALS + 1]) -> f64 {
+        (0..PREVIEW_INTERVALS).map(|k| self.preview[k] * (steady_leans[k + 1] - steady_leans[k])).sum()
     }
 
     /// The control's feedback part, from the deviation of the plant from the steady turn
@@ -184,7 +184,7 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     let (scale, inverse) = (PlantMatrix::from_diagonal(&unit), PlantMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
     let scaled = inverse * a * scale;
     let mut cost = Plant::zeros();
-    for (coordinate, size) in WEIGHTS {
+    for (coordinate, size) in DEVIATION_WEIGHTS {
         cost[coordinate] = 1.0 / (size * size);
     }
     let spread = control() * control().transpose() * INVERSE_CONTROL_WEIGHT;
@@ -192,10 +192,10 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     let gain = to_go * control() * INVERSE_CONTROL_WEIGHT;
     let closed = scaled - control() * gain.transpose();
     // The mean of exp(A_c' τ) P X over each interval.
-    let (flow, mean) = flow(&closed.transpose(), INTERVAL);
+    let (flow, mean) = flow(&closed.transpose(), PREVIEW_INTERVAL);
     let mut weight = to_go * (inverse * turn) * INVERSE_CONTROL_WEIGHT;
-    let mut preview = SVector::<f64, SAMPLES>::zeros();
-    for k in 0..SAMPLES {
+    let mut preview = SVector::<f64, PREVIEW_INTERVALS>::zeros();
+    for k in 0..PREVIEW_INTERVALS {
         preview[k] = (mean * weight)[REFERENCE_RATE];
         weight = flow * weight;
     }
@@ -205,7 +205,7 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
 }
 
 /// Deviations of equal cost. A control of 1 / sqrt([`INVERSE_CONTROL_WEIGHT`]) has the same cost.
-pub const WEIGHTS: [(usize, f64); 4] =
+pub const DEVIATION_WEIGHTS: [(usize, f64); 4] =
     [(DEVIATION_INDEX, 0.1), (HEADING_INDEX, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL_INDEX, 0.3)];
 pub const INVERSE_CONTROL_WEIGHT: f64 = 16.0;
 

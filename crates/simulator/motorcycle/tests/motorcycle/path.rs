@@ -5,7 +5,7 @@ use crate::cases::cases;
 use moris_interface::{Group, Writer, slot_count};
 use moris_motorcycle::interface::{PATH_POINTS, Path, PathColumn};
 use moris_motorcycle::path::preview_rider::{
-    INTERVAL, INVERSE_CONTROL_WEIGHT, Plant, REFERENCE_RATE, SAMPLES, WEIGHTS,
+    DEVIATION_WEIGHTS, INVERSE_CONTROL_WEIGHT, PREVIEW_INTERVAL, PREVIEW_INTERVALS, Plant, REFERENCE_RATE,
 };
 use moris_motorcycle::path::table::from_csv;
 use moris_motorcycle::{Course, Input, Model, Motorcycle, Output, Parameters};
@@ -207,10 +207,11 @@ fn its_preview_minimises_the_cost() {
             let mut cost = 0.0;
             for k in 0..steps {
                 let time = f64::from(k) * size;
-                let ahead: [f64; SAMPLES + 1] = std::array::from_fn(|k| steady_lean(time + k as f64 * INTERVAL));
+                let ahead: [f64; PREVIEW_INTERVALS + 1] =
+                    std::array::from_fn(|k| steady_lean(time + k as f64 * PREVIEW_INTERVAL));
                 let forward = gains.feedforward(&ahead) + addition * bump(time, at);
                 let control = forward - gains.gain.dot(&deviation);
-                let weighted = WEIGHTS.map(|(coordinate, unit)| (deviation[coordinate] / unit).powi(2));
+                let weighted = DEVIATION_WEIGHTS.map(|(coordinate, unit)| (deviation[coordinate] / unit).powi(2));
                 cost += (weighted.iter().sum::<f64>() + control * control / INVERSE_CONTROL_WEIGHT) * size;
                 let rate = (steady_lean(time + size) - steady_lean(time)) / size;
                 // The middle of the step: the rule of second order.

@@ -23,7 +23,7 @@ use crate::recording::{Recording, source};
 use crate::washout_fmu::WashoutFmu;
 
 /// Interval of the bound's controls \[s\].
-const INTERVAL: f64 = 0.05;
+const BOUND_INTERVAL: f64 = 0.05;
 
 /// Scale of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ pub struct Row {
 }
 
 /// Measures whose least is [`Row::best`].
-const ERRORS: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
+const ERROR_MEASURES: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
 
 impl Row {
     /// A measure by its name.
@@ -140,7 +140,7 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
     let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);
     let unscaled = recording.parameters(&unscaled(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
-    let bounds = bounds::bounds_at(&asked, INTERVAL).about(of)?;
+    let bounds = bounds::bounds_at(&asked, BOUND_INTERVAL).about(of)?;
     let row = |washout: &str, scale: Scale, outcome: Outcome| row(rig, drive, washout, scale, outcome, &bounds);
     let at_rest = at_rest(&recording, &Setup { parameters: unscaled, ..setup.clone() }).about(of)?;
     let mut rows = vec![row("at rest", Scale::One, at_rest)];
@@ -175,7 +175,7 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
         rows.push(row(&other.name, Scale::Own, judged));
     }
     let least = |name: &str| rows.iter().filter_map(|row| row.value(name)).reduce(f64::min);
-    let best = ERRORS.map(least);
+    let best = ERROR_MEASURES.map(least);
     rows.iter_mut().for_each(|row| row.best = best);
     Ok(rows)
 }

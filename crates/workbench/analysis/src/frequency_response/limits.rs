@@ -8,7 +8,7 @@ use moris_simulation::frequency_response::channel::{CROSS, Channel, direct, name
 use super::Measured;
 
 /// Columns of a file of bounds.
-const COLUMNS: [&str; 6] = ["channel", "frequency", "modulus_low", "modulus_high", "phase_low", "phase_high"];
+const BOUND_COLUMNS: [&str; 6] = ["channel", "frequency", "modulus_low", "modulus_high", "phase_low", "phase_high"];
 
 /// The bounds of a channel at a frequency, in the units of the tables.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,9 +55,9 @@ impl Limit {
             header
                 .iter()
                 .position(|title| title == *column)
-                .ok_or_else(|| at(format!("there is no column {column}; the columns are {}", COLUMNS.join(", "))))
+                .ok_or_else(|| at(format!("there is no column {column}; the columns are {}", BOUND_COLUMNS.join(", "))))
         };
-        let places = COLUMNS.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+        let places = BOUND_COLUMNS.iter().map(place).collect::<Result<Vec<_>, _>>()?;
         let row = |(line, record): (usize, csv::Result<csv::StringRecord>)| {
             let record = record.map_err(|reason| at(reason.to_string()))?;
             let fields: Vec<&str> = places.iter().map(|&place| record.get(place).unwrap_or("")).collect();
@@ -79,7 +79,7 @@ impl Limit {
                 return Ok(None);
             }
             let value = fields[k].parse::<f64>().ok().filter(|value| value.is_finite());
-            value.map(Some).ok_or_else(|| format!("{} is {:?}, which is no number", COLUMNS[k], fields[k]))
+            value.map(Some).ok_or_else(|| format!("{} is {:?}, which is no number", BOUND_COLUMNS[k], fields[k]))
         };
         let frequency = number(1)?.filter(|frequency| *frequency > 0.0);
         let frequency = frequency.ok_or_else(|| format!("frequency is {:?}, but must be above 0 rad/s", fields[1]))?;

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use platform::NominalPlatform;
 
 /// Amplitude of the small signals as a fraction of the test's: far from every limit.
-const SMALL: f64 = 1e-3;
+const SMALL_SIGNAL_FRACTION: f64 = 1e-3;
 
 /// Responses on all channels at all frequencies, channel by channel in the order of the
 /// frequencies.
@@ -65,7 +65,7 @@ impl Measured {
             };
             tests.par_iter().map(measure).collect()
         };
-        Ok(Measured { test: all(amplitudes), small: all(amplitudes.scaled(SMALL)) })
+        Ok(Measured { test: all(amplitudes), small: all(amplitudes.scaled(SMALL_SIGNAL_FRACTION)) })
     }
 
     /// The response with the test's amplitude to a channel at a frequency; `None` where it was not

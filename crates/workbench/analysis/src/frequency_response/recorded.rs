@@ -14,7 +14,7 @@ use crate::recording::felt::{FORCE, FeltTable, RATE};
 use crate::recording::{Conventions, Recording, RecordingError};
 
 /// Largest part of the input beside its sine, as a fraction of the sine: more is another frequency.
-const IMPURITY: f64 = 0.1;
+const MAX_IMPURITY: f64 = 0.1;
 
 impl Measured {
     /// The responses in recordings, one of each test. Each has the vehicle's motion as any
@@ -72,7 +72,7 @@ fn of_series(desired: &[[f64; CHANNELS]], felt: &[[f64; CHANNELS]], step: f64) -
     let from = count - window.min(half);
     let excitation = Sine::of(&series(desired, input, from, count), frequency, step);
     let amplitude = excitation.coefficient.norm();
-    if amplitude == 0.0 || excitation.rest > IMPURITY {
+    if amplitude == 0.0 || excitation.rest > MAX_IMPURITY {
         return Err(format!(
             "the vehicle's {} is no sine at one of the test's frequencies: at {frequency:.3} rad/s, the nearest, {:.0} % is \
              something else; record one channel and one frequency in each file",

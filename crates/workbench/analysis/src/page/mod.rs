@@ -12,7 +12,7 @@ use crate::outcome::{Outcome, listed};
 use crate::recording::Recording;
 
 /// Largest page without simulation, and with it \[bytes\].
-const LARGEST: usize = 3_000_000;
+const MAX_PAGE_SIZE: usize = 3_000_000;
 const LARGEST_WITH_SIMULATION: usize = 4_200_000;
 /// Samples that fit into the largest page if their curves are smooth, and the least that are worth
 /// showing, of all sets together.
@@ -30,13 +30,13 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: &str, words: W
     loop {
         let report = report(recording, outcomes, most / outcomes.len(), words);
         let page = moris_pages::report::html(&report);
-        if page.len() <= LARGEST || most <= LEAST_SAMPLES {
+        if page.len() <= MAX_PAGE_SIZE || most <= LEAST_SAMPLES {
             let is_foreign = outcomes[0].simulation.foreign.is_some();
             let simulator = simulator::of(recording, &outcomes[0], command).filter(|_| !is_foreign);
             let Some(simulator) = simulator else { return page };
             return with_simulation(report, simulator, page);
         }
-        let fitting = 0.95 * most as f64 * LARGEST as f64 / page.len() as f64;
+        let fitting = 0.95 * most as f64 * MAX_PAGE_SIZE as f64 / page.len() as f64;
         most = (fitting as usize).max(LEAST_SAMPLES);
     }
 }

@@ -6,9 +6,9 @@ use moris_washout::Input;
 use crate::recording::Recording;
 
 /// Time over which forces and rates are averaged \[s\].
-const SMOOTHING: f64 = 0.5;
+const AVERAGING_TIME: f64 = 0.5;
 /// Yaw rate from which on the vehicle is in a bend \[rad/s\].
-const BEND: f64 = 0.05;
+const MIN_BEND_YAW_RATE: f64 = 0.05;
 /// Lateral force of bends by their yaw rate, which is the speed of a vehicle that does not lean
 /// \[m/s\], and its correlation with the yaw rate. A leaning rider feels no lateral force.
 const LEAST_SPEED: f64 = 3.0;
@@ -20,12 +20,12 @@ pub fn vehicle(recording: &Recording) -> Vehicle {
 }
 
 fn turns_flat(inputs: &[Input], step: f64) -> bool {
-    let block = ((SMOOTHING / step).round() as usize).max(1);
+    let block = ((AVERAGING_TIME / step).round() as usize).max(1);
     let mean = |block: &[Input], value: fn(&Input) -> f64| block.iter().map(value).sum::<f64>() / block.len() as f64;
     let bends = inputs
         .chunks_exact(block)
         .map(|block| [mean(block, |input| input.specific_force.y), mean(block, |input| input.angular_velocity.z)])
-        .filter(|[_, rate]| rate.abs() > BEND);
+        .filter(|[_, rate]| rate.abs() > MIN_BEND_YAW_RATE);
     let [product, force, rate] =
         bends.fold([0.0; 3], |[product, force, rate], [f, w]| [product + f * w, force + f * f, rate + w * w]);
     product > LEAST_SPEED * rate && product > LEAST_CORRELATION * (force * rate).sqrt()

@@ -10,13 +10,13 @@ use super::view::view;
 use moris_simulation::clearance::Approach;
 
 /// Room above the panels and below them \[px\].
-const HEADER: f64 = 64.0;
-const FOOTER: f64 = 44.0;
+const HEADER_HEIGHT: f64 = 64.0;
+const FOOTER_HEIGHT: f64 = 44.0;
 
 /// Height of a row of the table of closest approaches \[px\].
-const ROW: f64 = 26.0;
+const TABLE_ROW_HEIGHT: f64 = 26.0;
 
-const STYLE: &str = "text{font:13px system-ui,sans-serif;fill:#333}.title{font-size:20px;font-weight:600}.panel{font-size:14px;\
+const SVG_STYLE: &str = "text{font:13px system-ui,sans-serif;fill:#333}.title{font-size:20px;font-weight:600}.panel{font-size:14px;\
 font-weight:600}.frame{fill:none;stroke:#999}.safety{fill:none;stroke:#d95f02;stroke-width:1.5;stroke-dasharray:6 4}\
 .neutral{stroke:#111;stroke-width:1.5}.base{fill:#e9e9e9;stroke:#777}.platform{fill:#2171b5;fill-opacity:.25;stroke:#2171b5;\
 stroke-width:2}.leg{stroke:#555;stroke-width:4;stroke-linecap:round}.number{fill:#fff;stroke:#555}.arrow{stroke:#d95f02;\
@@ -26,9 +26,9 @@ stroke-width:2}.torso{stroke:#1b9e77;stroke-width:4;stroke-linecap:round}.head{f
 /// The picture as SVG.
 pub fn svg(survey: &Survey) -> String {
     let parameters = &survey.capabilities.parameters;
-    let (width, height) = (2.0 * PANEL[0], HEADER + 3.0 * PANEL[1] + FOOTER);
+    let (width, height) = (2.0 * PANEL[0], HEADER_HEIGHT + 3.0 * PANEL[1] + FOOTER_HEIGHT);
     let mut text = format!(
-        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
+        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{SVG_STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
         escaped(&survey.name)
     );
     text += &format!(r#"<text x="24" y="56">{}</text>"#, escaped(&verdict(survey)));
@@ -47,16 +47,16 @@ pub fn svg(survey: &Survey) -> String {
             ("Closest approach of each pair of legs [mm]".to_owned(), distances(survey)),
         ]);
     for (index, (title, body)) in panels.enumerate() {
-        let (x, y) = ((index % 2) as f64 * PANEL[0], HEADER + (index / 2) as f64 * PANEL[1]);
+        let (x, y) = ((index % 2) as f64 * PANEL[0], HEADER_HEIGHT + (index / 2) as f64 * PANEL[1]);
         text +=
             &format!(r#"<g transform="translate({x} {y})"><text x="64" y="30" class="panel">{title}</text>{body}</g>"#);
     }
-    text + &legend(height - FOOTER) + "</svg>\n"
+    text + &legend(height - FOOTER_HEIGHT) + "</svg>\n"
 }
 
 /// Table of the closest approach of each pair of legs.
 fn distances(survey: &Survey) -> String {
-    let at = |column: usize, row: usize| [120.0 + 64.0 * column as f64, 80.0 + ROW * row as f64];
+    let at = |column: usize, row: usize| [120.0 + 64.0 * column as f64, 80.0 + TABLE_ROW_HEIGHT * row as f64];
     let cell = |[x, y]: [f64; 2], class: &str, text: &str| {
         format!(r#"<text x="{x}" y="{y}" text-anchor="middle" class="{class}">{text}</text>"#)
     };

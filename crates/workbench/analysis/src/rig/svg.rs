@@ -11,7 +11,7 @@ pub struct Window {
 }
 
 /// Room in a panel for title, numbers and names of the axes: left, top, right, bottom \[px\].
-const MARGINS: [f64; 4] = [64.0, 44.0, 16.0, 52.0];
+const PANEL_MARGINS: [f64; 4] = [64.0, 44.0, 16.0, 52.0];
 
 impl Window {
     /// Shows everything from `low` to `high` and as much around it as the panel has room for.
@@ -33,20 +33,20 @@ impl Window {
 
     /// Where a point is in the panel \[px\].
     pub fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [MARGINS[0] + (x - self.low[0]) * self.scale(), MARGINS[1] + (self.high[1] - y) * self.scale()]
+        [PANEL_MARGINS[0] + (x - self.low[0]) * self.scale(), PANEL_MARGINS[1] + (self.high[1] - y) * self.scale()]
     }
 
     /// The drawing area as attributes of a rectangle.
     pub fn area(&self) -> String {
         let [width, height] = room();
-        format!(r#"x="{}" y="{}" width="{width}" height="{height}""#, MARGINS[0], MARGINS[1])
+        format!(r#"x="{}" y="{}" width="{width}" height="{height}""#, PANEL_MARGINS[0], PANEL_MARGINS[1])
     }
 
     /// The frame with numbers and names of the axes.
     pub fn axes(&self, names: [&str; 2]) -> String {
         let mut text = format!(r#"<rect {} class="frame"/>"#, self.area());
         let [width, height] = room();
-        let bottom = MARGINS[1] + height;
+        let bottom = PANEL_MARGINS[1] + height;
         for x in ticks(self.low[0], self.high[0]) {
             let [px, _] = self.pixel([x, 0.0]);
             text += &format!(r#"<path d="M{px:.1} {bottom}v5" class="frame"/>"#);
@@ -54,15 +54,15 @@ impl Window {
         }
         for y in ticks(self.low[1], self.high[1]) {
             let [_, py] = self.pixel([0.0, y]);
-            text += &format!(r#"<path d="M{} {py:.1}h-5" class="frame"/>"#, MARGINS[0]);
+            text += &format!(r#"<path d="M{} {py:.1}h-5" class="frame"/>"#, PANEL_MARGINS[0]);
             text += &format!(
                 r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#,
-                MARGINS[0] - 8.0,
+                PANEL_MARGINS[0] - 8.0,
                 py + 4.0,
                 number(y)
             );
         }
-        let (middle_x, middle_y) = (MARGINS[0] + 0.5 * width, MARGINS[1] + 0.5 * height);
+        let (middle_x, middle_y) = (PANEL_MARGINS[0] + 0.5 * width, PANEL_MARGINS[1] + 0.5 * height);
         text +=
             &format!(r#"<text x="{middle_x}" y="{:.1}" text-anchor="middle">{} [m]</text>"#, bottom + 40.0, names[0]);
         text += &format!(
@@ -75,7 +75,7 @@ impl Window {
 
 /// Width and height of a panel's drawing area \[px\].
 fn room() -> [f64; 2] {
-    [PANEL[0] - MARGINS[0] - MARGINS[2], PANEL[1] - MARGINS[1] - MARGINS[3]]
+    [PANEL[0] - PANEL_MARGINS[0] - PANEL_MARGINS[2], PANEL[1] - PANEL_MARGINS[1] - PANEL_MARGINS[3]]
 }
 
 /// Round numbers between two, about six of them.

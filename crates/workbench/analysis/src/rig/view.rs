@@ -8,13 +8,13 @@ use super::svg::Window;
 use moris_simulation::clearance::Approach;
 
 /// Where it is seen from: turned about the vertical, then from above \[rad\].
-const AZIMUTH: f64 = 0.6;
-const ELEVATION: f64 = 0.35;
+const VIEW_AZIMUTH: f64 = 0.6;
+const VIEW_ELEVATION: f64 = 0.35;
 
 /// Radius of the head \[m\].
 const HEAD_RADIUS: f64 = 0.12;
 /// Length of the arrows along the base's axes, as a fraction of its radius.
-const ARROW: f64 = 0.4;
+const ARROW_LENGTH_FRACTION: f64 = 0.4;
 
 /// The base, the platform in this pose, the six legs with their numbers, the rider's head, and the
 /// axes of the base. The two closest legs have a colour of their own.
@@ -26,7 +26,7 @@ pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) ->
     let head = in_base(&above_platform);
     let seat = in_base(&(above_platform - Vector3::new(0.0, 0.0, parameters.structure.torso_length)));
     let radius = rig.base.iter().map(Vector3::norm).fold(0.0, f64::max);
-    let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW * radius * axis);
+    let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW_LENGTH_FRACTION * radius * axis);
 
     let above = head + Vector3::new(0.0, 0.0, HEAD_RADIUS);
     let seen: Vec<[f64; 2]> = rig.base.iter().chain(&platform).chain(&arrows).chain([&above]).map(projected).collect();
@@ -76,9 +76,9 @@ pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) ->
 
 /// Across and up in the picture, for someone who looks from afar.
 fn projected(point: &Vector3<f64>) -> [f64; 2] {
-    let (sin, cos) = AZIMUTH.sin_cos();
+    let (sin, cos) = VIEW_AZIMUTH.sin_cos();
     let (nearer, across) = (cos * point.x - sin * point.y, sin * point.x + cos * point.y);
-    [across, ELEVATION.cos() * point.z - ELEVATION.sin() * nearer]
+    [across, VIEW_ELEVATION.cos() * point.z - VIEW_ELEVATION.sin() * nearer]
 }
 
 /// The joints in the order in which they go round their centre.

@@ -16,12 +16,12 @@ use crate::random::unit;
 /// The tilt for which the workspace is measured beside the level one \[rad\].
 pub const TILT: f64 = 10.0 * TAU / 360.0;
 /// Number of directions in which the platform is tilted.
-const DIRECTIONS: u32 = 8;
+const TILT_DIRECTIONS: u32 = 8;
 /// Number of points in a block. Each block has its own stream of random numbers, so that the points
 /// are the same on any number of cores.
-const BLOCK: u32 = 10_000;
+const POINTS_PER_BLOCK: u32 = 10_000;
 /// Seed of the streams.
-const SEED: u64 = 1;
+const STREAM_SEED: u64 = 1;
 
 /// Workspace of the platform's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +54,8 @@ impl Workspace {
     /// image below the base.
     pub fn of(rig: &Rig, samples: u32) -> Self {
         let [low, high] = bounds(rig);
-        let blocks = samples.div_ceil(BLOCK);
-        let samples = blocks * BLOCK;
+        let blocks = samples.div_ceil(POINTS_PER_BLOCK);
+        let samples = blocks * POINTS_PER_BLOCK;
         let found = (0..blocks)
             .into_par_iter()
             .map(|block| tried(rig, low, high, block))
@@ -118,14 +118,14 @@ impl Coverage {
 }
 
 fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Coverage {
-    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    let mut random = ChaCha8Rng::seed_from_u64(STREAM_SEED);
     random.set_stream(u64::from(block));
     let geometry = Geometry::from(rig);
     let sign = |pose: &Pose| jacobian(&geometry, pose).determinant().signum();
     let neutral = sign(&Pose::neutral(rig));
     let level = Orientation::new(RollPitchYaw::default());
     let mut found = Coverage::nothing();
-    for _ in 0..BLOCK {
+    for _ in 0..POINTS_PER_BLOCK {
         let fraction = Vector3::from_fn(|_, _| unit(&mut random));
         let position = low + fraction.component_mul(&(high - low));
         let pose = Pose { position, orientation: level };
@@ -140,8 +140,8 @@ fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Covera
 
 /// The platform tilted by [`TILT`] in each direction.
 fn tilts() -> impl Iterator<Item = Orientation> {
-    (0..DIRECTIONS).map(|k| {
-        let (sin, cos) = (TAU * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
+    (0..TILT_DIRECTIONS).map(|k| {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(TILT_DIRECTIONS)).sin_cos();
         Orientation::new(RollPitchYaw::new(TILT * cos, TILT * sin, 0.0))
     })
 }

@@ -35,7 +35,7 @@ pub fn evaluate_here(objectives: &[&Objective], parameters: &Parameters) -> Resu
 /// Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
 const FIRST_STEP: f64 = 0.4;
 /// The search ends when a generation's costs differ by less than this.
-const TOLERANCE: f64 = 1e-5;
+const COST_TOLERANCE: f64 = 1e-5;
 /// Penalty for limits that are active all the time; errors are about 1. The penalty is proportional
 /// to the square root of the fraction of the time: a thousandth costs 0.06.
 const PENALTY_OF_LIMITS: f64 = 2.0;
@@ -50,7 +50,7 @@ const PENALTY_OF_OUTSIDE: f64 = 0.1;
 /// recordings keeps its value.
 const PENALTY_OF_DISTANCE: f64 = 2e-3;
 /// Number of best sets that are kept.
-const KEPT: usize = 10;
+const KEPT_SETS: usize = 10;
 
 /// A parameter set that kept all constraints on every recording.
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ pub fn search(
     let mut search = CMAESOptions::new(start.clone(), FIRST_STEP)
         .seed(budget.seed)
         .max_function_evals(budget.evaluations)
-        .tol_fun(TOLERANCE)
+        .tol_fun(COST_TOLERANCE)
         .build(cost)
         .map_err(|error| TuneError::Start(format!("{error:?}")))?;
     while continues {
@@ -131,8 +131,8 @@ pub fn search(
 /// Factors tried on each channel before the search, relative to the start. The cost has
 /// several local minima, mainly along the break frequencies, and the search ends in the one
 /// nearest to its start.
-const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
-const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+const TRIED_FREQUENCY_FACTORS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
+const TRIED_SCALE_FACTORS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 /// Factors on the scales of surge, sway and all rates together, which are tried before, and with
 /// each of them on the break frequencies of surge and sway.
 const JOINT_SCALES: [f64; 7] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1];
@@ -197,7 +197,9 @@ fn scan(
             let factors = JOINT_FREQUENCIES.iter().flat_map(|&frequency| JOINT_SCALES.map(|scale| (frequency, scale)));
             factors.map(|(frequency, scale)| space.with_all_channels(&best, frequency, scale)).collect()
         } else {
-            let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
+            let factors = TRIED_FREQUENCY_FACTORS
+                .iter()
+                .flat_map(|&frequency| TRIED_SCALE_FACTORS.map(|scale| (frequency, scale)));
             factors.map(|(f, s)| space.with_channel(&best, stage - 1, f, s)).collect()
         };
         let points = different(points);
@@ -224,11 +226,11 @@ fn different(points: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
 
 /// Factor between successive trials, and their number: down to about a hundredth.
 const SCALE_STEP: f64 = 0.8;
-const TRIES: i32 = 21;
+const MAX_TRIES: i32 = 21;
 
 /// The start. If constraints are violated there, all scales are reduced until none is.
 fn start_within_limits(recordings: &Recordings, space: &Space) -> DVector<f64> {
-    let mut tries = (0..TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
+    let mut tries = (0..MAX_TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
     let keeps = |point: &DVector<f64>| {
         recordings.objective(&space.parameters(point)).is_some_and(|(_, penalty)| penalty == 0.0)
     };
@@ -326,6 +328,6 @@ impl Best {
         };
         let place = self.0.partition_point(before);
         self.0.insert(place, found);
-        self.0.truncate(KEPT);
+        self.0.truncate(KEPT_SETS);
     }
 }

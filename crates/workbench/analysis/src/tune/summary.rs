@@ -43,9 +43,9 @@ impl RecordingResult {
 }
 
 /// The measures of comfort.
-const COMFORT: [&str; 3] = ["shake", "jolt", "peak"];
+const COMFORT_MEASURES: [&str; 3] = ["shake", "jolt", "peak"];
 /// Fraction of the time by which limits may be active longer than before.
-const HARDLY: f64 = 0.01;
+const MAX_EXTRA_LIMITED_FRACTION: f64 = 0.01;
 
 /// The result of a tuning in one word, for headline, table and exit status alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,12 +87,14 @@ fn losses(before: &Cost, after: &Cost) -> Vec<String> {
     if after.error > WORST_RATIO * before.error {
         losses.push(format!("error {:.3} → {:.3}", before.error, after.error));
     }
-    if after.violated > before.violated + HARDLY {
+    if after.violated > before.violated + MAX_EXTRA_LIMITED_FRACTION {
         losses.push(format!("limits {:.1} → {:.1} % of the time", 100.0 * before.violated, 100.0 * after.violated));
     }
     if after.excess > before.excess {
         let grown = (0..3).filter(|&k| after.comfort[k] > before.comfort[k]);
-        losses.extend(grown.map(|k| format!("{} {:.2} → {:.2} m/s²", COMFORT[k], before.comfort[k], after.comfort[k])));
+        losses.extend(
+            grown.map(|k| format!("{} {:.2} → {:.2} m/s²", COMFORT_MEASURES[k], before.comfort[k], after.comfort[k])),
+        );
     }
     losses
 }
@@ -250,14 +252,14 @@ impl Comparison {
 
     /// Worse on average, or limited for longer.
     fn is_worse(&self) -> bool {
-        self.after > self.before || self.violated_after > self.violated_before + HARDLY
+        self.after > self.before || self.violated_after > self.violated_before + MAX_EXTRA_LIMITED_FRACTION
     }
 
     /// Better on average and on most recordings, and limited for hardly longer.
     fn is_clearly_better(&self) -> bool {
         self.after < self.before
             && 2 * self.better > self.recordings
-            && self.violated_after <= self.violated_before + HARDLY
+            && self.violated_after <= self.violated_before + MAX_EXTRA_LIMITED_FRACTION
     }
 
     fn of(pairs: impl Iterator<Item = (Cost, Cost)>) -> Option<Self> {
@@ -376,7 +378,7 @@ fn comfort(results: &[RecordingResult]) -> String {
         let cell = |k: usize| format!("{:.2} → {:.2}", result.before.comfort[k], after.comfort[k]);
         [result.name.clone(), cell(0), cell(1), cell(2)]
     };
-    let [shake, jolt, peak] = COMFORT;
+    let [shake, jolt, peak] = COMFORT_MEASURES;
     table(["felt force, m/s²: before → after", shake, jolt, peak], results.iter().map(row))
 }
 

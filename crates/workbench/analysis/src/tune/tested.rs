@@ -10,11 +10,11 @@ use super::tuner::{Tuner, WORST_RATIO, full_cost, full_costs, with_scales_times,
 
 /// Fractions of the distance from the initial parameters to the best ones for the recordings
 /// tuned on, in logarithms.
-const FRACTIONS: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
+const TRIED_FRACTIONS: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
 
 /// Largest fraction of a recording's time in which limits may be active if the result is
 /// the initial parameters.
-const TOLERATED: f64 = 0.01;
+const MAX_LIMITED_FRACTION: f64 = 0.01;
 
 /// Result of a tuning.
 pub struct Tested {
@@ -26,14 +26,14 @@ pub struct Tested {
     pub fraction: f64,
 }
 
-/// Costs of a recording that was left out, at each of the [`FRACTIONS`]. `None` where the limits
+/// Costs of a recording that was left out, at each of the [`TRIED_FRACTIONS`]. `None` where the limits
 /// are not kept on the other recordings.
-type Trials = [Option<Cost>; FRACTIONS.len()];
+type Trials = [Option<Cost>; TRIED_FRACTIONS.len()];
 
 /// Factor by which the scales are reduced at a time, and largest number of times, where limits are
 /// active at a fraction of the distance.
 const SCALE_STEP: f64 = 0.93;
-const TRIES: i32 = 8;
+const MAX_TRIES: i32 = 8;
 
 /// Tunes on all recordings and, for each fold, on the recordings outside it. The result has the
 /// fraction that is best for the recordings left out. Without folds the fraction is 1.
@@ -56,7 +56,7 @@ pub fn tune_tested(
         before.iter().zip(&left_out).filter_map(|(cost, of)| Some((*cost, of.trials?))).collect();
     let (setup, fraction) = as_far_as_serves(tuner, objectives, &before, &pairs, best)?;
     let after = full_costs(objectives, &setup)?;
-    let index = FRACTIONS.iter().position(|&of| of == fraction);
+    let index = TRIED_FRACTIONS.iter().position(|&of| of == fraction);
     let mut results = Vec::new();
     for (k, objective) in objectives.iter().enumerate() {
         let unseen = left_out[k].trials.and_then(|costs| index.map_or(Some(before[k]), |index| costs[index]));
@@ -117,12 +117,12 @@ fn as_far_as_serves(
     best: Setup,
 ) -> Result<(Setup, f64), TuneError> {
     for index in serving(pairs) {
-        let Some(setup) = within_limits(tuner, objectives, &best, FRACTIONS[index])? else { continue };
+        let Some(setup) = within_limits(tuner, objectives, &best, TRIED_FRACTIONS[index])? else { continue };
         if worst_ratio(before, &full_costs(objectives, &setup)?) <= WORST_RATIO {
-            return Ok((setup, FRACTIONS[index]));
+            return Ok((setup, TRIED_FRACTIONS[index]));
         }
     }
-    if !pairs.is_empty() && before.iter().all(|cost| cost.violated <= TOLERATED) {
+    if !pairs.is_empty() && before.iter().all(|cost| cost.violated <= MAX_LIMITED_FRACTION) {
         return Ok((Setup { parameters: tuner.setup.parameters, ..best }, 0.0));
     }
     Ok((best, 1.0))
@@ -135,8 +135,8 @@ fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result
         objectives.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, objective)| *objective).collect();
     let names: Vec<&str> = fold.iter().map(|&k| objectives[k].name()).collect();
     let best = tuner.tune(&others, &format!("without {}", names.join(", ")))?;
-    let mut trials = vec![[None; FRACTIONS.len()]; fold.len()];
-    for (index, &fraction) in FRACTIONS.iter().enumerate() {
+    let mut trials = vec![[None; TRIED_FRACTIONS.len()]; fold.len()];
+    for (index, &fraction) in TRIED_FRACTIONS.iter().enumerate() {
         let Some(setup) = within_limits(tuner, &others, &best, fraction)? else { continue };
         for (of_recording, &k) in trials.iter_mut().zip(fold) {
             of_recording[index] = Some(full_cost(objectives[k], &setup)?);
@@ -157,7 +157,7 @@ fn within_limits(
         return Ok(Some(best.clone()));
     }
     let towards = tuner.space.towards(&best.parameters, fraction);
-    for k in 0..=TRIES {
+    for k in 0..=MAX_TRIES {
         let setup = Setup { parameters: with_scales_times(&towards, SCALE_STEP.powi(k)), ..best.clone() };
         if full_costs(objectives, &setup)?.iter().all(Cost::is_feasible) {
             return Ok(Some(setup));
@@ -175,7 +175,7 @@ fn within_limits(
 /// within their bounds. If no recording was left out, the result is the last index.
 fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
     if pairs.is_empty() {
-        return vec![FRACTIONS.len() - 1];
+        return vec![TRIED_FRACTIONS.len() - 1];
     }
     let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / pairs.len() as f64;
     let before = mean(&mut pairs.iter().map(|pair| pair.0.error));
@@ -188,7 +188,7 @@ fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
         let worse = pairs.iter().zip(&costs).any(|(pair, cost)| cost.error > WORST_RATIO * pair.0.error);
         (error < before && !worse).then_some((violated > violated_before || uncomfortable, error, index))
     };
-    let mut ranked: Vec<(bool, f64, usize)> = (0..FRACTIONS.len()).filter_map(rank).collect();
+    let mut ranked: Vec<(bool, f64, usize)> = (0..TRIED_FRACTIONS.len()).filter_map(rank).collect();
     ranked.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     ranked.into_iter().map(|(_, _, index)| index).collect()
 }

@@ -143,7 +143,7 @@ impl Tuner<'_> {
     /// - the best set with its scales reduced step by step.
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
-        let tries = if self.space.has_scales() { TRIES } else { 0 };
+        let tries = if self.space.has_scales() { MAX_TRIES } else { 0 };
         let scaled = (1..=tries).map(move |k| with_scales_times(&best, SCALE_STEP.powi(k)));
         let nearer = searched
             .best
@@ -190,7 +190,7 @@ const BACKTRACK_FRACTIONS: [f64; 3] = [0.75, 0.5, 0.25];
 
 /// Factor by which the scales are reduced at a time, and largest number of times: down to a fifth.
 const SCALE_STEP: f64 = 0.95;
-const TRIES: i32 = 32;
+const MAX_TRIES: i32 = 32;
 
 /// Largest ratio of a recording's error to the error before at which it does not count as worse.
 pub const WORST_RATIO: f64 = 1.05;

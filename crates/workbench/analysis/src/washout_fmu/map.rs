@@ -17,7 +17,7 @@ use crate::recording::felt::Kind;
 use crate::recording::units::Dimension;
 
 /// Shortest and longest step \[s\].
-const STEPS: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
+const STEP_RANGE: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
 
 /// The map of a washout FMU's variables, as its file has it.
 #[derive(Clone, Debug, Deserialize)]
@@ -70,18 +70,18 @@ fn one() -> f64 {
 }
 
 /// Keys of the quantities that a washout takes.
-const INPUTS: &[&str] = &["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"];
+const INPUT_KEYS: &[&str] = &["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"];
 
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let key = String::deserialize(deserializer)?;
-        let known = Quantity::of_key(&key).ok().filter(|quantity| INPUTS.contains(&quantity.key()));
-        known.ok_or_else(|| D::Error::unknown_variant(&key, INPUTS))
+        let known = Quantity::of_key(&key).ok().filter(|quantity| INPUT_KEYS.contains(&quantity.key()));
+        known.ok_or_else(|| D::Error::unknown_variant(&key, INPUT_KEYS))
     }
 }
 
 /// The columns of a table of felt motion, each with its dimension: all of a group, or none.
-const GROUPS: [(&[&str], &[Kind]); 5] = [
+const COLUMN_GROUPS: [(&[&str], &[Kind]); 5] = [
     (&["ax", "ay", "az"], &[Kind::Of(Dimension::Force); 3]),
     (&["wx", "wy", "wz"], &[Kind::Of(Dimension::Rate); 3]),
     (&["x", "y", "z"], &[Kind::Length; 3]),
@@ -104,12 +104,12 @@ impl Map {
 
     fn check(&self) -> Result<()> {
         if let Some(step) = self.step {
-            ensure!(STEPS.contains(&step), "step is {step}, but must be from 0.0001 to 0.5 s");
+            ensure!(STEP_RANGE.contains(&step), "step is {step}, but must be from 0.0001 to 0.5 s");
         }
         ensure!(!self.inputs.is_empty(), "[inputs] is empty; the washout needs the motion, such as ax, ay and az");
         for (name, output) in &self.outputs {
             if self.kind(name).is_none() {
-                let known: Vec<&str> = GROUPS.iter().flat_map(|(names, _)| *names).copied().collect();
+                let known: Vec<&str> = COLUMN_GROUPS.iter().flat_map(|(names, _)| *names).copied().collect();
                 bail!("[outputs] has {name}, but must have some of {}", known.join(", "));
             }
             if let MappedOutput::Constant(value) = output {
@@ -117,7 +117,7 @@ impl Map {
             }
         }
         let has = |name: &&str| self.outputs.contains_key(*name);
-        for (names, _) in GROUPS {
+        for (names, _) in COLUMN_GROUPS {
             if let (true, Some(missing)) = (names.iter().any(has), names.iter().find(|name| !has(name))) {
                 bail!("[outputs] lacks {missing}: give all of {}; a constant is a number", names.join(", "));
             }
@@ -148,7 +148,7 @@ impl Map {
     /// The dimension of an output.
     pub fn kind(&self, output: &str) -> Option<Kind> {
         let of = |(names, kinds): (&[&str], &[Kind])| Some(kinds[names.iter().position(|name| *name == output)?]);
-        GROUPS.into_iter().find_map(of)
+        COLUMN_GROUPS.into_iter().find_map(of)
     }
 
     /// The value of a quantity at an input, in SI units and body axes.

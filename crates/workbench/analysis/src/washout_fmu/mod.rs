@@ -20,11 +20,11 @@ pub use map::Map;
 use map::{MappedOutput, MappedVariable};
 
 /// Tolerance of the ratio of two steps against a whole number.
-const ROUNDING: f64 = 1e-6;
+const STEP_RATIO_TOLERANCE: f64 = 1e-6;
 /// Motion that is none: what the outputs of poses and legs change by \[m, rad\].
-const STILL: f64 = 1e-9;
+const STANDSTILL_TOLERANCE: f64 = 1e-9;
 /// Names of variables that a message lists.
-const LISTED: usize = 12;
+const MAX_LISTED_NAMES: usize = 12;
 
 /// A washout's FMU and its map.
 #[derive(Clone, Debug)]
@@ -71,8 +71,8 @@ impl WashoutFmu {
         let sample = recording.step();
         let step = self.map.step.unwrap_or(sample);
         let parts = (sample / step).round().max(1.0);
-        let is_part = (sample / step - parts).abs() <= ROUNDING * parts;
-        let steps = (recording.manoeuvre.duration() / step - ROUNDING).ceil().max(1.0) as usize;
+        let is_part = (sample / step - parts).abs() <= STEP_RATIO_TOLERANCE * parts;
+        let steps = (recording.manoeuvre.duration() / step - STEP_RATIO_TOLERANCE).ceil().max(1.0) as usize;
         let frame = recording.angular_velocity_frame;
         let (mut running, taken, given) = self.start(&recording.inputs()[0], recording)?;
         let mut columns: Vec<(String, Vec<f64>)> =
@@ -206,15 +206,19 @@ fn unit(running: &Running, variable: &MappedVariable, kind: Kind, causality: Cau
 fn listed(running: &Running, causality: Causality) -> String {
     let names = running.names(causality);
     let role = if causality == Causality::Input { "inputs" } else { "outputs" };
-    let more = if names.len() > LISTED { format!(" and {} more", names.len() - LISTED) } else { String::new() };
-    format!("its {role} are {}{more}", names[..names.len().min(LISTED)].join(", "))
+    let more = if names.len() > MAX_LISTED_NAMES {
+        format!(" and {} more", names.len() - MAX_LISTED_NAMES)
+    } else {
+        String::new()
+    };
+    format!("its {role} are {}{more}", names[..names.len().min(MAX_LISTED_NAMES)].join(", "))
 }
 
 /// The input at so many samples from the first, linear between samples.
 fn at_part(inputs: &[Input], place: f64) -> Input {
     let last = inputs.len() - 1;
     let near = place.round();
-    if (place - near).abs() <= ROUNDING {
+    if (place - near).abs() <= STEP_RATIO_TOLERANCE {
         return inputs[(near as usize).min(last)];
     }
     let before = (place as usize).min(last);
@@ -233,7 +237,8 @@ fn slope(from: f64, to: f64, step: f64) -> f64 {
 
 /// A sentence on poses and legs that do not change.
 fn still(columns: &[(String, Vec<f64>)]) -> Option<String> {
-    let moves = |(_, values): &(String, Vec<f64>)| values.iter().any(|value| (value - values[0]).abs() > STILL);
+    let moves =
+        |(_, values): &(String, Vec<f64>)| values.iter().any(|value| (value - values[0]).abs() > STANDSTILL_TOLERANCE);
     let is_still = !columns.iter().filter(|(title, _)| title != "time").any(moves);
     is_still.then(|| {
         "The FMU's outputs do not change. Check [inputs] of the map, and whether the FMU needs a start value that engages it."

@@ -139,7 +139,7 @@ fn all_strategies(options: &Options) -> Result<Vec<Strategy>> {
 }
 
 /// Explanation of the figures in a parameter file.
-const FIGURES: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
+const FIGURES_EXPLAINED: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
     inverted the largest fraction of the time with the wrong sign, size that of the vehicle's force.";
 
 /// Writes the winner's parameters for each recording, those for all, and the picture; returns the
@@ -161,7 +161,8 @@ fn write_files(
     };
     let text = |names: &str, strategy: usize, best: &Candidate| {
         let Strategy { name, setup } = &strategies[strategy];
-        let heading = format!("Fitted by moris to {names} on {}: {name}, {}.\n{FIGURES}", setup.rig_name, words(best));
+        let heading =
+            format!("Fitted by moris to {names} on {}: {name}, {}.\n{FIGURES_EXPLAINED}", setup.rig_name, words(best));
         Setup { parameters: best.factors.applied(&setup.parameters), ..setup.clone() }.parameter_file(&heading)
     };
     for (recording, one) in recordings.iter().zip(fitted) {

@@ -17,21 +17,21 @@ use super::table::{modulus, phase};
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Size of one diagram: modulus, and phase below it.
-const SIZE: (u32, u32) = (600, 560);
+const DIAGRAM_SIZE: (u32, u32) = (600, 560);
 const MODULUS_HEIGHT: u32 = 310;
-const HEAD: u32 = 44;
-const FONT: &str = "sans-serif";
-const TEXT: RGBColor = RGBColor(40, 46, 56);
-const GRID: RGBColor = RGBColor(226, 229, 233);
-const TEST: RGBColor = RGBColor(0, 114, 178);
-const SMALL: RGBColor = RGBColor(213, 94, 0);
-const LIMIT: RGBColor = RGBColor(208, 222, 205);
-const LIMITED: RGBColor = RGBColor(255, 255, 255);
+const HEAD_HEIGHT: u32 = 44;
+const FONT_FAMILY: &str = "sans-serif";
+const TEXT_COLOUR: RGBColor = RGBColor(40, 46, 56);
+const GRID_COLOUR: RGBColor = RGBColor(226, 229, 233);
+const TEST_COLOUR: RGBColor = RGBColor(0, 114, 178);
+const SMALL_SIGNAL_COLOUR: RGBColor = RGBColor(213, 94, 0);
+const LIMIT_COLOUR: RGBColor = RGBColor(208, 222, 205);
+const LIMITED_COLOUR: RGBColor = RGBColor(255, 255, 255);
 
 /// The frequencies shown \[rad/s\].
-const FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
+const SHOWN_FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
 /// Least modulus drawn. A smaller one is not felt, and its phase has no meaning.
-const LEAST: f64 = 1e-3;
+const MIN_MODULUS: f64 = 1e-3;
 
 /// Draws the felt motion on the outputs of these pairs of channels, side by side in columns, with
 /// bounds as bars behind it.
@@ -46,10 +46,10 @@ pub fn draw(
     columns: usize,
 ) -> Result<()> {
     let rows = pairs.len().div_ceil(columns);
-    let size = (SIZE.0 * columns as u32, SIZE.1 * rows as u32 + HEAD);
+    let size = (DIAGRAM_SIZE.0 * columns as u32, DIAGRAM_SIZE.1 * rows as u32 + HEAD_HEIGHT);
     let root = SVGBackend::new(file, size).into_drawing_area();
     root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(HEAD);
+    let (head, body) = root.split_vertically(HEAD_HEIGHT);
     draw_key(&head)?;
     for (area, &pair) in body.split_evenly((rows, columns)).iter().zip(pairs) {
         draw_pair(area, measured, limits, pair)?;
@@ -60,12 +60,12 @@ pub fn draw(
 
 /// Legend of lines and dots.
 fn draw_key(area: &Area) -> Result<()> {
-    let style = (FONT, 20).into_font().color(&TEXT);
+    let style = (FONT_FAMILY, 20).into_font().color(&TEXT_COLOUR);
     let mut x = 70;
     for (colour, dot, text, width) in [
-        (TEST, Some(TEST), "with the test's amplitude", 300),
-        (TEST, Some(LIMITED), "with a limit active", 310),
-        (SMALL, None, "small signal", 0),
+        (TEST_COLOUR, Some(TEST_COLOUR), "with the test's amplitude", 300),
+        (TEST_COLOUR, Some(LIMITED_COLOUR), "with a limit active", 310),
+        (SMALL_SIGNAL_COLOUR, None, "small signal", 0),
     ] {
         area.draw(&PathElement::new([(x, 26), (x + 40, 26)], colour.stroke_width(3)))?;
         if let Some(filled) = dot {
@@ -104,24 +104,24 @@ fn draw_modulus(
 ) -> Result<()> {
     let bounds = || limits.iter().flat_map(|limit| limit.modulus).flatten();
     let measured = || test.iter().chain(small).map(|response| modulus(response, output));
-    let values = || measured().chain(bounds()).map(|value| value.max(LEAST));
+    let values = || measured().chain(bounds()).map(|value| value.max(MIN_MODULUS));
     let low = 10_f64.powf(values().fold(0.1, f64::min).log10().floor());
     let high = 10_f64.powf(values().fold(1.1, f64::max).log10().ceil());
     let mut chart = ChartBuilder::on(area)
-        .caption(title, (FONT, 22).into_font().color(&TEXT))
+        .caption(title, (FONT_FAMILY, 22).into_font().color(&TEXT_COLOUR))
         .margin_right(24)
         .x_label_area_size(12)
         .y_label_area_size(74)
-        .build_cartesian_2d(FREQUENCIES.log_scale(), (low..high).log_scale())?;
+        .build_cartesian_2d(SHOWN_FREQUENCIES.log_scale(), (low..high).log_scale())?;
     chart
         .configure_mesh()
         .x_label_formatter(&|_| String::new())
         .y_label_formatter(&|value| number(*value))
         .y_desc("modulus")
-        .bold_line_style(GRID)
+        .bold_line_style(GRID_COLOUR)
         .light_line_style(TRANSPARENT)
-        .axis_style(TEXT)
-        .label_style((FONT, 17).into_font().color(&TEXT))
+        .axis_style(TEXT_COLOUR)
+        .label_style((FONT_FAMILY, 17).into_font().color(&TEXT_COLOUR))
         .draw()?;
     draw_limits(&mut chart, limits, |limit| limit.modulus, [low, high])?;
     draw_curves(&mut chart, test, small, output, |response| modulus(response, output), |_, _| false)
@@ -133,17 +133,17 @@ fn draw_phase(area: &Area, [test, small]: [&[Response]; 2], limits: &[&Limit], o
         .margin_bottom(8)
         .x_label_area_size(52)
         .y_label_area_size(74)
-        .build_cartesian_2d(FREQUENCIES.log_scale(), -190.0..190.0)?;
+        .build_cartesian_2d(SHOWN_FREQUENCIES.log_scale(), -190.0..190.0)?;
     chart
         .configure_mesh()
         .x_desc("frequency [rad/s]")
         .y_desc("phase [°]")
         .x_label_formatter(&|value| number(*value))
         .y_label_formatter(&|value| format!("{value:.0}").replace('-', "−"))
-        .bold_line_style(GRID)
+        .bold_line_style(GRID_COLOUR)
         .light_line_style(TRANSPARENT)
-        .axis_style(TEXT)
-        .label_style((FONT, 17).into_font().color(&TEXT))
+        .axis_style(TEXT_COLOUR)
+        .label_style((FONT_FAMILY, 17).into_font().color(&TEXT_COLOUR))
         .draw()?;
     draw_limits(&mut chart, limits, |limit| limit.phase, [-180.0, 180.0])?;
     // Between two neighbours that seem to be more than half a turn apart, the phase has passed 180 degrees.
@@ -164,7 +164,7 @@ where
         let [low, high] = of(limit);
         let [low, high] = [low.unwrap_or(ends[0]), high.unwrap_or(ends[1])].map(|end| end.clamp(ends[0], ends[1]));
         let bar = [(limit.frequency, low), (limit.frequency, high)];
-        chart.draw_series(LineSeries::new(bar, LIMIT.stroke_width(12)))?;
+        chart.draw_series(LineSeries::new(bar, LIMIT_COLOUR.stroke_width(12)))?;
     }
     Ok(())
 }
@@ -182,9 +182,9 @@ fn draw_curves<'a, C>(
 where
     C: CoordTranslate<From = (f64, f64)>,
 {
-    let felt = |response: &&Response| modulus(response, output) > LEAST;
+    let felt = |response: &&Response| modulus(response, output) > MIN_MODULUS;
     let point = |response: &Response| (response.frequency, value(response));
-    for (responses, style) in [(small, SMALL.stroke_width(3)), (test, TEST.stroke_width(2))] {
+    for (responses, style) in [(small, SMALL_SIGNAL_COLOUR.stroke_width(3)), (test, TEST_COLOUR.stroke_width(2))] {
         let points: Vec<(f64, f64)> = responses.iter().filter(felt).map(point).collect();
         for part in points.chunk_by(|a, b| !gap(a.1, b.1)) {
             chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
@@ -196,9 +196,9 @@ where
     // A measurement is hollow where something limited.
     chart.draw_series(dots(|response| {
         let is_limited = response.limited.iter().any(|&fraction| fraction > 0.0);
-        if is_limited { LIMITED } else { TEST }.filled()
+        if is_limited { LIMITED_COLOUR } else { TEST_COLOUR }.filled()
     }))?;
-    chart.draw_series(dots(|_| TEST.stroke_width(2)))?;
+    chart.draw_series(dots(|_| TEST_COLOUR.stroke_width(2)))?;
     Ok(())
 }
 

@@ -29,7 +29,7 @@ enum Kind {
 pub const FRAME: AngularVelocityFrame = AngularVelocityFrame::Body;
 
 /// A course of the passenger car without bends, braking or waves.
-const STRAIGHT: Course =
+const STRAIGHT_COURSE: Course =
     Course { car: CAR, duration: 30.0, speed: 20.0, along: &[], curvature: &[], weaving: None, road: &[] };
 
 /// Every drive, in the bench's order.
@@ -52,13 +52,13 @@ pub const DRIVES: [Drive; 10] = [
                 (0.016, 10.2, 0.8),
                 (-0.008, 11.4, 0.6),
             ],
-            ..STRAIGHT
+            ..STRAIGHT_COURSE
         }),
     },
     Drive {
         name: "slalom",
         text: "car: slalom at 60 km/h, 4 m/s² at 0.35 Hz",
-        kind: Kind::Car(Course { speed: 16.7, weaving: Some([0.0144, 0.35, 3.0, 26.0]), ..STRAIGHT }),
+        kind: Kind::Car(Course { speed: 16.7, weaving: Some([0.0144, 0.35, 3.0, 26.0]), ..STRAIGHT_COURSE }),
     },
     Drive {
         name: "emergency-stop",
@@ -67,7 +67,7 @@ pub const DRIVES: [Drive; 10] = [
             duration: 20.0,
             speed: 27.8,
             along: &[(-9.0, 8.0, 0.3), (9.0, 8.0 + 27.8 / 9.0, 0.3)],
-            ..STRAIGHT
+            ..STRAIGHT_COURSE
         }),
     },
     Drive {
@@ -78,7 +78,7 @@ pub const DRIVES: [Drive; 10] = [
             speed: 14.0,
             along: &[(-2.0, 4.0, 1.0), (2.0, 7.5, 1.0), (1.6, 20.0, 1.5), (-1.6, 24.4, 1.5)],
             curvature: &[(-0.04, 8.5, 1.2), (0.10, 10.5, 1.5), (-0.10, 16.5, 1.5), (0.04, 18.8, 1.2)],
-            ..STRAIGHT
+            ..STRAIGHT_COURSE
         }),
     },
     Drive {
@@ -98,7 +98,7 @@ pub const DRIVES: [Drive; 10] = [
                 (0.0010, 74.0, 4.0),
             ],
             road: &[[0.25, 1.3], [0.12, 2.1], [0.06, 5.3]],
-            ..STRAIGHT
+            ..STRAIGHT_COURSE
         }),
     },
     Drive {
@@ -143,21 +143,21 @@ pub const DRIVES: [Drive; 10] = [
                 (0.05, 42.5, 0.5),
             ],
             road: &[[0.5, 6.0], [0.4, 9.0]],
-            ..STRAIGHT
+            ..STRAIGHT_COURSE
         }),
     },
     Drive { name: "flight", text: "aircraft: take-off, coordinated turns, turbulence", kind: Kind::Flight },
 ];
 
 /// Duration of the flight \[s\].
-const FLIGHT: f64 = 80.0;
+const FLIGHT_DURATION: f64 = 80.0;
 
 impl Drive {
     /// The inputs of the drive.
     pub fn manoeuvre(&self) -> Manoeuvre {
         match self.kind {
             Kind::Car(course) => course.manoeuvre(),
-            Kind::Flight => Manoeuvre::sampled(STEP, FLIGHT, flight),
+            Kind::Flight => Manoeuvre::sampled(STEP, FLIGHT_DURATION, flight),
             Kind::Run(run) => Manoeuvre::sampled(STEP, run.duration, |t| {
                 let motion = run.motion(t);
                 Input {
@@ -183,7 +183,7 @@ fn flight(t: f64) -> Input {
     // The engine's and the brakes' force; a climb at steady speed feels gravity along the axis.
     let thrust = 2.6 * (rise(t, 3.0, 1.5) - rise(t, 17.0, 3.0));
     let turn_rate = -GRAVITY * bank.tan() / SPEED;
-    let gusts = rise(t, 20.0, 2.0) - rise(t, FLIGHT - 4.0, 2.0);
+    let gusts = rise(t, 20.0, 2.0) - rise(t, FLIGHT_DURATION - 4.0, 2.0);
     let wave = |amplitude: f64, frequency: f64, phase: f64| {
         amplitude * gusts * (std::f64::consts::TAU * frequency * t + phase).sin()
     };

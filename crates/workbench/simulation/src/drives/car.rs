@@ -12,9 +12,9 @@ use crate::Manoeuvre;
 
 /// Time between samples \[s\], and integration steps to each.
 pub const STEP: f64 = 0.01;
-const SUBSTEPS: usize = 10;
+const STEPS_PER_SAMPLE: usize = 10;
 /// Speed below which the tyres' equations are those at it \[m/s\]; they are singular at rest.
-const SLOWEST: f64 = 3.0;
+const MIN_TYRE_SPEED: f64 = 3.0;
 
 /// A car.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +108,7 @@ impl Course {
     fn derivative(&self, t: f64, [slip, yaw_rate, roll, roll_rate]: State) -> (State, f64) {
         let Car { mass, inertia, to_front, to_rear, front_stiffness, rear_stiffness, .. } = self.car;
         let speed = self.speed_at(t);
-        let v = speed.max(SLOWEST);
+        let v = speed.max(MIN_TYRE_SPEED);
         // The steering angle of a steady bend of this curvature: wheelbase and understeer.
         let base = to_front + to_rear;
         let understeer =
@@ -143,8 +143,8 @@ impl Course {
             let t = k as f64 * STEP;
             let (_, lateral) = self.derivative(t, state);
             let input = self.input(t, lateral, &state);
-            for substep in 0..SUBSTEPS {
-                let step = STEP / SUBSTEPS as f64;
+            for substep in 0..STEPS_PER_SAMPLE {
+                let step = STEP / STEPS_PER_SAMPLE as f64;
                 state = self.advanced(t + substep as f64 * step, state, step);
             }
             input
@@ -161,7 +161,7 @@ impl Course {
         let vertical = GRAVITY + fade * waves.sum::<f64>();
         let (sin, cos) = roll.sin_cos();
         let speed = self.speed_at(t);
-        let yaw_rate = yaw_rate * (speed / speed.max(SLOWEST)).powi(2);
+        let yaw_rate = yaw_rate * (speed / speed.max(MIN_TYRE_SPEED)).powi(2);
         let mut input = Input { speed, ..Input::default() };
         input.specific_force.x = self.along_at(t);
         input.specific_force.y = cos * lateral + sin * vertical;

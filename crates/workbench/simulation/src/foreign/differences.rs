@@ -2,14 +2,14 @@
 
 /// Weights of the first and the second derivative over five samples, at each of them, in twelfths.
 /// The middle row is the central difference, the others are for the ends of a series.
-const FIRST: [[f64; 5]; 5] = [
+const FIRST_DERIVATIVE_WEIGHTS: [[f64; 5]; 5] = [
     [-25.0, 48.0, -36.0, 16.0, -3.0],
     [-3.0, -10.0, 18.0, -6.0, 1.0],
     [1.0, -8.0, 0.0, 8.0, -1.0],
     [-1.0, 6.0, -18.0, 10.0, 3.0],
     [3.0, -16.0, 36.0, -48.0, 25.0],
 ];
-const SECOND: [[f64; 5]; 5] = [
+const SECOND_DERIVATIVE_WEIGHTS: [[f64; 5]; 5] = [
     [35.0, -104.0, 114.0, -56.0, 11.0],
     [11.0, -20.0, 6.0, 4.0, -1.0],
     [-1.0, 16.0, -30.0, 16.0, -1.0],
@@ -17,30 +17,34 @@ const SECOND: [[f64; 5]; 5] = [
     [11.0, -56.0, 114.0, -104.0, 35.0],
 ];
 /// Samples of a difference.
-const WIDTH: usize = 5;
+const DIFFERENCE_SAMPLES: usize = 5;
 
 /// RMS of the second derivative's error if values are rounded to multiples of a quantum. The errors
 /// of rounding are uniform within the quantum, and add by the weights' squares.
 pub fn rounding_error(quantum: f64, step: f64) -> f64 {
-    let weights = SECOND[WIDTH / 2].iter().map(|weight| (weight / 12.0).powi(2)).sum::<f64>().sqrt();
+    let weights = SECOND_DERIVATIVE_WEIGHTS[DIFFERENCE_SAMPLES / 2]
+        .iter()
+        .map(|weight| (weight / 12.0).powi(2))
+        .sum::<f64>()
+        .sqrt();
     weights * quantum / 12f64.sqrt() / (step * step)
 }
 
 /// Fewest samples of which derivatives are taken.
-pub const FEWEST: usize = WIDTH;
+pub const FEWEST: usize = DIFFERENCE_SAMPLES;
 
 /// First and second derivative of a series of at least [`FEWEST`] samples: central differences of
 /// fourth order, and one-sided ones over five samples at the ends.
 pub fn derivatives(values: &[f64], step: f64) -> Vec<[f64; 2]> {
-    let last = values.len() - WIDTH;
+    let last = values.len() - DIFFERENCE_SAMPLES;
     let at = |k: usize| {
-        let begin = k.saturating_sub(WIDTH / 2).min(last);
-        let window = &values[begin..begin + WIDTH];
+        let begin = k.saturating_sub(DIFFERENCE_SAMPLES / 2).min(last);
+        let window = &values[begin..begin + DIFFERENCE_SAMPLES];
         // Relative to the sample itself, so that an offset costs no digits.
         let sum = |weights: &[f64; 5]| {
             weights.iter().zip(window).map(|(weight, value)| weight * (value - values[k])).sum::<f64>() / 12.0
         };
-        [sum(&FIRST[k - begin]) / step, sum(&SECOND[k - begin]) / (step * step)]
+        [sum(&FIRST_DERIVATIVE_WEIGHTS[k - begin]) / step, sum(&SECOND_DERIVATIVE_WEIGHTS[k - begin]) / (step * step)]
     };
     (0..values.len()).map(at).collect()
 }

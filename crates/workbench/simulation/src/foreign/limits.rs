@@ -6,7 +6,7 @@ use super::differences::means;
 
 /// Excesses up to these count as none: of a length \[m\], and relative of speed and acceleration.
 const LENGTH_TOLERANCE: f64 = 1e-6;
-const TOLERANCE: f64 = 1e-3;
+const LIMIT_TOLERANCE: f64 = 1e-3;
 
 /// The greatest excess of one of the actuators' limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,12 +58,17 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
             let beyond = [
                 (Limit::Shortest, length, rig.min_length, rig.min_length - length - LENGTH_TOLERANCE),
                 (Limit::Longest, length, rig.max_length, length - rig.max_length - LENGTH_TOLERANCE),
-                (Limit::Speed, speed.abs(), rig.velocity_limit, speed.abs() - (1.0 + TOLERANCE) * rig.velocity_limit),
+                (
+                    Limit::Speed,
+                    speed.abs(),
+                    rig.velocity_limit,
+                    speed.abs() - (1.0 + LIMIT_TOLERANCE) * rig.velocity_limit,
+                ),
                 (
                     Limit::Acceleration,
                     acceleration.abs(),
                     rig.acceleration_limit,
-                    acceleration.abs() - (1.0 + TOLERANCE) * rig.acceleration_limit,
+                    acceleration.abs() - (1.0 + LIMIT_TOLERANCE) * rig.acceleration_limit,
                 ),
             ];
             for (limit, value, allowed, beyond) in beyond.into_iter().filter(|(.., beyond)| *beyond > 0.0) {

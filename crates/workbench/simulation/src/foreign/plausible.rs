@@ -11,23 +11,23 @@ use crate::Simulation;
 /// Largest pitch, roll or yaw that a platform on six legs can have \[rad\].
 const LARGEST_ANGLE: f64 = 1.6;
 /// Lengths and heights beyond this multiple of the rig's cannot be meant.
-const FAR: f64 = 5.0;
+const MAX_SIZE_RATIO: f64 = 5.0;
 /// Ranges of a ratio to gravity: near it, and in units of it.
-const NEAR: std::ops::Range<f64> = 0.7..1.3;
+const GRAVITY_RATIO_RANGE: std::ops::Range<f64> = 0.7..1.3;
 /// Magnitude of z without gravity's reaction \[m/s2\].
 const WITHOUT_GRAVITY: f64 = 0.5;
 /// Correlation below which a sign is suspected, and above which a size is.
-const OPPOSED: f64 = -0.5;
-const ALIKE: f64 = 0.9;
+const OPPOSED_CORRELATION: f64 = -0.5;
+const ALIKE_CORRELATION: f64 = 0.9;
 /// Relative tolerance of a size that is suspected to be in another unit.
 const SIZE_TOLERANCE: f64 = 0.15;
 /// The axis that no tilt coordination turns about.
-const YAW: usize = 2;
+const YAW_AXIS: usize = 2;
 /// RMS of a signal that is enough for a suspicion, of forces \[m/s2\] and of rates \[rad/s\].
-const ENOUGH: [f64; 2] = [0.05, 0.01];
+const MIN_SUSPECTED_RMS: [f64; 2] = [0.05, 0.01];
 /// RMS of the difference of given forces from those of the poses that is worth a sentence, as a
 /// fraction of the latter, and at least \[m/s2\].
-const DIFFERENT: f64 = 0.1;
+const MIN_DIFFERENCE_FRACTION: f64 = 0.1;
 const LEAST_DIFFERENT: f64 = 0.1;
 /// Error by rounding, as a multiple of its RMS, that is no difference.
 const MOST_ROUNDING: f64 = 3.0;
@@ -36,7 +36,7 @@ const DIFFERENT_LEGS: f64 = 1e-3;
 /// Error by rounding that is worth a sentence \[m/s2\].
 const LEAST_ROUNDING: f64 = 0.02;
 /// Decimals that are looked for in poses.
-const DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
+const POSE_DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
 
 /// Checks that poses and legs can be meant on this rig.
 ///
@@ -52,7 +52,7 @@ pub fn check(
         let refused = |reason: String| Err(ForeignError::Implausible { argument: "pose", reason });
         let neutral = rig.neutral_height;
         let height = median(pose.iter().map(|pose| pose[2]));
-        if height.abs() > FAR * neutral {
+        if height.abs() > MAX_SIZE_RATIO * neutral {
             return refused(format!("z is {height:.3} m at the median, as in mm; divide x, y, z by 1000"));
         }
         if height < 0.3 * neutral {
@@ -72,7 +72,7 @@ pub fn check(
     }
     if let Some(legs) = legs {
         let length = median(legs.iter().flatten().copied());
-        if !(rig.min_length / FAR..rig.max_length * FAR).contains(&length) {
+        if !(rig.min_length / MAX_SIZE_RATIO..rig.max_length * MAX_SIZE_RATIO).contains(&length) {
             return Err(ForeignError::Implausible {
                 argument: "legs",
                 reason: format!(
@@ -95,7 +95,7 @@ fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> 
     };
     let all = |decimals: &i32| poses.iter().all(|pose| pose[..3].iter().all(|value| is_multiple(*value, *decimals)));
     let moves = poses.iter().any(|pose| pose[..3] != poses[0][..3]);
-    let decimals = DECIMALS.into_iter().find(all).filter(|_| moves)?;
+    let decimals = POSE_DECIMALS.into_iter().find(all).filter(|_| moves)?;
     let parts = (poses.len() - 1) / (samples - 1);
     Some((decimals, rounding_error(10f64.powi(-decimals), step / parts as f64)))
 }
@@ -143,7 +143,7 @@ pub fn contradiction(
     }
     let [difference, size] = [difference, size].map(|sum: f64| (sum / samples as f64).sqrt());
     let rounding = rounded(poses, samples, step).map_or(0.0, |(_, error)| error);
-    let allowed = LEAST_DIFFERENT.max(DIFFERENT * size) + MOST_ROUNDING * rounding;
+    let allowed = LEAST_DIFFERENT.max(MIN_DIFFERENCE_FRACTION * size) + MOST_ROUNDING * rounding;
     (difference > allowed).then(|| {
         format!(
             "The felt force is not that of the poses: they differ by an RMS of {difference:.2} m/s². Check head.height, the axes (head \
@@ -169,14 +169,16 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
                 .zip(&simulation.outputs)
                 .map(move |(input, output)| [input.specific_force[axis], output.felt_specific_force[axis]])
         };
-        let Some(Likeness { correlation, size }) = likeness(pairs, ENOUGH[0]) else { continue };
-        if correlation < OPPOSED {
+        let Some(Likeness { correlation, size }) = likeness(pairs, MIN_SUSPECTED_RMS[0]) else { continue };
+        if correlation < OPPOSED_CORRELATION {
             found.push(format!(
                 "{name} is felt with the wrong sign: its correlation with the desired force is {correlation:.2}. If the washout is not \
                  to blame, its {} points the other way; axes are x forward, y left, z up, and positive pitch is nose down.",
                 ["x", "y"][axis]
             ));
-        } else if correlation > ALIKE && (size / scale[axis] * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE {
+        } else if correlation > ALIKE_CORRELATION
+            && (size / scale[axis] * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE
+        {
             found.push(format!(
                 "{name} is felt 9.8 times too small, as in units of g. If it is, multiply it by 9.80665."
             ));
@@ -190,12 +192,12 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
                 .zip(&simulation.outputs)
                 .map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]])
         };
-        let Some(Likeness { correlation, size }) = likeness(pairs, ENOUGH[1]) else { continue };
-        if correlation > -OPPOSED && size > 10.0 {
+        let Some(Likeness { correlation, size }) = likeness(pairs, MIN_SUSPECTED_RMS[1]) else { continue };
+        if correlation > -OPPOSED_CORRELATION && size > 10.0 {
             found.push(format!(
                 "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
             ));
-        } else if axis == YAW && correlation < -ALIKE {
+        } else if axis == YAW_AXIS && correlation < -ALIKE_CORRELATION {
             found.push(format!(
                 "{name} is felt with the wrong sign: its correlation with the desired rate is {correlation:.2}. Positive is to the left."
             ));
@@ -207,9 +209,9 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
 /// A wrong vertical force \[m/s2\] at the median.
 fn of_vertical(vertical: f64, gravity: f64) -> Option<String> {
     let rest = format!("a rider at rest feels (0, 0, {gravity:.2})");
-    if NEAR.contains(&(vertical / gravity)) {
+    if GRAVITY_RATIO_RANGE.contains(&(vertical / gravity)) {
         None
-    } else if NEAR.contains(&vertical) {
+    } else if GRAVITY_RATIO_RANGE.contains(&vertical) {
         Some(format!(
             "The felt force is 9.8 times too small: its z is {vertical:.2} at the median, as in units of g. Multiply it by 9.80665; {rest}."
         ))
@@ -218,7 +220,7 @@ fn of_vertical(vertical: f64, gravity: f64) -> Option<String> {
             "The felt force lacks gravity's reaction: its z is {vertical:.2} m/s² at the median, but {rest}. Add {gravity:.5} to z, and to \
              x and y what the platform's tilt makes of it."
         ))
-    } else if NEAR.contains(&(-vertical / gravity)) || NEAR.contains(&-vertical) {
+    } else if GRAVITY_RATIO_RANGE.contains(&(-vertical / gravity)) || GRAVITY_RATIO_RANGE.contains(&-vertical) {
         Some(format!(
             "The felt force has the wrong sign: its z is {vertical:.2} m/s² at the median, but {rest} in axes x forward, y left, z up."
         ))

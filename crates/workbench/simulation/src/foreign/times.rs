@@ -3,9 +3,9 @@
 use super::ForeignError;
 
 /// Tolerance of a time, as a fraction of the recording's step.
-const EQUAL: f64 = 1e-3;
+const TIME_TOLERANCE: f64 = 1e-3;
 /// Excess of times over a whole number of parts of a step that counts as rounding.
-const ROUNDING: f64 = 1e-6;
+const COUNT_ROUNDING: f64 = 1e-6;
 
 /// A series at a recording's samples, from `times` of its own, and a sentence if it was
 /// interpolated. Times that are those of the samples, or divide its steps into whole parts, keep
@@ -45,12 +45,12 @@ pub fn on_samples<const N: usize>(
     }
     let steps = samples.saturating_sub(1);
     let end = steps as f64 * step;
-    let is_shifted = start != 0.0 && (times[0] - start).abs() <= 0.5 * step + times[0].abs() * ROUNDING;
+    let is_shifted = start != 0.0 && (times[0] - start).abs() <= 0.5 * step + times[0].abs() * COUNT_ROUNDING;
     let shift = if is_shifted { start } else { 0.0 };
     let time = |k: usize| times[k] - shift;
     let last = times.len() - 1;
     let mean = (times[last] - times[0]) / last as f64;
-    let tolerance = EQUAL * step + mean;
+    let tolerance = TIME_TOLERANCE * step + mean;
     if time(0) > tolerance || time(last) < end - tolerance {
         return Err(refused(format!(
             "covers {} to {} s, but the recording 0 to {end} s; compute the whole recording, on its times",
@@ -62,7 +62,8 @@ pub fn on_samples<const N: usize>(
     let part = step / parts as f64;
     let count = parts * steps + 1;
     let is_regular = times.len() >= count
-        && (0..count).all(|k| (time(k) - k as f64 * part).abs() <= EQUAL * part + ROUNDING * times[0].abs());
+        && (0..count)
+            .all(|k| (time(k) - k as f64 * part).abs() <= TIME_TOLERANCE * part + COUNT_ROUNDING * times[0].abs());
     if is_regular {
         return Ok((values[..count].to_vec(), None));
     }

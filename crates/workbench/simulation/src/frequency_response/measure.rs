@@ -36,7 +36,7 @@ const LONGEST_WAIT: f64 = 300.0;
 const FEWEST_BLOCKS: usize = 4;
 /// No further block is needed when the last two differ in what is felt by less than this fraction
 /// of the input, 1 °/s counting as much as 1 m/s2.
-const AGREEMENT: f64 = 1e-4;
+const BLOCK_AGREEMENT: f64 = 1e-4;
 /// A filter at its limits need not repeat itself from period to period. Up to this fraction of the
 /// input that is no matter.
 pub const SETTLED: f64 = 1e-2;
@@ -86,7 +86,7 @@ pub fn response_on(
         let block = walk.block();
         change = block.difference(&last) / (amplitude / unit_in_si(channel));
         last = block;
-        if change <= AGREEMENT {
+        if change <= BLOCK_AGREEMENT {
             break;
         }
     }

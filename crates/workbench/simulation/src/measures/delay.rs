@@ -13,7 +13,7 @@ const LONGEST_DELAY: f64 = 2.0;
 /// Least correlation at the best shift for one signal to count as the other one delayed.
 const SAME_SIGNAL: f64 = 0.9;
 /// Accuracy of the correlations from the Fourier transform.
-const ACCURACY: f64 = 1e-9;
+const CORRELATION_ACCURACY: f64 = 1e-9;
 /// Fraction of both signals' energy that must be in an overlap for that accuracy.
 const LEAST_ENERGY: f64 = 1e-6;
 
@@ -29,11 +29,11 @@ pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     let approximate = correlations(desired, felt, longest)?;
     let exact = |index: usize| correlation_at(desired, felt, index as i64 - longest as i64);
     let largest = approximate.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if largest < SAME_SIGNAL - ACCURACY {
+    if largest < SAME_SIGNAL - CORRELATION_ACCURACY {
         return None;
     }
     let (best, at_best) = (0..approximate.len())
-        .filter(|&index| approximate[index] >= largest - 2.0 * ACCURACY)
+        .filter(|&index| approximate[index] >= largest - 2.0 * CORRELATION_ACCURACY)
         .filter_map(|index| Some((index, exact(index)?)))
         .max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     if best == 0 || best + 1 == approximate.len() || at_best < SAME_SIGNAL {

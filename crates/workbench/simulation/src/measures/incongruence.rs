@@ -7,7 +7,7 @@
 //! published. [`incongruence`] takes 3 s, and 1 and 6 s for the range. Only ratios mean something.
 
 /// Weights of the longitudinal and the lateral mismatch.
-const WEIGHTS: [f64; 2] = [0.34, 0.66];
+const MISMATCH_WEIGHTS: [f64; 2] = [0.34, 0.66];
 
 /// Time constants of the rating \[s\]: the usual one first.
 const TIME_CONSTANTS: [f64; 3] = [3.0, 1.0, 6.0];
@@ -42,7 +42,7 @@ pub fn incongruence(desired: &[[f64; 3]], felt: &[[f64; 3]], step: f64) -> Optio
 }
 
 fn mismatch(desired: &[f64; 3], felt: &[f64; 3]) -> f64 {
-    (0..2).map(|k| WEIGHTS[k] * (felt[k] - desired[k]).abs()).sum()
+    (0..2).map(|k| MISMATCH_WEIGHTS[k] * (felt[k] - desired[k]).abs()).sum()
 }
 
 #[cfg(test)]

@@ -67,25 +67,25 @@ struct Subject {
 impl Subject {
     /// Its name on an axis.
     fn title(&self, axis: usize) -> String {
-        if self.axes == 0 { self.name.to_owned() } else { format!("{} {}", self.name, AXES[axis]) }
+        if self.axes == 0 { self.name.to_owned() } else { format!("{} {}", self.name, AXIS_NAMES[axis]) }
     }
 }
 
-const AXES: Axes<&str> = ["x", "y", "z"];
-const DEGREE: f64 = 180.0 / std::f64::consts::PI;
+const AXIS_NAMES: Axes<&str> = ["x", "y", "z"];
+const DEGREES_PER_RADIAN: f64 = 180.0 / std::f64::consts::PI;
 
 /// Entry for a measure that needs no source.
-const COMMON: &str = "common usage";
-const VESTIBULAR: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
+const COMMON_USAGE: &str = "common usage";
+const VESTIBULAR_SOURCE: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
     Approaches, NASA/CR-2005-213747";
-const COMFORT: &str = "docs/measures.md, comfort";
-const SICKNESS: &str = "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering Motion Perception, \
+const COMFORT_SOURCE: &str = "docs/measures.md, comfort";
+const SICKNESS_SOURCE: &str = "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering Motion Perception, \
     SAE Technical Paper 2023-01-0176";
-const DOSE: &str = "ISO 2631-1";
-const RATING: &str = "docs/measures.md, incongruence";
-const SHAPE: &str = "docs/measures.md, shape; threshold: Reid, Nahon, UTIAS Report 296, 1985";
-const BOUND: &str = "docs/measures.md, the bound; an interior-point method after Rao, Wright, Rawlings 1998";
-const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
+const DOSE_SOURCE: &str = "ISO 2631-1";
+const INCONGRUENCE_SOURCE: &str = "docs/measures.md, incongruence";
+const SHAPE_SOURCE: &str = "docs/measures.md, shape; threshold: Reid, Nahon, UTIAS Report 296, 1985";
+const BOUND_SOURCE: &str = "docs/measures.md, the bound; an interior-point method after Rao, Wright, Rawlings 1998";
+const THRESHOLDS_SOURCE: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
 
 /// Measures of one source, a row each: name, unit, the better of two values, value, definition.
@@ -122,7 +122,7 @@ macro_rules! fidelity {
 /// False and missing cues of a signal.
 macro_rules! cues {
     ($signal:ident) => {
-        measures! { THRESHOLDS;
+        measures! { THRESHOLDS_SOURCE;
             "sensed in the vehicle" ["%"] Neither: |of, k| Some(100.0 * of.$signal[k].desired),
                 "Fraction of the run in which the vehicle's motion is above the threshold.";
             "false cues" ["%"] Less: |of, k| Some(100.0 * of.$signal[k].false_cues),
@@ -135,19 +135,19 @@ macro_rules! cues {
 }
 
 /// The subjects in the order in which one reads them: those of a group are repeated axis by axis.
-const GROUPS: [&[Subject]; 4] = [
+const SUBJECT_GROUPS: [&[Subject]; 4] = [
     &[
         Subject {
             name: "specific force",
             axes: 3,
             is_present: |of, k| of.force[k].is_some(),
-            measures: fidelity!(force, "m/s²", 1.0, COMMON),
+            measures: fidelity!(force, "m/s²", 1.0, COMMON_USAGE),
         },
         Subject {
             name: "specific force",
             axes: 2,
             is_present: |of, k| of.shape.axes[k].is_some(),
-            measures: measures! { SHAPE;
+            measures: measures! { SHAPE_SOURCE;
                 "shape" [""] More: |of, k| Some(of.shape.axes[k]?.shape),
                     "Correlation of felt and desired below 2 Hz: sign, time and proportion, whatever the size; 0 where nothing is felt.";
                 "size" [""] More: |of, k| Some(of.shape.axes[k]?.size),
@@ -161,7 +161,7 @@ const GROUPS: [&[Subject]; 4] = [
             name: "specific force",
             axes: 3,
             is_present: |of, k| of.comfort[k].is_some(),
-            measures: measures! { COMFORT;
+            measures: measures! { COMFORT_SOURCE;
                 "shake" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.shake.as_ref()?.value),
                     "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
                      undefined up to 16 samples a second and for runs of 15 samples or less.";
@@ -176,7 +176,7 @@ const GROUPS: [&[Subject]; 4] = [
             name: "sensed specific force",
             axes: 3,
             is_present: |of, k| of.sensed_force[k].is_some(),
-            measures: fidelity!(sensed_force, "m/s²", 1.0, VESTIBULAR),
+            measures: fidelity!(sensed_force, "m/s²", 1.0, VESTIBULAR_SOURCE),
         },
         Subject {
             name: "sensed specific force",
@@ -189,7 +189,7 @@ const GROUPS: [&[Subject]; 4] = [
         name: "horizontal specific force",
         axes: 0,
         is_present: |of, _| of.shape.inverted.is_some(),
-        measures: measures! { SHAPE;
+        measures: measures! { SHAPE_SOURCE;
             "inverted" ["%"] Less: |of, _| Some(100.0 * of.shape.inverted?),
                 "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
                  force.";
@@ -203,13 +203,13 @@ const GROUPS: [&[Subject]; 4] = [
             name: "angular velocity",
             axes: 3,
             is_present: |of, k| of.rate[k].is_some(),
-            measures: fidelity!(rate, "°/s", DEGREE, COMMON),
+            measures: fidelity!(rate, "°/s", DEGREES_PER_RADIAN, COMMON_USAGE),
         },
         Subject {
             name: "sensed angular velocity",
             axes: 3,
             is_present: |of, k| of.sensed_rate[k].is_some(),
-            measures: fidelity!(sensed_rate, "°/s", DEGREE, VESTIBULAR),
+            measures: fidelity!(sensed_rate, "°/s", DEGREES_PER_RADIAN, VESTIBULAR_SOURCE),
         },
         Subject {
             name: "sensed angular velocity",
@@ -223,7 +223,7 @@ const GROUPS: [&[Subject]; 4] = [
             name: "rider",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { SICKNESS;
+            measures: measures! { SICKNESS_SOURCE;
                 "sick in the vehicle" ["%"] Neither: |of, _| Some(of.rider.sick[0]),
                     "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
                      vertical; without vision, from data of passengers.";
@@ -235,7 +235,7 @@ const GROUPS: [&[Subject]; 4] = [
             name: "rider",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { DOSE;
+            measures: measures! { DOSE_SOURCE;
                 "sickness dose in the vehicle" ["m/s^1.5"] Neither: |of, _| Some(of.rider.dose[0]),
                     "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.";
                 "sickness dose on the platform" ["m/s^1.5"] Less: |of, _| Some(of.rider.dose[1]),
@@ -246,7 +246,7 @@ const GROUPS: [&[Subject]; 4] = [
             name: "rider",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { RATING;
+            measures: measures! { INCONGRUENCE_SOURCE;
                 "incongruence" ["%"] Less: |of, _| Some(100.0 * of.rider.incongruence.as_ref()?.value),
                     "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
                      that of a platform at rest.";
@@ -256,7 +256,7 @@ const GROUPS: [&[Subject]; 4] = [
             name: "platform",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { COMMON;
+            measures: measures! { COMMON_USAGE;
                 "stroke used" ["%"] Neither: |of, _| Some(100.0 * of.effort.stroke_used),
                     "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.";
                 "smallest stroke margin" ["m"] More: |of, _| Some(of.effort.smallest_margin),
@@ -283,7 +283,7 @@ const GROUPS: [&[Subject]; 4] = [
 /// \[m/s2\].
 type BoundValues = [f64; 3];
 
-const BOUND_MEASURES: &[Measure<BoundValues>] = measures! { BOUND;
+const BOUND_MEASURES: &[Measure<BoundValues>] = measures! { BOUND_SOURCE;
     "bound" ["m/s²"] Neither: |[_, _, bound], _| Some(*bound),
         "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
          same limits of tilt, tilt rate, travel, speed and acceleration.";
@@ -301,7 +301,7 @@ fn percentage(error: f64, desired: f64) -> Option<f64> {
 
 /// Every measure of every subject, in the order of the rows, with the axis.
 fn listed() -> impl Iterator<Item = (&'static Subject, usize, &'static Measure)> {
-    GROUPS.iter().flat_map(|group| {
+    SUBJECT_GROUPS.iter().flat_map(|group| {
         let axes = group.iter().map(|subject| subject.axes).max().unwrap_or_default();
         let on_axis =
             move |axis| group.iter().filter(move |subject| axis < subject.axes.max(1)).map(move |of| (of, axis));

@@ -29,16 +29,16 @@ const KWC: f64 = 10.0;
 const KVC: f64 = 5.0;
 const KAC: f64 = 0.5;
 /// Time constants of the canals \[s\].
-const CANALS: [f64; 2] = [7.0, 190.0];
+const CANAL_TIME_CONSTANTS: [f64; 2] = [7.0, 190.0];
 /// Time constant of the sensed vertical \[s\].
-const VERTICAL: f64 = 2.0;
+const VERTICAL_TIME_CONSTANT: f64 = 2.0;
 /// Conflict at which H is one half \[m/s2\].
-const HALF: f64 = 0.5;
+const HALF_CONFLICT: f64 = 0.5;
 /// Gravity in the model \[m/s2\].
-const GRAVITY: f64 = 9.81;
+const MODEL_GRAVITY: f64 = 9.81;
 /// Largest share of people \[%\], and the time constant of its growth \[s\].
-const LARGEST: f64 = 85.0;
-const GROWTH: f64 = 720.0;
+const MAX_SICK_SHARE: f64 = 85.0;
+const SICKNESS_GROWTH_TIME: f64 = 720.0;
 
 /// Time for which [`share_sick`] has the ride repeated \[s\].
 pub const EXPOSURE: f64 = 1800.0;
@@ -57,8 +57,8 @@ pub fn share_sick(force: &[[f64; 3]], rate: &[[f64; 3]], step: f64) -> f64 {
 
 /// The response of M after this time to a constant H.
 fn share_after(time: f64, conflict: f64) -> f64 {
-    let times = time / GROWTH;
-    LARGEST * conflict * (1.0 - (1.0 + times) * (-times).exp())
+    let times = time / SICKNESS_GROWTH_TIME;
+    MAX_SICK_SHARE * conflict * (1.0 - (1.0 + times) * (-times).exp())
 }
 
 /// The mean of H over the motion.
@@ -81,7 +81,7 @@ fn mean_conflict(force: &[[f64; 3]], rate: &[[f64; 3]], step: f64) -> f64 {
 type State = SMatrix<f64, 3, 7>;
 
 fn at_rest() -> State {
-    let (up, none) = (Vector3::z() * GRAVITY, Vector3::zeros());
+    let (up, none) = (Vector3::z() * MODEL_GRAVITY, Vector3::zeros());
     State::from_columns(&[none, none, up, up, none, up / KVC, up])
 }
 
@@ -89,7 +89,8 @@ fn at_rest() -> State {
 fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
     let [x, x_rate, sensed, expected, correction, vertical_correction, gravity] =
         std::array::from_fn(|k| state.column(k).into_owned());
-    let canals = x_rate * (1.0 / CANALS[0] + 1.0 / CANALS[1]) + x / (CANALS[0] * CANALS[1]);
+    let canals = x_rate * (1.0 / CANAL_TIME_CONSTANTS[0] + 1.0 / CANAL_TIME_CONSTANTS[1])
+        + x / (CANAL_TIME_CONSTANTS[0] * CANAL_TIME_CONSTANTS[1]);
     let sensed_rate = canals + rate;
     let expected_force =
         ((force - gravity) * KA + vertical_correction * KVC + (force - sensed + expected) * KAC) / (1.0 + KAC);
@@ -97,9 +98,9 @@ fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
     State::from_columns(&[
         x_rate,
         -canals - rate,
-        (force - sensed) / VERTICAL - sensed_rate.cross(&sensed),
-        (expected_force - expected) / VERTICAL - expected_rate.cross(&expected),
-        -(correction + rate * KW + (sensed_rate - expected_rate) * KWC) / CANALS[0],
+        (force - sensed) / VERTICAL_TIME_CONSTANT - sensed_rate.cross(&sensed),
+        (expected_force - expected) / VERTICAL_TIME_CONSTANT - expected_rate.cross(&expected),
+        -(correction + rate * KW + (sensed_rate - expected_rate) * KWC) / CANAL_TIME_CONSTANTS[0],
         sensed - expected,
         -rate.cross(&gravity),
     ])
@@ -107,7 +108,7 @@ fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
 
 /// Hill function H of the conflict between sensed and expected vertical.
 fn conflict(state: &State) -> f64 {
-    let square = (state.column(2) - state.column(3)).norm_squared() / (HALF * HALF);
+    let square = (state.column(2) - state.column(3)).norm_squared() / (HALF_CONFLICT * HALF_CONFLICT);
     square / (1.0 + square)
 }
 

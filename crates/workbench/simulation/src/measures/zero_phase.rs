@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// Samples that are kept at a time. Of longer signals each block is filtered again from the states
 /// of both passes at its ends.
-const BLOCK: usize = 1 << 18;
+const BLOCK_SAMPLES: usize = 1 << 18;
 
 /// The signal through a filter of this many sections of second order, forward and backward, as
 /// SciPy's `sosfiltfilt`. `filter` makes a filter at rest from the tangent of half the cutoff's
@@ -29,16 +29,16 @@ pub fn zero_phase<F: FnMut(f64) -> f64 + Clone>(
     let after = reflected(last[extension], &last[..extension]).into_iter();
     let at_rest = filter((PI * ratio).tan());
     let forward = before.chain(signal).chain(after).map(at_rest.clone());
-    let blocks = (end + 2 * extension).div_ceil(BLOCK);
+    let blocks = (end + 2 * extension).div_ceil(BLOCK_SAMPLES);
     // The forward pass at each block's start, and the backward pass at its end.
     let mut starts = vec![forward];
     for block in 1..blocks {
         let mut start = starts[block - 1].clone();
-        start.nth(BLOCK - 1);
+        start.nth(BLOCK_SAMPLES - 1);
         starts.push(start);
     }
     let filtered = move |block: usize, backward: &mut F| {
-        let mut values: Vec<f64> = starts[block].clone().take(BLOCK).collect();
+        let mut values: Vec<f64> = starts[block].clone().take(BLOCK_SAMPLES).collect();
         values.iter_mut().rev().for_each(|value| *value = backward(*value));
         values
     };
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn blocks_are_the_whole() {
         let (cutoff, step, extension) = (8.0, 0.001, 9);
-        for count in [10, BLOCK - 18, BLOCK - 17, 3 * BLOCK] {
+        for count in [10, BLOCK_SAMPLES - 18, BLOCK_SAMPLES - 17, 3 * BLOCK_SAMPLES] {
             let signal: Vec<f64> = (0..count).map(|k| (0.01 * k as f64).sin() + (k % 7) as f64).collect();
             let mut whole: Vec<f64> = (1..=extension).rev().map(|k| 2.0 * signal[0] - signal[k]).collect();
             whole.extend(&signal);

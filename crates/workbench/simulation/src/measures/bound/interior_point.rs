@@ -41,16 +41,16 @@ pub struct NotSolved {
 /// Largest distance of the value from its lower bound, as a fraction of the value.
 const RELATIVE_GAP: f64 = 1e-6;
 /// The same for values near 0, for an interval \[(m/s2)^2\].
-const GAP: f64 = 1e-10;
+const ABSOLUTE_GAP: f64 = 1e-10;
 /// Distances this many times as large are accepted where rounding prevents smaller ones.
-const ACCEPTED: f64 = 1000.0;
+const ACCEPTED_GAP_FACTOR: f64 = 1000.0;
 /// Iterations after which the solver gives up. Rides take 10 to 50.
 const MOST_ITERATIONS: usize = 200;
 /// Part of the way to the nearest limit that a step goes.
 const TO_THE_LIMIT: f64 = 0.98;
 /// Added to the inputs' Hessian: without it, rounding may take an input's curvature below 0. The
 /// solution is the same, because a step's gradient is exact.
-const REGULARISATION: f64 = 1e-11;
+const HESSIAN_REGULARISATION: f64 = 1e-11;
 
 /// The recursion's result for an interval: with the state's change x, the best input's change
 /// solves L' u = -(gain x + offset).
@@ -103,7 +103,7 @@ fn solve_within<const N: usize, const U: usize, const E: usize>(
         solver.go(part, &change, &uncentred, target);
     }
     let (value, gap) = (solver.value(), solver.gap());
-    if gap <= ACCEPTED * solver.tolerance() {
+    if gap <= ACCEPTED_GAP_FACTOR * solver.tolerance() {
         Ok(solver.solution)
     } else {
         Err(NotSolved { value, least: value - gap })
@@ -133,7 +133,7 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
     fn at_rest(program: &'a Program<N, U, E>) -> Self {
         let intervals = program.desired.len();
         let value = 0.5 * program.desired.iter().flatten().map(|force| force * force).sum::<f64>();
-        let product = (value / intervals as f64).max(GAP) / (2 * (N + U + E)) as f64;
+        let product = (value / intervals as f64).max(ABSOLUTE_GAP) / (2 * (N + U + E)) as f64;
         let multipliers = IntervalMultipliers {
             states: Multipliers::at_rest(&program.states, product),
             inputs: Multipliers::at_rest(&program.inputs, product),
@@ -157,7 +157,7 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
     }
 
     fn tolerance(&self) -> f64 {
-        RELATIVE_GAP * self.value() + GAP * self.feedback.len() as f64
+        RELATIVE_GAP * self.value() + ABSOLUTE_GAP * self.feedback.len() as f64
     }
 
     /// Distance of the value from its lower bound.
@@ -264,7 +264,7 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
             add_squares(felt, &[1.0; 2], &mut xx, &mut ux, &mut uu);
             add_squares(limited, &of_limits, &mut xx, &mut ux, &mut uu);
             for (n, weight) in of_inputs.iter().enumerate() {
-                uu[n][n] += weight + REGULARISATION;
+                uu[n][n] += weight + HESSIAN_REGULARISATION;
             }
             let (mut x, mut u) = ([0.0; N], [0.0; U]);
             self.program.motion.add_transposed(&gradient, &mut x, &mut u);

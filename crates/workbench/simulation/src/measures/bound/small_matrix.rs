@@ -1,7 +1,7 @@
 //! Matrices of a few rows, as arrays whose sizes the compiler knows.
 
 /// Least part of a diagonal element that stays in its pivot: rounding cannot make it negative.
-const ROUNDING: f64 = 1e-14;
+const PIVOT_ROUNDING: f64 = 1e-14;
 
 /// Adds the terms, each times the same factor.
 pub fn add<const M: usize>(sum: &mut [f64; M], times: f64, terms: &[f64; M]) {
@@ -40,7 +40,7 @@ pub fn transposed_product<const R: usize, const K: usize, const C: usize>(
 pub fn cholesky<const M: usize>(mut matrix: [[f64; M]; M]) -> [[f64; M]; M] {
     let diagonal: [f64; M] = std::array::from_fn(|j| matrix[j][j]);
     for j in 0..M {
-        let pivot = matrix[j][j].max(ROUNDING * diagonal[j]);
+        let pivot = matrix[j][j].max(PIVOT_ROUNDING * diagonal[j]);
         let inverse = 1.0 / pivot.sqrt();
         matrix[j + 1..].iter_mut().for_each(|row| row[j] *= inverse);
         matrix[j][j] = inverse;
