@@ -35,6 +35,14 @@ impl Message {
         self.0.iter().map(part).collect()
     }
 
+    /// The text without the full stop at its end.
+    pub fn without_full_stop(mut self) -> Self {
+        if let Some(Part::Text(text)) = self.0.last_mut() {
+            text.truncate(text.trim_end_matches('.').len());
+        }
+        self
+    }
+
     /// Appends text, a remedy or another message.
     pub fn push(&mut self, more: impl Into<Message>) {
         self.0.extend(more.into().0);

@@ -8,8 +8,7 @@
 //! - [`table`] collects the numbers in SI units, joins those of several files, chooses one of
 //!   several laps, and makes the time steps equal.
 //! - `axes` rotates the vectors by the sensor's mounting, to the washout's inputs.
-//! - `checks` finds samples that no vehicle causes, wrong units and axes, and channels that
-//!   contradict each other.
+//! - `rules` finds wrong units and axes, and channels that contradict each other: a row each.
 //!
 //! [`felt`] reads the motion that another washout computed for a recording.
 //!
@@ -31,13 +30,13 @@
 //! `gravityRemoval` specifies.
 
 mod axes;
-mod checks;
 mod columns;
 pub mod conventions;
 pub mod felt;
 mod message;
 mod read;
 mod road;
+mod rules;
 mod signal;
 pub mod table;
 
@@ -51,7 +50,6 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use crate::message::Message;
-use checks::{Channels, consistency, dead, delayed, exchanged, frozen, interleaved, outliers, unusual};
 pub(crate) use columns::{Quantity, units};
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
@@ -59,7 +57,8 @@ pub use message::RecordingError;
 pub use read::source;
 pub use read::source::files_in;
 pub use road::Road;
-use table::{Table, laps, sampling};
+use rules::Channels;
+use table::{Table, interleaved, laps, outliers, sampling};
 
 /// A recording as inputs of the washout at a fixed rate.
 #[derive(Clone, Debug)]
@@ -133,22 +132,10 @@ impl Recording {
         let (mut inputs, mounting) = axes::inputs(&table, conventions)?;
         warnings.extend(mounting);
         let (checked, part) = table.complete();
-        let channels = Channels::new(&checked, &inputs[part.clone()], conventions, part.start);
-        let stops = frozen::stops(&channels);
-        checks::plausibility(&channels).map_err(|error| match stops.first() {
-            // What a sensor shows after it has stopped is no unit or axis.
-            Some(reason) => table.refused(reason.trim_end_matches('.')),
-            None => error,
-        })?;
-        warnings.extend(stops.into_iter().map(Message::from));
-        warnings.extend(frozen::repeats(&table, conventions));
-        warnings.extend(frozen::coarse(&table, conventions));
-        warnings.extend(exchanged::warnings(&channels));
-        warnings.extend(dead::warnings(&channels));
-        warnings.extend(consistency::warnings(&channels));
-        warnings.extend(delayed::warnings(&channels));
+        let channels = Channels::new([&table, &checked], &inputs[part.clone()], conventions, part.start);
+        warnings.extend(rules::warnings(&channels)?);
         axes::fade_in(&mut inputs, table.step(), conventions.fade_in);
-        warnings.extend(unusual::warnings(&table, &inputs, conventions));
+        warnings.extend(rules::warnings_of_motion(&Channels::new([&table; 2], &inputs, conventions, 0))?);
         Ok(Recording {
             name,
             start: table.time[0],

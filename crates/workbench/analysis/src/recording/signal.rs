@@ -5,9 +5,9 @@ use std::ops::Range;
 pub use moris_simulation::measures::statistics::median;
 
 /// Correlation above which two signals count as correlated.
-const TOGETHER: f64 = 0.7;
+const MIN_CORRELATION: f64 = 0.7;
 /// Time constant of the smoothing before turns are detected \[s\].
-const SMOOTHING: f64 = 0.5;
+const SMOOTHING_TIME: f64 = 0.5;
 
 /// The values from the least to the greatest.
 pub fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -61,7 +61,7 @@ pub fn integral(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
 
 /// A signal without its mean, after a first-order low-pass.
 pub fn smooth(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
-    let alpha = step / (SMOOTHING + step);
+    let alpha = step / (SMOOTHING_TIME + step);
     let mut values = centred(values);
     let mut state = 0.0;
     for value in &mut values {
@@ -71,9 +71,33 @@ pub fn smooth(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
     values
 }
 
-/// Slope of y over x through the origin. None where they are not correlated.
-pub fn regression(x: &[f64], y: &[f64]) -> Option<f64> {
+/// Two signals beside each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Relation {
+    /// Their root mean squares.
+    pub sizes: [f64; 2],
+    /// Slope of the second over the first, through the origin.
+    slope: f64,
+    /// True for signals that go together, with the same sign or the opposite one.
+    is_correlated: bool,
+}
+
+impl Relation {
+    /// Slope of the second signal over the first; none where they are not correlated.
+    pub fn slope(&self) -> Option<f64> {
+        self.is_correlated.then_some(self.slope)
+    }
+
+    /// The slope of signals that both have this size.
+    pub fn slope_above(&self, least: f64) -> Option<f64> {
+        self.slope().filter(|_| self.sizes.iter().all(|size| *size >= least))
+    }
+}
+
+/// How two signals are related.
+pub fn relation(x: &[f64], y: &[f64]) -> Relation {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (xx, xy, yy) = (dot(x, x), dot(x, y), dot(y, y));
-    (xy.abs() > TOGETHER * (xx * yy).sqrt()).then(|| xy / xx)
+    let is_correlated = xy.abs() > MIN_CORRELATION * (xx * yy).sqrt();
+    Relation { sizes: [root_mean_square(x), root_mean_square(y)], slope: xy / xx, is_correlated }
 }

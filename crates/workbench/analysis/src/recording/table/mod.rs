@@ -3,6 +3,8 @@
 //! - `files` reads a table from files, and `memory` from columns in memory.
 //! - `clocks` continues clocks that begin again.
 //! - `gaps` fills gaps in columns, and `join` makes one table of several files.
+//! - [`interleaved`] finds samples of several sensors by turns, and [`outliers`] those that no
+//!   vehicle causes.
 //! - `placeholders` finds columns that stand still beside others that move.
 //! - [`laps`] chooses one of several laps.
 //! - [`sampling`] makes the steps of time equal, by `interpolation`. `times` examines times.
@@ -10,10 +12,12 @@
 mod clocks;
 mod files;
 mod gaps;
+pub mod interleaved;
 mod interpolation;
 mod join;
 pub mod laps;
 mod memory;
+pub mod outliers;
 mod placeholders;
 pub mod sampling;
 mod times;

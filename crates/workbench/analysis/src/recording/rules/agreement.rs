@@ -1,0 +1,502 @@
+//! Channels that should tell the same.
+//!
+//! - Speed is the integral of the force along x, without gravity on slopes.
+//! - The lateral force of bends is speed times yaw rate, where a vehicle does not lean.
+//! - Rates are the derivatives of angles.
+
+use std::f64::consts::TAU;
+
+use moris_interface::shown;
+use moris_simulation::measures::delay::delay;
+use moris_simulation::measures::statistics::correlation;
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use super::channels::{BEND_SPEED, Channels, MIN_BEND_FORCE, MIN_SPEED_CHANGE};
+use super::text::text;
+use crate::message::{Message, given};
+use crate::recording::columns::UnitSource;
+use crate::recording::conventions::{Conventions, Dimension, ForceUnit, Gravity, Quantity, SpeedUnit, Unit};
+use crate::recording::signal::{centred, integral, is_constant, median, relation, root_mean_square};
+
+/// The weaker signal may be this much smaller than the least size that is compared, because its
+/// unit may be larger.
+const WEAK_FRACTION: f64 = 0.01;
+/// Least rates that are compared with an angle's derivative, as root mean squares \[rad/s\]: for
+/// its sign and delay, for exchanged axes, and where the other may be missing.
+const MIN_RATE: f64 = 0.005;
+const MIN_EXCHANGED_RATE: f64 = 0.002;
+const MIN_MISSED_RATE: f64 = 0.02;
+/// Ratio of two signals that should be equal, up to which they are taken as equal: slopes and bias
+/// change the force.
+const EQUAL_RATIO: f64 = 1.5;
+/// Ratios of two signals that are the same, of either sign.
+const SAME_RATIOS: [f64; 2] = [0.67, 1.5];
+/// Largest relative distance from another unit's ratio that shows this unit.
+const UNIT_TOLERANCE: f64 = 0.2;
+/// Largest logarithm of a ratio over that of a unit of rates.
+const RATE_UNIT_TOLERANCE: f64 = 0.4;
+/// Ratio above which no slope or bias changes the speed, but the scale of time is wrong.
+const MIN_TIME_SCALE: f64 = 5.0;
+/// Ratio above which the scale of time is wrong where the speed fits the yaw rate in bends, and the
+/// relative distance of this fit.
+const MIN_TIME_SCALE_IN_BENDS: f64 = 1.8;
+const BENDS_TOLERANCE: f64 = 0.1;
+/// Ratio below which a sign is wrong. Two-wheelers have a small lateral force of either sign.
+const OPPOSITE_RATIO: f64 = -0.5;
+/// Speed of bends below which a sign is wrong \[m/s\].
+const BACKWARD_SPEED: f64 = -3.0;
+/// Fraction of what others show, below which a channel holds noise alone.
+const NOISE_FRACTION: f64 = 0.1;
+/// Least change of speed by the force that a constant speed contradicts, as a root mean square
+/// \[m/s\].
+const MIN_DRIVEN_CHANGE: f64 = 1.0;
+/// Roll of a vehicle that leans into bends, as a root mean square \[rad\].
+const LEANING_ROLL: f64 = 0.1;
+/// Ratios of the vertical force in bends and that of a vehicle which leans into them.
+const BALANCED_RATIOS: [f64; 2] = [0.5, 2.0];
+/// Least delay that is warned of, of either sign \[s\].
+const MIN_DELAY: f64 = 0.2;
+/// Largest fraction of the unexplained variance that is left without the delay.
+const MAX_UNEXPLAINED_FRACTION: f64 = 0.2;
+
+/// True for a ratio that slopes and bias explain.
+fn is_equal(ratio: f64) -> bool {
+    (1.0 / EQUAL_RATIO..EQUAL_RATIO).contains(&ratio)
+}
+
+fn is_same(ratio: Option<f64>) -> bool {
+    ratio.is_some_and(|ratio| (SAME_RATIOS[0]..SAME_RATIOS[1]).contains(&ratio.abs()))
+}
+
+/// True for a signal that is small beside the one that it should be, and does not go with it.
+fn is_noise(found: &[f64], needed: &[f64]) -> bool {
+    let relation = relation(needed, found);
+    relation.sizes[1] < NOISE_FRACTION * relation.sizes[0] && relation.slope().is_none()
+}
+
+/// Factor from the signal that is expected to the other; none where one is small, or they do not go
+/// together.
+fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
+    let relation = relation(expected, found);
+    let [one, other] = relation.sizes;
+    let is_small = one.max(other) < least || one.min(other) < WEAK_FRACTION * least;
+    if is_small { None } else { relation.slope() }
+}
+
+impl Channels<'_> {
+    /// True for a speed that is measured and changes.
+    fn has_speed(&self) -> bool {
+        self.is_measured(Quantity::Speed) && !self.is_constant(Quantity::Speed)
+    }
+
+    /// Changes of the speed, without their mean.
+    fn speed_changes(&self) -> Vec<f64> {
+        centred(self.changes(&self.speeds).into_iter())
+    }
+
+    /// Ratio of the changes of speed and the integral of a force.
+    fn ratio_of_force(&self, force: impl Iterator<Item = f64>) -> Option<f64> {
+        let found = self.changes(&self.speeds);
+        let expected = self.driven(force);
+        let is_small = root_mean_square(&found) < MIN_SPEED_CHANGE
+            || root_mean_square(&expected) < WEAK_FRACTION * MIN_SPEED_CHANGE;
+        if is_small { None } else { relation(&expected, &self.speed_changes()).slope() }
+    }
+
+    /// True where slopes explain the changes of speed beside the force along x, as the pitch or the
+    /// rate of pitch gives them.
+    fn slopes_explain(&self) -> bool {
+        // Pitch is positive with the nose down, where gravity accelerates.
+        let pitch: Vec<f64> = self.angle(1).collect();
+        let of_rate = centred(integral(self.rate(1), self.step).into_iter());
+        let on_slopes = |pitch: &Vec<f64>| {
+            let force = self.force(0).zip(pitch).map(|(force, pitch)| force + STANDARD_GRAVITY * pitch.sin());
+            self.ratio_of_force(force).is_some_and(is_equal)
+        };
+        [pitch, of_rate].iter().any(on_slopes)
+    }
+
+    /// Ratio of the changes of speed and the integral of the force along x; 1 where slopes explain
+    /// it.
+    fn surge_ratio(&self) -> Option<f64> {
+        let ratio = self.ratio_of_force(self.force(0));
+        if ratio.is_some_and(is_equal) {
+            return ratio;
+        }
+        if self.slopes_explain() { Some(1.0) } else { ratio }
+    }
+
+    /// Ratio of the lateral force of bends and speed times yaw rate.
+    fn sway_ratio(&self) -> Option<f64> {
+        ratio(&self.turning(), &self.lateral(), MIN_BEND_FORCE)
+    }
+
+    /// True for a vehicle that leans into bends, which has no lateral force.
+    fn leans(&self) -> bool {
+        let rolls = || root_mean_square(&centred(self.angle(0))) > LEANING_ROLL;
+        let expected = self.smoothed(|(input, speed)| (speed * input.angular_velocity.z).hypot(STANDARD_GRAVITY));
+        let vertical = self.smoothed(|(input, _)| input.specific_force.z);
+        let is_balanced = |ratio: f64| (BALANCED_RATIOS[0]..BALANCED_RATIOS[1]).contains(&ratio);
+        let has_lean = self.is_measured(Quantity::Lean) && !self.is_constant(Quantity::Lean);
+        has_lean || rolls() || relation(&expected, &vertical).slope().is_some_and(is_balanced)
+    }
+
+    /// The sentence for a column that does not show what another does.
+    fn unmeasured(&self, quantity: Quantity, contradiction: &str) -> Message {
+        let name = self.conventions.column(quantity);
+        if !self.is_constant(quantity) {
+            return text!["unmeasured", name = name, contradiction = contradiction];
+        }
+        let value = shown(self.table.value(quantity, 0) / self.table.unit(quantity).0.in_si);
+        text!["unmeasured-constant", name = name, value = value, contradiction = contradiction]
+    }
+
+    /// The remedy where two columns are exchanged.
+    fn exchanged_columns(&self, [one, other]: [Quantity; 2], sign: &str) -> Message {
+        if self.conventions.mounting.is_some() {
+            return text!["check-mounting-alone"];
+        }
+        let [first, second] = [one, other].map(|quantity| self.conventions.column(quantity));
+        let columns = format!("{}={sign}{second},{}={first}", one.key(), other.key());
+        text!["if-they-are", remedy = given("columns", columns)]
+    }
+
+    /// Ratio of a rate and the derivative of its angle, where the recording has both.
+    fn rate_ratio(&self, axis: usize) -> Option<f64> {
+        if !self.has_body_rates() || !self.has(Quantity::Angle(axis)) {
+            return None;
+        }
+        let (derivative, rate) = self.derivative_and_rate(axis, TAU);
+        ratio(&derivative, &rate, MIN_RATE)
+    }
+}
+
+/// A speed that goes with the force along y.
+pub fn exchanged_forces(channels: &Channels, _: Quantity) -> Option<Message> {
+    let needed = channels.speed_changes();
+    if root_mean_square(&needed) < MIN_SPEED_CHANGE {
+        return None;
+    }
+    let ratio = |axis: usize| {
+        let relation = relation(&channels.driven(channels.force(axis)), &needed);
+        // Noise goes with nothing.
+        relation.slope().filter(|_| relation.sizes[0] > 0.0)
+    };
+    if ratio(0).is_some() || !is_same(ratio(1)) {
+        return None;
+    }
+    let sign = if ratio(1)? > 0.0 { "" } else { "-" };
+    let remedy = channels.exchanged_columns([Quantity::Force(0), Quantity::Force(1)], sign);
+    Some(text!["forces-exchanged", remedy = remedy])
+}
+
+/// A roll that goes with the rate of pitch.
+pub fn exchanged_rates(channels: &Channels, _: Quantity) -> Option<Message> {
+    if !channels.has_body_rates() {
+        return None;
+    }
+    let signals = [0, 1].map(|axis| channels.derivative_and_rate(axis, TAU));
+    let ratio =
+        |angle: usize, rate: usize| relation(&signals[angle].0, &signals[rate].1).slope_above(MIN_EXCHANGED_RATE);
+    let is_exchanged = ratio(0, 0).is_none() && ratio(1, 1).is_none() && is_same(ratio(0, 1)) && is_same(ratio(1, 0));
+    let remedy = channels.exchanged_columns([Quantity::Rate(0), Quantity::Rate(1)], "");
+    is_exchanged.then(|| text!["rates-exchanged", remedy = remedy])
+}
+
+/// Two axes with the same values, of either sign. Those of a mounted sensor may be equal.
+pub fn same_values(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    let pair = |of: fn(usize) -> Quantity, axis: usize| [[0, 1], [0, 2], [1, 2]][axis].map(of);
+    let quantities = match quantity {
+        Quantity::Force(axis) => pair(Quantity::Force, axis),
+        Quantity::Rate(axis) => pair(Quantity::Rate, axis),
+        _ => return None,
+    };
+    let Channels { table, conventions, .. } = channels;
+    let [Some(one), Some(other)] = quantities.map(|quantity| table.columns.get(&quantity)) else { return None };
+    let equals = |sign: f64| one.iter().zip(other).all(|(one, other)| *one == sign * other);
+    if conventions.mounting.is_some() || is_constant(one) || !(equals(1.0) || equals(-1.0)) {
+        return None;
+    }
+    let [one, other] = quantities.map(|quantity| conventions.column(quantity));
+    Some(text!["same-values", one = one, other = other])
+}
+
+/// A speed that changes without a force along x, and no slope explains it.
+pub fn missing_force(channels: &Channels, _: Quantity) -> Option<Message> {
+    let needed = channels.speed_changes();
+    let is_missing = channels.is_measured(Quantity::Force(0))
+        && channels.has_speed()
+        && root_mean_square(&needed) >= MIN_SPEED_CHANGE
+        && (channels.is_constant(Quantity::Force(0)) || is_noise(&channels.driven(channels.force(0)), &needed))
+        && !channels.slopes_explain();
+    is_missing.then(|| channels.unmeasured(Quantity::Force(0), "the speed changes"))
+}
+
+/// A vehicle that does not lean and drives bends without a lateral force.
+pub fn missing_lateral_force(channels: &Channels, _: Quantity) -> Option<Message> {
+    let is_missing = channels.is_constant(Quantity::Force(1))
+        && channels.has_speed()
+        && root_mean_square(&channels.turning()) >= MIN_BEND_FORCE
+        && !channels.leans();
+    is_missing.then(|| channels.unmeasured(Quantity::Force(1), "the vehicle drives bends"))
+}
+
+/// A constant speed that the force along x would change.
+pub fn missing_speed(channels: &Channels, _: Quantity) -> Option<Message> {
+    let is_missing = channels.is_constant(Quantity::Speed)
+        && root_mean_square(&channels.driven(channels.force(0))) >= MIN_DRIVEN_CHANGE;
+    is_missing.then(|| channels.unmeasured(Quantity::Speed, "the force along x changes it"))
+}
+
+/// An angle that changes without its rate.
+pub fn missing_rate(channels: &Channels, angle: Quantity) -> Option<Message> {
+    let Quantity::Angle(axis) = angle else { return None };
+    let quantity = Quantity::Rate(axis);
+    let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
+    let is_missing = channels.is_measured(angle)
+        && channels.is_measured(quantity)
+        && channels.has_body_rates()
+        && root_mean_square(&derivative) >= MIN_MISSED_RATE
+        && (channels.is_constant(quantity) || is_noise(&rate, &derivative));
+    is_missing.then(|| channels.unmeasured(quantity, &format!("{} changes", angle.key())))
+}
+
+/// A lateral force of bends without a yaw rate.
+pub fn missing_yaw_rate(channels: &Channels, _: Quantity) -> Option<Message> {
+    let lateral = channels.lateral();
+    let is_missing = channels.is_measured(Quantity::Rate(2))
+        && channels.has_speed()
+        && median(channels.speeds.iter().map(|speed| speed.abs())) > BEND_SPEED
+        && root_mean_square(&lateral) >= MIN_BEND_FORCE
+        && (channels.is_constant(Quantity::Rate(2)) || is_noise(&channels.turning(), &lateral));
+    is_missing.then(|| channels.unmeasured(Quantity::Rate(2), "the lateral force is that of bends"))
+}
+
+/// A unit, or a scale of time, that explains a ratio.
+enum Cause {
+    Unit(Quantity, Unit),
+    TimeScale(f64),
+    /// Factor of a speed in a unit that is not known.
+    SpeedScale(f64),
+    /// Factor of the force along x and y, with the units that it has and should have.
+    Horizontal(f64, [Unit; 2]),
+}
+
+/// Changes of speed that are not the integral of the force along x.
+pub fn speed_and_force(channels: &Channels, _: Quantity) -> Option<Message> {
+    let Channels { table, conventions, .. } = channels;
+    let surge = channels.surge_ratio()?;
+    if surge < OPPOSITE_RATIO {
+        return Some(text!["surge-opposite", surge = surge, remedy = channels.turned(Quantity::Force(0))]);
+    }
+    if is_equal(surge) {
+        return None;
+    }
+    let meaning = match cause(channels, surge, channels.sway_ratio()) {
+        Some(Cause::Unit(quantity, unit)) => {
+            let name = match quantity {
+                Quantity::Speed => "it".to_owned(),
+                _ => format!("the {}", quantity.dimension().name()),
+            };
+            let (given, remedy) = (table.unit(quantity).0.word, channels.unit_remedy(quantity, unit.word));
+            text!["other-unit", name = name, other = unit.word, unit = given, remedy = remedy]
+        }
+        Some(Cause::TimeScale(scale)) if (1.0 / MIN_TIME_SCALE..MIN_TIME_SCALE).contains(&scale) => {
+            text!["time-scale-or-slopes", pace = time_scale(conventions, scale)]
+        }
+        Some(Cause::TimeScale(scale)) => time_scale(conventions, scale),
+        Some(Cause::SpeedScale(factor)) => {
+            let columns = conventions.scaled(&[Quantity::Speed], &format!("* {factor}"));
+            text!["speed-scale", factor = factor.to_string(), columns = columns]
+        }
+        Some(Cause::Horizontal(factor, [unit, other])) => {
+            let columns = conventions.scaled(&[0, 1].map(Quantity::Force), &format!("* {factor:.5}"));
+            text!["horizontal-scale", unit = unit.word, other = other.word, columns = columns]
+        }
+        None => text!["check-speed-unit"],
+    };
+    Some(text!["surge", surge = surge, meaning = meaning])
+}
+
+/// The fact that time runs at another pace, and the remedy.
+fn time_scale(conventions: &Conventions, scale: f64) -> Message {
+    let columns = conventions.scaled(&[Quantity::Time], &format!("* {scale:.3}"));
+    let (times, pace) = if scale < 1.0 { (1.0 / scale, "slow") } else { (scale, "fast") };
+    text!["time-scale", times = times, pace = pace, columns = columns]
+}
+
+/// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
+fn cause(channels: &Channels, surge: f64, sway: Option<f64>) -> Option<Cause> {
+    let Channels { table, conventions, .. } = channels;
+    let near = |a: f64, b: f64| (a / b).ln().abs();
+    // In bends a wrong unit of speed or force has the opposite effect, and that of time none.
+    let of_time = sway.is_none_or(|sway| sway > 0.0 && near(sway, 1.0) < near(sway, 1.0 / surge));
+    let of_others =
+        sway.is_none_or(|sway| sway <= 0.0 || near(sway, 1.0) >= near(sway, 1.0 / surge) || surge < MIN_TIME_SCALE);
+    // A speed that fits the yaw rate in bends has the right unit.
+    let fits_bends = sway.is_some_and(|sway| near(sway, 1.0) < BENDS_TOLERANCE)
+        && !(1.0 / MIN_TIME_SCALE_IN_BENDS..MIN_TIME_SCALE_IN_BENDS).contains(&surge);
+    let of_others = of_others && !fits_bends;
+    let mut causes: Vec<(f64, Cause)> = Vec::new();
+    let mut consider = |quantity: Quantity, effect: fn(f64, f64) -> f64| {
+        let given = table.unit(quantity).0;
+        // Feet are too near to km/h.
+        let is_other = |unit: &Unit| *unit != given && *unit != SpeedUnit::FootPerSecond.unit();
+        for unit in quantity.dimension().units().filter(is_other) {
+            causes.push((near(surge, effect(given.in_si, unit.in_si)), Cause::Unit(quantity, unit)));
+        }
+    };
+    if of_others {
+        consider(Quantity::Speed, |given, other| given / other);
+        if conventions.gravity == Gravity::Removed {
+            consider(Quantity::Force(0), |given, other| other / given);
+        }
+    }
+    if of_time {
+        consider(Quantity::Time, |given, other| other / given);
+    }
+    if of_others && sway.is_some() && conventions.gravity == Gravity::Included {
+        let (unit, units) = (table.unit(Quantity::Force(0)).0, [ForceUnit::MetrePerSecondSquared, ForceUnit::Gravity]);
+        for other in units.map(ForceUnit::unit).into_iter().filter(|other| *other != unit) {
+            let factor = other.in_si / unit.in_si;
+            causes.push((near(surge, factor), Cause::Horizontal(factor, [other, unit])));
+        }
+    }
+    if of_others {
+        causes.extend([0.01, 0.001].map(|factor| (near(surge, 1.0 / factor), Cause::SpeedScale(factor))));
+    }
+    let nearest =
+        causes.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(distance, _)| *distance < UNIT_TOLERANCE);
+    let is_paced = fits_bends || !(1.0 / MIN_TIME_SCALE..MIN_TIME_SCALE).contains(&surge);
+    let scale = || (of_time && sway.is_some() && is_paced).then_some(Cause::TimeScale(surge));
+    nearest.map(|(_, cause)| cause).or_else(scale)
+}
+
+/// A lateral force of bends against speed times yaw rate.
+pub fn sign_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
+    let sway = channels.sway_ratio().filter(|sway| *sway < OPPOSITE_RATIO)?;
+    let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|quantity| channels.turned(quantity));
+    let is_mounted = channels.conventions.mounting.is_some();
+    let remedy = if is_mounted { rate } else { text!["rate-or-force", rate = rate, force = force] };
+    Some(text!["bends-opposite", sway = sway, remedy = remedy])
+}
+
+/// A unit of the rates that explains the lateral force of bends.
+pub fn rates_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
+    let sway = channels.sway_ratio()?;
+    rates_in_other_unit(channels, sway, text!["bends-rates", sway = sway])
+}
+
+/// A unit that explains the lateral force of bends. Where the speed fits the force along x, its
+/// unit is right.
+pub fn unit_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
+    let sway = channels.sway_ratio().filter(|sway| *sway < 1.0 / EQUAL_RATIO)?;
+    if channels.surge_ratio().is_some_and(is_equal) {
+        return None;
+    }
+    let Cause::Unit(quantity, other) = cause(channels, 1.0 / sway, Some(sway))? else { return None };
+    let (given, source) = channels.table.unit(quantity);
+    let may_be = quantity == Quantity::Force(0) || quantity == Quantity::Speed && source == UnitSource::Default;
+    let (name, remedy) = (quantity.dimension().name(), channels.unit_remedy(quantity, other.word));
+    may_be
+        .then(|| text!["bends-unit", sway = sway, name = name, other = other.word, unit = given.word, remedy = remedy])
+}
+
+/// A vehicle that reverses where its speed has no sign.
+pub fn reversing(channels: &Channels, _: Quantity) -> Option<Message> {
+    let times = &channels.reversing;
+    (!times.is_empty()).then(|| text!["reversing", times = times.join(", ")])
+}
+
+/// Bends of a vehicle without a measured speed, at one that is negative.
+pub fn backward_bends(channels: &Channels, _: Quantity) -> Option<Message> {
+    if channels.has(Quantity::Speed) || channels.conventions.mounting.is_some() {
+        return None;
+    }
+    let speed = channels.speed_of_bends().filter(|speed| *speed < BACKWARD_SPEED)?;
+    let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|quantity| channels.turned(quantity));
+    Some(text!["bends-backward", speed = speed, remedy = text!["rate-or-force", rate = rate, force = force]])
+}
+
+/// A unit of the rates that explains the ratio of what they should be and what they are.
+fn rates_in_other_unit(channels: &Channels, ratio: f64, fact: Message) -> Option<Message> {
+    let given = channels.table.unit(Quantity::Rate(2)).0;
+    let distance = |unit: &Unit| (ratio * given.in_si / unit.in_si).ln().abs();
+    let others = Dimension::Rate.units().filter(|other| *other != given);
+    let other = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let remedy = channels.unit_remedy(Quantity::Rate(2), other.word);
+    let is_near = ratio > 0.0 && distance(&other) < RATE_UNIT_TOLERANCE;
+    is_near.then(|| text!["rates-in-unit", fact = fact, other = other.word, unit = given.word, remedy = remedy])
+}
+
+/// A rate against the derivative of its angle.
+pub fn sign_of_rates(channels: &Channels, angle: Quantity) -> Option<Message> {
+    let Quantity::Angle(axis) = angle else { return None };
+    let rate = Quantity::Rate(axis);
+    let ratio = channels.rate_ratio(axis).filter(|ratio| *ratio < OPPOSITE_RATIO)?;
+    let [turned_rate, turned_angle] = [rate, angle].map(|quantity| channels.turned(quantity));
+    let (rate, angle) = (rate.key(), angle.key());
+    Some(text![
+        "rate-opposite",
+        rate = rate,
+        ratio = ratio,
+        angle = angle,
+        turned_rate = turned_rate,
+        turned_angle = turned_angle
+    ])
+}
+
+/// Rates that are all as many times the derivatives of the angles.
+pub fn scale_of_rates(channels: &Channels, _: Quantity) -> Option<Message> {
+    let sizes: Vec<f64> = (0..3).filter_map(|axis| channels.rate_ratio(axis)).map(f64::abs).collect();
+    let size = sizes.iter().product::<f64>().powf(1.0 / sizes.len().max(1) as f64);
+    let agree = !sizes.is_empty() && sizes.iter().all(|other| (other / size).ln().abs() < UNIT_TOLERANCE);
+    if (0.5..2.0).contains(&size) || !agree {
+        return None;
+    }
+    let of_time = || {
+        let pace = time_scale(channels.conventions, 1.0 / size);
+        (sizes.len() > 1).then(|| text!["rates-and-time", size = size, pace = pace])
+    };
+    rates_in_other_unit(channels, 1.0 / size, text!["rates-and-angles", size = size]).or_else(of_time)
+}
+
+/// A speed that comes later or earlier than the force along x.
+pub fn delayed_speed(channels: &Channels, _: Quantity) -> Option<Message> {
+    let found = channels.changes(&channels.speeds);
+    let expected = channels.changes(&integral(channels.force(0), channels.step));
+    let delay = clear_delay(&expected, &found, MIN_SPEED_CHANGE, channels.step)?;
+    Some(delayed(Quantity::Speed, "the force along x that changes it", delay))
+}
+
+/// An angle that comes later or earlier than its rate.
+pub fn delayed_angle(channels: &Channels, angle: Quantity) -> Option<Message> {
+    let Quantity::Angle(axis) = angle else { return None };
+    if !channels.has_body_rates() || !channels.has(angle) {
+        return None;
+    }
+    let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
+    let delay = clear_delay(&rate, &derivative, MIN_RATE, channels.step)?;
+    Some(delayed(angle, "the angular velocity that changes it", delay))
+}
+
+/// The delay of a signal behind the one that is expected, where it explains most of their
+/// difference \[s\].
+fn clear_delay(expected: &[f64], found: &[f64], least: f64, step: f64) -> Option<f64> {
+    if root_mean_square(found) < least {
+        return None;
+    }
+    let delay = delay(expected, found, step).filter(|delay| delay.abs() >= MIN_DELAY)?;
+    let shift = (delay.abs() / step).round() as usize;
+    let (earlier, later) = if delay > 0.0 { (expected, found) } else { (found, expected) };
+    let unexplained = |shift: usize| {
+        let correlation = correlation(&earlier[..earlier.len() - shift], &later[shift..])?;
+        Some(1.0 - correlation * correlation)
+    };
+    (unexplained(shift)? < MAX_UNEXPLAINED_FRACTION * unexplained(0)?).then_some(delay)
+}
+
+fn delayed(quantity: Quantity, cause: &str, delay: f64) -> Message {
+    let (place, remedy) = if delay > 0.0 { ("after", "earlier") } else { ("before", "later") };
+    text!["delayed", name = quantity.key(), delay = delay.abs(), place = place, cause = cause, remedy = remedy]
+}

@@ -1,0 +1,144 @@
+//! Rules that every recording must pass, in SI units and the washout's axes.
+//!
+//! A row of [`RULES`] is one of them: what it looks at, when it fires, and which others it explains.
+//! Their sentences stand in `texts.toml`.
+//!
+//! - `units` detects wrong units and axes, by gravity, and by what heads can do.
+//! - `waveform` looks at one channel: it stands still, repeats, or has few digits.
+//! - `agreement` compares [`Channels`] that should tell the same.
+//! - `motion` warns about motion that is possible, but unusual.
+
+mod agreement;
+mod channels;
+mod motion;
+mod text;
+mod units;
+mod waveform;
+
+use super::conventions::Quantity::{self, Angle, Force, Lean, Rate, Speed, Time};
+use super::message::RecordingError;
+use crate::message::Message;
+pub use channels::Channels;
+
+/// A rule.
+struct Rule {
+    name: &'static str,
+    /// True if a recording that breaks it is refused; otherwise it is a warning.
+    refuses: bool,
+    /// Quantities without which there is nothing to test.
+    needs: &'static [Quantity],
+    /// Quantities that are tested one by one.
+    of: &'static [Quantity],
+    /// What breaks the rule, as a sentence; none where nothing does.
+    test: fn(&Channels, Quantity) -> Option<Message>,
+    /// Rules whose finding has the cause that this one names: it is told in their place.
+    supersedes: &'static [&'static str],
+}
+
+/// A rule that is tested once.
+const ONCE: &[Quantity] = &[Time];
+const FORCES_AND_RATES: &[Quantity] = &[Force(0), Rate(0), Force(1), Rate(1), Force(2), Rate(2)];
+const ANGLES: &[Quantity] = &Quantity::ANGLES;
+
+/// Declares rules, a row each.
+macro_rules! rules {
+    ($( $name:literal $effect:ident $needs:expr, $of:expr, $test:path $(, supersedes [$($others:literal),+])?; )+) => {
+        &[$( Rule {
+            name: $name,
+            refuses: rules!(@refuses $effect),
+            needs: &$needs,
+            of: $of,
+            test: $test,
+            supersedes: &[$( $($others),+ )?],
+        }, )+]
+    };
+    (@refuses refuse) => { true };
+    (@refuses warn) => { false };
+}
+
+/// The rules of a recording before it is faded in, in the order in which they are told.
+const RULES: &[Rule] = rules! {
+    // What a sensor shows after it has stopped is no unit or axis.
+    "stop" warn [Speed], &[Force(0), Rate(2)], waveform::stop, supersedes ["angle range", "angle unit", "gravity", "rate unit"];
+    // Angles before gravity: with them it is put back.
+    "angle range" refuse [], ONCE, units::angle_range;
+    "angle unit" refuse [], &[Angle(0), Angle(1), Angle(2), Lean], units::angle_unit;
+    "gravity" refuse [], ONCE, units::gravity;
+    "rate unit" refuse [], ONCE, units::rate_unit;
+    "repeated values" warn [], ONCE, waveform::repeated;
+    "coarse values" warn [], FORCES_AND_RATES, waveform::coarse;
+    "exchanged forces" warn [Speed], ONCE, agreement::exchanged_forces;
+    "exchanged rates" warn [Angle(0), Angle(1)], ONCE, agreement::exchanged_rates;
+    "same forces" warn [], &[Force(0), Force(1), Force(2)], agreement::same_values;
+    "same rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::same_values;
+    "no force" warn [Speed], ONCE, agreement::missing_force;
+    "no lateral force" warn [Speed], ONCE, agreement::missing_lateral_force;
+    "no speed" warn [Speed], ONCE, agreement::missing_speed;
+    "no rate of an angle" warn [], ANGLES, agreement::missing_rate, supersedes ["no yaw rate"];
+    "no yaw rate" warn [Speed], ONCE, agreement::missing_yaw_rate;
+    "speed and force" warn [Speed], ONCE, agreement::speed_and_force, supersedes ["unit of bends"];
+    "sign of bends" warn [Speed], ONCE, agreement::sign_of_bends, supersedes ["unit of bends"];
+    "rates of bends" warn [Speed], ONCE, agreement::rates_of_bends, supersedes ["unit of bends"];
+    "unit of bends" warn [Speed], ONCE, agreement::unit_of_bends;
+    "reversing" warn [Speed], ONCE, agreement::reversing;
+    "backward bends" warn [], ONCE, agreement::backward_bends;
+    "sign of rates" warn [], ANGLES, agreement::sign_of_rates;
+    "scale of rates" warn [], ONCE, agreement::scale_of_rates;
+    "delayed speed" warn [Speed], ONCE, agreement::delayed_speed;
+    "delayed angle" warn [], ANGLES, agreement::delayed_angle;
+};
+
+/// The rules of the motion that is ridden.
+const RULES_OF_MOTION: &[Rule] = rules! {
+    "bias" warn [], &[Force(0), Force(1)], motion::bias;
+    "force unit" warn [], ONCE, motion::force_unit;
+    "fast rates" warn [], ONCE, motion::fast_rates;
+    "jolt" warn [], ONCE, motion::jolt;
+};
+
+/// The warnings about a recording before it is faded in.
+///
+/// # Errors
+/// It breaks a rule that refuses it. The message names the cause and the remedy.
+pub fn warnings(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
+    apply(RULES, channels)
+}
+
+/// The warnings about the motion that is ridden.
+///
+/// # Errors
+/// None of these rules refuses.
+pub fn warnings_of_motion(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
+    apply(RULES_OF_MOTION, channels)
+}
+
+fn apply(rules: &[Rule], channels: &Channels) -> Result<Vec<Message>, RecordingError> {
+    let refused = |reason: &Message| channels.table.refused(reason.clone().without_full_stop());
+    let mut found: Vec<(&Rule, Message)> = Vec::new();
+    for rule in rules.iter().filter(|rule| rule.needs.iter().all(|&quantity| channels.has(quantity))) {
+        for message in rule.of.iter().filter_map(|&quantity| (rule.test)(channels, quantity)) {
+            let cause = found.iter().find(|(other, _)| other.supersedes.contains(&rule.name));
+            match cause {
+                Some((_, cause)) if rule.refuses => return Err(refused(cause)),
+                None if rule.refuses => return Err(refused(&message)),
+                Some(_) => (),
+                None => found.push((rule, message)),
+            }
+        }
+    }
+    Ok(found.into_iter().map(|(_, message)| message).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rule_supersedes_rules_that_come_after_it() {
+        for (k, rule) in RULES.iter().enumerate() {
+            for other in rule.supersedes {
+                assert!(RULES[k + 1..].iter().any(|rule| rule.name == *other), "{}: {other}", rule.name);
+            }
+        }
+    }
+}
