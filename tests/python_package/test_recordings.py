@@ -79,6 +79,21 @@ def test_tables_of_other_packages_are_the_same_recording(ride, frame, expected):
         moris.Recording(np.zeros((5, 7)))
 
 
+def test_times_with_a_zone_and_missing_values_of_a_frame(frame, expected):
+    zoned = frame.assign(time=pandas.Timestamp("2026-05-01", tz="Europe/Berlin") + pandas.to_timedelta(frame["time"], unit="s"))
+    indexed = zoned.set_index("time")
+    for table in (zoned, indexed):
+        assert np.allclose(inputs(moris.Recording(table)), expected, rtol=0, atol=1e-6)
+    missing = frame.copy()
+    missing.loc[300:303, "ax"] = np.nan
+    with pytest.raises(moris.RecordingError, match='line 301, column ax: is NaN; .* use empty_fields="interpolate"'):
+        moris.Recording(missing)
+    found = inputs(moris.Recording(missing, empty_fields="interpolate"))
+    between = np.interp(np.arange(300, 304), [299, 304], expected[[299, 304], 0])
+    assert np.allclose(found[300:304, 0], between, rtol=0, atol=1e-12)
+    assert np.array_equal(np.delete(found, range(300, 304), axis=0), np.delete(expected, range(300, 304), axis=0))
+
+
 def test_parquet_excel_matlab_and_mdf_files(ride, frame, expected, tmp_path):
     import scipy.io
 

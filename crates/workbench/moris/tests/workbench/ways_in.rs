@@ -7,12 +7,12 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use moris::recording::conventions::{AngleUnit, Axes, EmptyFields, Format, Gravity, Missing, Mounting};
+use moris::recording::conventions::{AngleUnit, Axes, EmptyFields, Format, Gravity, Missing, Mounting, Quantity};
 use moris::recording::{ConventionOptions, Recording};
 use moris::words;
 use moris_washout::Input;
 use moris_washout::motion::orientation::Orientation;
-use moris_washout::nalgebra::UnitQuaternion;
+use moris_washout::nalgebra::{UnitQuaternion, Vector3};
 
 const GRAVITY: f64 = 9.80665;
 const HEADER: &str = "time,ax,ay,az,wx,wy,wz";
@@ -374,7 +374,7 @@ fn a_quaternion_is_the_orientation() {
             assert!((rotation(found) - rotation(expected)).norm() < 1e-9);
         }
         let counts = read(file("qx,qy,qz,qw", &quaternion(16384.0))).unwrap_err();
-        assert!(counts.contains("have the norm 16384.000") && counts.contains("\"qw=NAME / 16384\""), "{counts}");
+        assert!(counts.contains("have the norm 16384.000") && counts.contains("\"qw=qw / 16384,"), "{counts}");
     }
 }
 
@@ -390,4 +390,69 @@ fn lines_in_reverse_and_lines_of_single_sensors_are_refused_with_the_way_to_turn
     }
     let long = read(&long, &ConventionOptions::default()).unwrap_err();
     assert!(long.contains("a line for each value of a channel"), "{long}");
+}
+
+#[test]
+fn forms_that_are_not_read_are_told_with_the_way_to_convert_them() {
+    let table = |header: &str, line: &str| format!("{header}\n{}", format!("{line}\n").repeat(100));
+    for (text, said) in [
+        (table("time,acc,gyro", "0.01,\"[0.1, 0.2, 9.8]\",\"[0, 0, 0]\""), "fields hold lists of numbers"),
+        (table(",acc,acc,acc,gyr,gyr,gyr\n,x,y,z,x,y,z", "0.01,0,0,9.8,0,0,0"), "the header has several lines"),
+        (
+            table("# Acc,time,x,y,z\n# Gyro,time,x,y,z", "Acc,0.01,0,0,9.8\nGyro,0.01,0,0,0"),
+            "lines begin with their kind",
+        ),
+    ] {
+        let refused = read(&text, &ConventionOptions::default()).unwrap_err();
+        assert!(refused.contains(said), "{refused}");
+    }
+    let plain = read("time,acc_x,acc_y\n0,1,2\n", &ConventionOptions::default()).unwrap_err();
+    assert!(!plain.contains("lists") && !plain.contains("header has") && !plain.contains("their kind"), "{plain}");
+}
+
+#[test]
+fn accelerations_of_a_receiver_are_not_turned_with_the_sensor_that_it_lacks() {
+    let mut text = "This file is created using RaceChrono v9.1.3\n\n\
+         timestamp,elapsed_time,speed,speed,longitudinal_acc,lateral_acc\n\
+         unix time,s,m/s,m/s,G,G\n,,100: gps,calc,calc,calc\n"
+        .to_owned();
+    for k in 0..=200 {
+        let t = 0.05 * f64::from(k);
+        let [surge, sway, _, speed] = car(t);
+        let (surge, sway) = (surge / GRAVITY, sway / GRAVITY);
+        writeln!(text, "{:.2},{t:.2},{speed},{speed},{surge:.6},{sway:.6}", 1_777_636_800.0 + t).unwrap();
+    }
+    let named = |of: Quantity, name: &str| (of, name.to_owned());
+    let columns = vec![named(Quantity::Force(0), "longitudinal_acc"), named(Quantity::Force(1), "lateral_acc")];
+    let format = Some(Format::RaceChrono);
+    let options = ConventionOptions { format, columns, missing: Some(Missing::Rest), ..ConventionOptions::default() };
+    let recording = read(&text, &options).unwrap();
+    for (time, input) in recording.times().zip(recording.inputs()) {
+        let [surge, sway, ..] = car(time);
+        let expected = Vector3::new(surge, sway, GRAVITY);
+        assert!((input.specific_force - expected).amax() < 0.01, "{time}: {}", input.specific_force);
+    }
+    // With a sensor that is turned, what is missing is not known: the remedy is not the one that is given.
+    let turned = ConventionOptions { mounting: Some(Mounting::Auto), ..options };
+    let refused = read(&text, &turned).unwrap_err();
+    assert!(refused.contains("leave out --mounting") && !refused.contains("--missing rest"), "{refused}");
+}
+
+#[test]
+fn titles_may_be_numbers_where_files_are_joined() {
+    let directory = tempfile::tempdir().unwrap();
+    let (mut forces, mut rates) =
+        ("cts,accelerometer [m/s2],1,2\n".to_owned(), "cts,gyroscope [rad/s],1,2\n".to_owned());
+    for k in 0..=1000 {
+        let [surge, sway, yaw_rate, _] = car(0.01 * f64::from(k));
+        writeln!(forces, "{},{GRAVITY},{surge},{sway}", 10 * k).unwrap();
+        writeln!(rates, "{},{yaw_rate},0,0", 10 * k).unwrap();
+    }
+    fs::write(directory.path().join("accl.csv"), forces).unwrap();
+    fs::write(directory.path().join("gyro.csv"), rates).unwrap();
+    let options = "time-unit = 'ms'\n[columns]\ntime = 'cts'\naz = 'accelerometer'\nax = 'accl.1'\nay = 'accl.2'\n\
+         wz = 'gyroscope'\nwx = 'gyro.1'\nwy = 'gyro.2'\n";
+    let options: ConventionOptions = toml::from_str(options).unwrap();
+    let recording = Recording::read(directory.path(), &options.load().unwrap()).unwrap();
+    assert_is_the_car(&recording, 1e-9);
 }

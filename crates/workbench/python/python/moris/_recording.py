@@ -36,9 +36,9 @@ class Recording:
     length_unit: "m", "km", "ft". position: True reads the columns x and y, or latitude and
         longitude, for simulate(learn=True).
     gravity: "included" as an accelerometer reads it, or "removed".
-    axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
+    axes: "forward-left-up" or "forward-right-down". rate_frame, force_frame: "body" or "world".
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
-    empty_fields: of a file, "error" or "interpolate". repair: True to interpolate over a logger's error values and spikes.
+    empty_fields: "error" or "interpolate"; those of a table are NaN. repair: True to interpolate over a logger's error values and spikes.
     missing: "error", or "rest" to take ay az wx wy wz that the source lacks as at rest. lap: number of the lap to read where
         time starts again with each.
     rate: samples a second of a source without times. resample: samples a second, to interpolate a recording whose steps are unequal.
@@ -154,11 +154,16 @@ def _numbers(values: Any) -> np.ndarray[Any, Any]:
         return np.full(len(values), np.nan)
 
 
+def _array(series: Any) -> Any:
+    # Times with a zone are those of UTC.
+    return series.to_numpy(dtype="datetime64[ns]") if getattr(series.dtype, "tz", None) else series.to_numpy()
+
+
 def _columns_of_frame(frame: Any) -> dict[str, Any]:
-    columns = {name: frame[name].to_numpy() for name in frame.columns}
+    columns = {name: _array(frame[name]) for name in frame.columns}
     index = frame.index
     if str(index.name).lower().startswith("time") and not any(str(name).lower().startswith("time") for name in columns):
-        columns = {str(index.name): index.to_numpy(), **columns}
+        columns = {str(index.name): _array(index), **columns}
     return columns
 
 

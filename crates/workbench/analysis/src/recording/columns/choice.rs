@@ -83,7 +83,7 @@ impl Header {
             Quantity::Time => !skips_time,
             Quantity::Position(_) => conventions.position && !is_geographic,
             Quantity::Geographic(_) => is_geographic,
-            _ => true,
+            _ => conventions.needs(*quantity) || !conventions.column(*quantity).is_empty(),
         };
         for quantity in Quantity::ALL.into_iter().filter(is_read) {
             match self.terms(conventions.column(quantity)) {

@@ -3,8 +3,8 @@
 use moris_setup::nearest;
 
 use super::{Header, Quantity, Term};
-use crate::message::{Message, given, message};
-use crate::recording::conventions::{Conventions, Format};
+use crate::message::{Message, given, message, named};
+use crate::recording::conventions::{Conventions, Format, Missing};
 use crate::recording::message::quoted;
 
 /// Most columns that a message lists.
@@ -78,6 +78,12 @@ impl Header {
             given("columns", keys.join(",")),
             if missing == [Quantity::Time] {
                 message![", or use ", given("rate", "HERTZ"), " if its samples come at equal steps"]
+            } else if conventions.missing == Missing::Rest {
+                message![
+                    "; those of a turned sensor are not known: leave out ",
+                    named("mounting"),
+                    " if it is not turned"
+                ]
             } else if missing.iter().all(may_rest) || keys.len() < missing.len() {
                 message![", or use ", given("missing", "rest"), " if nothing measured them"]
             } else {

@@ -66,7 +66,7 @@ pub fn find(text: &str, conventions: &Conventions) -> Option<Found> {
             let is_above = is_above_numbers(&text[end..], separator, titles.len());
             let written = titles.iter().filter(|title| !title.trim().is_empty()).count();
             let rank = (is_plain || is_above, is_above, written);
-            if is_names(&titles) && widest.as_ref().is_none_or(|(other, _)| rank > *other) {
+            if is_names(&titles, is_above) && widest.as_ref().is_none_or(|(other, _)| rank > *other) {
                 widest = Some((rank, found(titles)));
             }
         }
@@ -143,13 +143,15 @@ fn data(text: &str) -> Option<&str> {
     text.lines().take(LONGEST_PREAMBLE).filter(|line| line.len() < LONGEST_HEADER).find(is_data)
 }
 
-/// True for fields that may be names: no numbers, not mostly units, and no bars between others.
-fn is_names(titles: &[String]) -> bool {
+/// True for fields that may be names: no numbers but a few above others, not mostly units, and no
+/// bars between others.
+fn is_names(titles: &[String], is_above_numbers: bool) -> bool {
     let written = titles.iter().filter(|title| !title.trim().is_empty());
     let units = written.clone().filter(|title| any_spelled(title).is_some()).count();
     let numbers = titles.iter().filter(|title| is_number(title)).count();
     let is_parted = titles.iter().any(|title| title == "|");
-    numbers == 0 && !is_parted && units * 2 <= written.clone().count() && written.count() > 0
+    let may_be = numbers == 0 || is_above_numbers && !is_number(&titles[0]) && numbers * 2 < written.clone().count();
+    may_be && !is_parted && units * 2 <= written.clone().count() && written.count() > 0
 }
 
 /// True where one of the next lines, behind those of units and sources, has as many fields, and the

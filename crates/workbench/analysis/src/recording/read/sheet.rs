@@ -16,6 +16,30 @@ use crate::recording::message::RecordingError;
 
 /// Lines that show a form.
 const SHOWN: usize = 3;
+const LINES_OF_FORM: usize = 20;
+
+/// Forms of files in which columns are not found, by the fields of the lines below the header, and
+/// how to convert them.
+const FORMS: [(fn(&[Vec<String>]) -> bool, &str); 3] = [
+    (
+        |lines| lines.iter().flatten().any(|field| field.starts_with(['[', '(']) && field.contains([',', ' '])),
+        "; fields hold lists of numbers: make a column of each number, in Python: \
+         table[[\"ax\", \"ay\", \"az\"]] = table.acc.map(eval).tolist()",
+    ),
+    (
+        |lines| lines.iter().filter(|line| is_word(line.first())).count() * 2 > lines.len(),
+        "; lines begin with their kind: write the lines of one kind into a file of its own, and join files with +",
+    ),
+    (
+        |lines| lines.first().is_some_and(|line| line.iter().skip(1).all(|field| is_word(Some(field)))),
+        "; the header has several lines: make one of them, in Python: table = pandas.read_csv(FILE, header=[0, 1]); \
+         table.columns = table.columns.map(\"_\".join)",
+    ),
+];
+
+fn is_word(field: Option<&String>) -> bool {
+    field.is_some_and(|field| field.starts_with(char::is_alphabetic))
+}
 
 /// A CSV file in memory.
 pub struct Sheet {
@@ -85,6 +109,13 @@ impl Sheet {
     /// An error of the file as a whole.
     pub fn refused(&self, reason: impl Into<Message>) -> RecordingError {
         RecordingError::whole(&self.file, reason)
+    }
+
+    /// The way to convert the file, where its columns are not found because of its form.
+    pub fn form(&self) -> Option<&'static str> {
+        let records = reader(&self.body, self.delimiter).into_records().filter_map(Result::ok).take(LINES_OF_FORM);
+        let lines: Vec<Vec<String>> = records.map(|record| record.iter().map(str::to_owned).collect()).collect();
+        FORMS.iter().find(|(is_of, _)| is_of(&lines)).map(|(_, remedy)| *remedy)
     }
 
     /// The reason why the file has no time.

@@ -39,7 +39,10 @@ pub fn recordings(paths: &[PathBuf], conventions: &Conventions) -> Vec<PathBuf> 
 fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingError> {
     let sheet = Sheet::open(file, conventions)?;
     let columns = sheet.header.columns(conventions, sheet.has_written_times || conventions.rate.is_some());
-    let layout = columns.map_err(|reason| sheet.refused(reason))?;
+    let layout = columns.map_err(|mut reason| {
+        sheet.form().into_iter().for_each(|form| reason.push(form));
+        sheet.refused(reason)
+    })?;
     let mut samples = samples(&sheet, &value_places(&layout), &layout, conventions)?;
     let warnings = placeholders::warnings(&sheet, &samples, &layout, conventions);
     samples.warnings.extend(warnings);
@@ -114,6 +117,6 @@ fn samples(
         };
         samples.warnings.extend(clock.into_seconds());
     }
-    gaps::fill(&mut samples, sheet, layout, conventions)?;
+    gaps::fill(&mut samples, (&sheet.file, &sheet.header), layout, conventions)?;
     Ok(samples)
 }

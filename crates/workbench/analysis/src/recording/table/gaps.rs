@@ -1,12 +1,14 @@
 //! Gaps in columns that are sampled at different rates.
 
+use std::path::Path;
+
 use super::interpolation::between;
 use super::times::LONGEST_GAP;
 use crate::message::Message;
-use crate::recording::columns::{Column, period};
+use crate::recording::columns::{Column, Header, period};
 use crate::recording::conventions::Conventions;
 use crate::recording::message::RecordingError;
-use crate::recording::read::{Samples, Sheet};
+use crate::recording::read::Samples;
 
 /// Interpolates missing values, and cuts off samples before the first or after the last value of a
 /// column that the recording needs. Other columns hold their first and last values. Warns about
@@ -16,7 +18,7 @@ use crate::recording::read::{Samples, Sheet};
 /// A column has no values, or at no time do all columns that the recording needs have values.
 pub fn fill(
     samples: &mut Samples,
-    sheet: &Sheet,
+    (file, header): (&Path, &Header),
     layout: &[Column],
     conventions: &Conventions,
 ) -> Result<(), RecordingError> {
@@ -31,10 +33,10 @@ pub fn fill(
     let (mut first, mut last) = (0, time.len() - 1);
     let mut complete = (0, last);
     for (place, values) in &mut samples.columns {
-        let name = sheet.header.shown(*place);
+        let name = header.shown(*place);
         let known: Vec<usize> = (0..values.len()).filter(|&sample| !values[sample].is_nan()).collect();
         let (Some(&begin), Some(&end)) = (known.first(), known.last()) else {
-            return Err(sheet.refused(format!("column {name} is empty")));
+            return Err(RecordingError::whole(file, format!("column {name} is empty")));
         };
         complete = (complete.0.max(begin), complete.1.min(end));
         if is_needed(*place) {
@@ -64,7 +66,7 @@ pub fn fill(
         }
     }
     if last <= first {
-        return Err(sheet.refused("has no time at which all columns have values"));
+        return Err(RecordingError::whole(file, "has no time at which all columns have values"));
     }
     if complete != (first, last) {
         samples.complete = Some((time[complete.0], time[complete.1]));

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::Table;
-use crate::message::Message;
+use super::{Table, gaps};
+use crate::message::{Message, given, message};
 use crate::recording::columns::{Header, value_places};
-use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::conventions::{Conventions, EmptyFields, Quantity};
 use crate::recording::message::{RecordingError, quoted};
 use crate::recording::read::Samples;
 
@@ -39,23 +39,31 @@ pub fn of_columns(
     if time.len() < 2 {
         return Err(refused("has fewer than two samples".into()));
     }
+    let time_place = of_time.and_then(|column| column.terms.first()).map(|term| term.place);
     for term in layout.iter().flat_map(|column| &column.terms) {
         let (title, values) = &columns[term.place];
         let (title, expected) = (quoted(title), time.len());
         if values.len() != expected {
             return Err(refused(format!("column {title} has {} values, others have {expected}", values.len()).into()));
         }
-        if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
-            let reason = format!("is {}; cut this part off, or fill the gap with plausible values", values[sample]);
+        let may_be_empty = conventions.empty_fields == EmptyFields::Interpolate && Some(term.place) != time_place;
+        let is_wrong = |value: &f64| !(value.is_finite() || value.is_nan() && may_be_empty);
+        if let Some(sample) = values.iter().position(is_wrong) {
+            let value = values[sample];
+            let reason = message![
+                "is {value}; cut this part off, fill the gap with plausible values, or use ",
+                given("empty-fields", "interpolate")
+            ];
             return Err(RecordingError::line(&file, sample as u64 + 1, Some(title), reason));
         }
     }
-    let samples = Samples {
+    let mut samples = Samples {
         columns: value_places(&layout).into_iter().map(|place| (place, columns[place].1.clone())).collect(),
         lines: (1..=time.len() as u64).collect(),
         time,
         warnings: Vec::new(),
         complete: None,
     };
+    gaps::fill(&mut samples, (&file, &header), &layout, conventions)?;
     Table::new(file, layout, samples, conventions)
 }
