@@ -51,7 +51,7 @@ use moris_washout::{Input, Parameters};
 
 use crate::message::Message;
 pub(crate) use columns::{Quantity, units};
-use conventions::RateFrame;
+use conventions::Frame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::RecordingError;
 pub use read::source;
@@ -132,6 +132,10 @@ impl Recording {
         let (mut inputs, mounting) = axes::inputs(&table, conventions)?;
         warnings.extend(mounting);
         let (checked, part) = table.complete();
+        if rules::has_horizontal_gravity(&Channels::new([&table, &checked], &inputs[part.clone()], conventions, 0)) {
+            axes::keep_horizontal_gravity(&mut inputs);
+            warnings.push(rules::horizontal_gravity());
+        }
         let channels = Channels::new([&table, &checked], &inputs[part.clone()], conventions, part.start);
         warnings.extend(rules::warnings(&channels)?);
         axes::fade_in(&mut inputs, table.step(), conventions.fade_in);
@@ -141,8 +145,8 @@ impl Recording {
             start: table.time[0],
             manoeuvre: Manoeuvre::new(table.step(), inputs),
             angular_velocity_frame: match conventions.rate_frame {
-                RateFrame::Body => AngularVelocityFrame::Body,
-                RateFrame::World => AngularVelocityFrame::World,
+                Frame::Body => AngularVelocityFrame::Body,
+                Frame::World => AngularVelocityFrame::World,
             },
             has_orientation: table.has_orientation(),
             road: Road::of(&table),

@@ -78,14 +78,14 @@ pub struct Relation {
     pub sizes: [f64; 2],
     /// Slope of the second over the first, through the origin.
     slope: f64,
-    /// True for signals that go together, with the same sign or the opposite one.
-    is_correlated: bool,
+    /// Correlation about zero, from -1 to 1; not a number beside nothing.
+    pub correlation: f64,
 }
 
 impl Relation {
     /// Slope of the second signal over the first; none where they are not correlated.
     pub fn slope(&self) -> Option<f64> {
-        self.is_correlated.then_some(self.slope)
+        (self.correlation.abs() > MIN_CORRELATION).then_some(self.slope)
     }
 
     /// The slope of signals that both have this size.
@@ -98,6 +98,6 @@ impl Relation {
 pub fn relation(x: &[f64], y: &[f64]) -> Relation {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (xx, xy, yy) = (dot(x, x), dot(x, y), dot(y, y));
-    let is_correlated = xy.abs() > MIN_CORRELATION * (xx * yy).sqrt();
-    Relation { sizes: [root_mean_square(x), root_mean_square(y)], slope: xy / xx, is_correlated }
+    let sizes = [root_mean_square(x), root_mean_square(y)];
+    Relation { sizes, slope: xy / xx, correlation: xy / (xx * yy).sqrt() }
 }

@@ -18,6 +18,7 @@ mod measure;
 mod mounting;
 mod outliers;
 mod recordings;
+mod rules;
 mod silent;
 mod tune;
 mod ways_in;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use moris::recording::conventions::{
-    AngleUnit, Axes, Dimension, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, TimeUnit,
+    AngleUnit, Axes, Dimension, ForceUnit, Frame, Gravity, Quantity, RateUnit, TimeUnit,
 };
 use moris::recording::{ConventionOptions, Conventions, Recording};
 use moris::words;
@@ -193,7 +193,7 @@ fn options_stand_over_the_file_of_conventions() {
     assert_eq!(given.unit(Dimension::Force), Some(ForceUnit::MetrePerSecondSquared.unit()));
     assert_eq!(given.unit(Dimension::Rate), None);
     assert_eq!((given.column(Quantity::Force(0)), given.column(Quantity::Force(1))), ("x", "lateral"));
-    assert_eq!(given.rate_frame, RateFrame::Body);
+    assert_eq!(given.rate_frame, Frame::Body);
 
     fs::write(&file, "force-units = \"g\"\n").unwrap();
     let message = words::error(&options.load().unwrap_err());

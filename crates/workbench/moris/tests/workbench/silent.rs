@@ -59,33 +59,9 @@ fn said(change: impl Fn(usize, Sample) -> Sample) -> String {
     said_of(HEADER, &ConventionOptions::default(), change)
 }
 
-/// A number that looks like noise.
-fn noise(k: usize) -> f64 {
-    (12.9898 * k as f64).sin() * 43_758.545_3 % 1.0
-}
-
 #[test]
 fn a_right_ride_is_not_accused() {
     assert_eq!(said(|_, sample| sample), "");
-}
-
-#[test]
-fn noise_alone_is_no_measurement() {
-    let of_force = said(|k, mut sample| {
-        sample.force[0] = 0.003 * noise(k);
-        sample
-    });
-    assert!(of_force.contains("Column ax hardly changes while the speed changes"), "{of_force}");
-    let of_rate = said_of("time,ax,ay,az,wx,wy,wz,speed", &ConventionOptions::default(), |k, mut sample| {
-        sample.rate[2] = 0.001 * noise(k);
-        sample
-    });
-    assert!(of_rate.contains("Column wz hardly changes while the lateral force is that of bends"), "{of_rate}");
-    let of_speed = said(|_, mut sample| {
-        sample.speed = 9.0;
-        sample
-    });
-    assert!(of_speed.contains("Column speed is constant, 9, while the force along x changes it"), "{of_speed}");
 }
 
 /// A two-wheeler has no lateral force in bends, and what it has along z is that of its lean.
@@ -105,21 +81,6 @@ fn a_vehicle_that_leans_needs_no_lateral_force() {
 }
 
 #[test]
-fn a_sensor_that_stops_is_named_with_the_time() {
-    let stopped = |from: usize| {
-        said_of("time,ax,ay,az,wx,wy,wz,speed", &ConventionOptions::default(), |k, sample| {
-            let held = car(k.min(from));
-            Sample { force: held.force, rate: held.rate, ..sample }
-        })
-    };
-    let late = stopped(900);
-    assert!(late.contains("Column ax stays at one value from 18.0 s to 30.0 s, while the speed changes"), "{late}");
-    // Its last value may look like a wrong axis.
-    let early = stopped(200);
-    assert!(early.contains("from 4.0 s") && early.contains("the sensor has stopped. Cut this part off"), "{early}");
-}
-
-#[test]
 fn channels_that_come_too_late_or_too_early_are_named() {
     for (shift, expected) in [(25, "0.5 s after"), (-15, "0.3 s before"), (5, "")] {
         let other = |k: usize| car(k.saturating_add_signed(-shift));
@@ -133,32 +94,6 @@ fn channels_that_come_too_late_or_too_early_are_named() {
 }
 
 #[test]
-fn an_axis_with_the_values_of_another_is_named() {
-    let forces = said(|_, mut sample| {
-        sample.force[1] = -sample.force[0];
-        sample
-    });
-    assert!(forces.contains("Columns ax and ay hold the same values"), "{forces}");
-    let rates = said(|_, mut sample| {
-        sample.rate[0] = sample.rate[2];
-        sample
-    });
-    assert!(rates.contains("Columns wx and wz hold the same values"), "{rates}");
-}
-
-#[test]
-fn values_of_few_digits_are_steps() {
-    let rounded = |digit: f64| {
-        said(|_, mut sample| {
-            sample.force[1] = (sample.force[1] / digit).round() * digit;
-            sample
-        })
-    };
-    assert!(rounded(0.5).contains("The values of ay are 0.5 m/s2 apart or more"), "{}", rounded(0.5));
-    assert_eq!(rounded(0.1), "");
-}
-
-#[test]
 fn times_that_cannot_be_meant_have_their_own_remedy() {
     let times = |change: &dyn Fn(usize) -> f64| said(|k, sample| Sample { t: change(k), ..sample });
     let counter = times(&|k| (k % 256) as f64);
@@ -167,49 +102,6 @@ fn times_that_cannot_be_meant_have_their_own_remedy() {
     assert!(jumped.contains("the clock has jumped") && !jumped.contains("--resample"), "{jumped}");
     let hours = times(&|k| (0.02 * k as f64 / 3600.0 * 1e5).floor() / 1e5);
     assert!(hours.contains("give the unit of time with --time-unit") && !hours.contains("--resample"), "{hours}");
-}
-
-#[test]
-fn values_that_are_repeated_are_steps() {
-    let held = said(|k, sample| {
-        let held = car(k / 10 * 10);
-        Sample { force: held.force, rate: held.rate, ..sample }
-    });
-    assert!(held.contains("Each value of ax, ay, az, wx, wy, wz comes 10 times"), "{held}");
-    assert!(held.contains("--resample 5.0 takes each value once"), "{held}");
-}
-
-#[test]
-fn axes_that_are_exchanged_are_named() {
-    let forces = said(|_, mut sample| {
-        sample.force.swap(0, 1);
-        sample
-    });
-    assert!(forces.contains("use --columns ax=ay,ay=ax"), "{forces}");
-    let rates = said(|_, mut sample| {
-        sample.rate.swap(0, 1);
-        sample
-    });
-    assert!(rates.contains("use --columns wx=wy,wy=wx"), "{rates}");
-}
-
-#[test]
-fn units_of_single_channels_are_named_by_the_others() {
-    let titled = |rates: &str| HEADER.replace("wx,wy,wz", rates);
-    let plain = ConventionOptions::default();
-    let rates = said_of(&titled("wx [deg/s],wy [deg/s],wz [deg/s]"), &plain, |_, sample| sample);
-    assert!(rates.contains("seem to be in rad/s, not in deg/s: correct the header"), "{rates}");
-    let horizontal = said(|_, mut sample| {
-        sample.force[0] /= GRAVITY;
-        sample.force[1] /= GRAVITY;
-        sample
-    });
-    assert!(horizontal.contains("--columns \"ax=ax * 9.80665,ay=ay * 9.80665\""), "{horizontal}");
-    let slow = said(|_, mut sample| {
-        sample.speed *= 100.0;
-        sample
-    });
-    assert!(slow.contains("--columns \"speed=speed * 0.01\""), "{slow}");
 }
 
 #[test]
@@ -237,16 +129,6 @@ fn time_at_another_pace_is_named_with_and_without_a_speed() {
 }
 
 /// A steady circle has a lasting lateral force and nothing else.
-#[test]
-fn a_roll_of_whole_turns_too_many_is_not_said_to_be_in_degrees_alone() {
-    let turned = said(|_, sample| {
-        let mut sample = sample;
-        sample.angle[0] += TAU;
-        sample
-    });
-    assert!(turned.contains("--angle-unit deg, or whole turns too many; write angles from -pi to pi"), "{turned}");
-}
-
 #[test]
 fn a_steady_circle_is_no_wrong_axis() {
     let steady = |k: usize, mut sample: Sample| {

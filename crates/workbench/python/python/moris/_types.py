@@ -42,6 +42,7 @@ class RecordingOptions(TypedDict, total=False):
     axes: Literal["forward-left-up", "forward-right-down"] | None
     mounting: Sequence[float] | Literal["auto"] | None
     rate_frame: Literal["body", "world"] | None
+    force_frame: Literal["body", "world"] | None
     empty_fields: Literal["error", "interpolate"] | None
     missing: Literal["error", "rest"] | None
     lap: int | None

@@ -7,16 +7,21 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::message::{Message, message};
-use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
+use crate::message::{Message, given, message};
+use crate::recording::conventions::{Conventions, Frame, Gravity, Mounting, Quantity};
 use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
 
 /// The washout's input at each sample, with a warning where the mounting was found.
 ///
 /// # Errors
-/// The mounting is to be found and cannot be.
+/// The mounting is to be found and cannot be. Forces of the world's axes come without angles.
 pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Option<Message>), RecordingError> {
+    let has_angles = Quantity::ANGLES.iter().all(|angle| table.columns.contains_key(angle));
+    if conventions.force_frame == Frame::World && !has_angles {
+        let frame = given("force-frame", "world");
+        return Err(table.refused(message![frame, " needs roll, pitch and yaw, or a quaternion, which are missing"]));
+    }
     let (mounting, warning) = match conventions.mounting {
         None => (None, None),
         Some(Mounting::Angles(angles)) => (Some(Orientation::new(angles).rotation), None),
@@ -63,14 +68,26 @@ fn input(table: &Table, conventions: &Conventions, mounting: Option<&Matrix3<f64
             Orientation::new(orientation).rotation.transpose() * Vector3::new(0.0, 0.0, STANDARD_GRAVITY)
         }
     };
-    let rates = vector(Quantity::Rate);
+    let (forces, rates) = (vector(Quantity::Force), vector(Quantity::Rate));
+    let forces = match conventions.force_frame {
+        Frame::Body => turned(forces),
+        Frame::World => Orientation::new(orientation).rotation.transpose() * forces,
+    };
     Input {
-        specific_force: turned(vector(Quantity::Force)) + gravity,
-        angular_velocity: if conventions.rate_frame == RateFrame::Body { turned(rates) } else { rates },
+        specific_force: forces + gravity,
+        angular_velocity: if conventions.rate_frame == Frame::Body { turned(rates) } else { rates },
         orientation,
         speed: table.value(Quantity::Speed, sample),
         lean: table.value(Quantity::Lean, sample),
         engaged: true,
+    }
+}
+
+/// Takes gravity that conversion has put back along x and y out again: the forces have it there.
+pub fn keep_horizontal_gravity(inputs: &mut [Input]) {
+    let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+    for input in inputs {
+        input.specific_force += gravity - Orientation::new(input.orientation).rotation.transpose() * gravity;
     }
 }
 

@@ -49,9 +49,9 @@ choices! {
 }
 
 choices! {
-    /// The axes in which the angular velocity is given.
-    RateFrame {
-        /// The vehicle's own: what gyroscopes measure
+    /// The axes in which a vector is given.
+    Frame {
+        /// The vehicle's own: what sensors measure
         "body" Body,
         /// The world's
         "world" World,

@@ -26,7 +26,7 @@ pub use crate::recording::columns::units::{
     AngleUnit, Dimension, ForceUnit, LengthUnit, RateUnit, SpeedUnit, TimeUnit, Unit,
 };
 pub(super) use choices::choices;
-pub use choices::{Axes, EmptyFields, Gravity, Missing, RateFrame};
+pub use choices::{Axes, EmptyFields, Frame, Gravity, Missing};
 pub use formats::Format;
 pub use mounting::Mounting;
 pub use options::ConventionOptions;
@@ -48,7 +48,8 @@ pub struct Conventions {
     pub axes: Axes,
     /// The sensor's orientation in the vehicle; none if its axes are the vehicle's.
     pub mounting: Option<Mounting>,
-    pub rate_frame: RateFrame,
+    pub rate_frame: Frame,
+    pub force_frame: Frame,
     pub empty_fields: EmptyFields,
     pub missing: Missing,
     /// The lap that is read of several, from 1.
@@ -86,6 +87,20 @@ impl Conventions {
     pub fn turned_column(&self, quantity: Quantity) -> String {
         let name = self.column(quantity);
         name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned)
+    }
+
+    /// The remedy that reads quantities from the columns of others, by their keys: `-qx` is the one
+    /// of qx with the other sign.
+    pub fn columns_of(&self, keys: &[&str], quantities: &[Quantity]) -> Remedy {
+        let column = |(quantity, key): (&Quantity, &&str)| {
+            let of = |key: &str| Quantity::of_key(key).unwrap_or(*quantity);
+            let name = match key.strip_prefix('-') {
+                Some(key) => self.turned_column(of(key)),
+                None => self.column(of(key)).to_owned(),
+            };
+            format!("{}={name}", quantity.key())
+        };
+        given("columns", quantities.iter().zip(keys).map(column).collect::<Vec<_>>().join(","))
     }
 
     /// The remedy that scales columns: `scale` stands behind each name.

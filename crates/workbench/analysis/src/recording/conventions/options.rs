@@ -8,8 +8,8 @@ use serde::Deserialize;
 
 use super::mounting::Written;
 use super::{
-    AngleUnit, Axes, Conventions, Dimension, EmptyFields, ForceUnit, Format, Gravity, LengthUnit, Missing, Mounting,
-    Quantity, RateFrame, RateUnit, SpeedUnit, TimeUnit,
+    AngleUnit, Axes, Conventions, Dimension, EmptyFields, ForceUnit, Format, Frame, Gravity, LengthUnit, Missing,
+    Mounting, Quantity, RateUnit, SpeedUnit, TimeUnit,
 };
 use crate::recording::message::RecordingError;
 
@@ -28,6 +28,7 @@ pub struct ConventionOptions {
     /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
     /// A number scales a column: "ax=counts_x / 16384".
     /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
+    /// roll= without a name leaves a column out.
     /// Upper and lower case are the same
     #[cfg_attr(feature = "clap", arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name))]
     #[serde(deserialize_with = "columns_of_table")]
@@ -74,7 +75,11 @@ pub struct ConventionOptions {
 
     /// The axes of wx wy wz [default: body]
     #[cfg_attr(feature = "clap", arg(long, value_name = "AXES"))]
-    pub rate_frame: Option<RateFrame>,
+    pub rate_frame: Option<Frame>,
+
+    /// The axes of ax ay az [default: body]; those of the world are turned by roll, pitch and yaw
+    #[cfg_attr(feature = "clap", arg(long, value_name = "AXES"))]
+    pub force_frame: Option<Frame>,
 
     /// Fields that are empty [default: error]
     #[cfg_attr(feature = "clap", arg(long, value_name = "EMPTY"))]
@@ -148,6 +153,9 @@ impl ConventionOptions {
     /// These options over others.
     fn over(&self, under: ConventionOptions) -> ConventionOptions {
         let columns = under.columns.into_iter().chain(self.columns.iter().cloned()).collect();
+        // A format's mounting is that of the sensor whose columns it names: what a receiver computes is not turned.
+        let names_others = self.missing == Some(Missing::Rest)
+            && self.columns.iter().any(|(quantity, _)| matches!(quantity, Quantity::Force(_)));
         ConventionOptions {
             format: self.format.or(under.format),
             columns,
@@ -159,8 +167,9 @@ impl ConventionOptions {
             length_unit: self.length_unit.or(under.length_unit),
             gravity: self.gravity.or(under.gravity),
             axes: self.axes.or(under.axes),
-            mounting: self.mounting.or(under.mounting),
+            mounting: self.mounting.or(under.mounting.filter(|_| !names_others)),
             rate_frame: self.rate_frame.or(under.rate_frame),
+            force_frame: self.force_frame.or(under.force_frame),
             empty_fields: self.empty_fields.or(under.empty_fields),
             missing: self.missing.or(under.missing),
             lap: self.lap.or(under.lap),
@@ -205,7 +214,8 @@ impl ConventionOptions {
             gravity: self.gravity.unwrap_or(Gravity::Included),
             axes: self.axes.unwrap_or(Axes::ForwardLeftUp),
             mounting: self.mounting,
-            rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
+            rate_frame: self.rate_frame.unwrap_or(Frame::Body),
+            force_frame: self.force_frame.unwrap_or(Frame::Body),
             empty_fields: self.empty_fields.unwrap_or(EmptyFields::Error),
             missing: self.missing.unwrap_or(Missing::Error),
             lap: self.lap.map(|lap| lap as usize),

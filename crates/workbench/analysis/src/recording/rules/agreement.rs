@@ -9,14 +9,19 @@ use std::f64::consts::TAU;
 use moris_interface::shown;
 use moris_simulation::measures::delay::delay;
 use moris_simulation::measures::statistics::correlation;
+use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
+use moris_washout::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::channels::{BEND_SPEED, Channels, MIN_BEND_FORCE, MIN_SPEED_CHANGE};
 use super::text::text;
-use crate::message::{Message, given};
+use crate::message::Message;
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{Conventions, Dimension, ForceUnit, Gravity, Quantity, SpeedUnit, Unit};
-use crate::recording::signal::{centred, integral, is_constant, median, relation, root_mean_square};
+use crate::recording::conventions::{
+    Axes, Conventions, Dimension, ForceUnit, Frame, Gravity, Quantity, SpeedUnit, Unit,
+};
+use crate::recording::signal::{centred, integral, is_constant, median, relation, root_mean_square, smooth};
 
 /// The weaker signal may be this much smaller than the least size that is compared, because its
 /// unit may be larger.
@@ -47,6 +52,13 @@ const OPPOSITE_RATIO: f64 = -0.5;
 const BACKWARD_SPEED: f64 = -3.0;
 /// Fraction of what others show, below which a channel holds noise alone.
 const NOISE_FRACTION: f64 = 0.1;
+/// Least lateral force of bends, as a root mean square \[m/s2\], that one which is measured must go
+/// with, and the correlation below which it does not.
+const MIN_MISSED_BEND_FORCE: f64 = 0.5;
+const UNRELATED_CORRELATION: f64 = 0.3;
+/// Difference that another reading of a channel leaves, as a part of what the given one does, from
+/// which it is the right one.
+const CLEAR_FRACTION: f64 = 0.3;
 /// Least change of speed by the force that a constant speed contradicts, as a root mean square
 /// \[m/s\].
 const MIN_DRIVEN_CHANGE: f64 = 1.0;
@@ -58,6 +70,9 @@ const BALANCED_RATIOS: [f64; 2] = [0.5, 2.0];
 const MIN_DELAY: f64 = 0.2;
 /// Largest fraction of the unexplained variance that is left without the delay.
 const MAX_UNEXPLAINED_FRACTION: f64 = 0.2;
+
+/// The parts w, x, y and z of a quaternion as another convention has them.
+type Reading = fn([f64; 4]) -> [f64; 4];
 
 /// True for a ratio that slopes and bias explain.
 fn is_equal(ratio: f64) -> bool {
@@ -81,6 +96,17 @@ fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
     let [one, other] = relation.sizes;
     let is_small = one.max(other) < least || one.min(other) < WEAK_FRACTION * least;
     if is_small { None } else { relation.slope() }
+}
+
+/// Root mean square of what two signals differ by.
+fn difference(one: &[f64], other: &[f64]) -> f64 {
+    root_mean_square(&one.iter().zip(other).map(|(one, other)| one - other).collect::<Vec<_>>())
+}
+
+/// Each pair of axes once, by the axis of a quantity.
+fn pair_of_axes(quantity: Quantity) -> Option<[usize; 2]> {
+    let (Quantity::Force(axis) | Quantity::Rate(axis)) = quantity else { return None };
+    [[0, 1], [0, 2], [1, 2]].get(axis).copied()
 }
 
 impl Channels<'_> {
@@ -151,14 +177,50 @@ impl Channels<'_> {
         text!["unmeasured-constant", name = name, value = value, contradiction = contradiction]
     }
 
-    /// The remedy where two columns are exchanged.
-    fn exchanged_columns(&self, [one, other]: [Quantity; 2], sign: &str) -> Message {
+    /// The remedy where two columns are exchanged, each with the sign that it then needs.
+    fn exchanged_columns(&self, quantities: [Quantity; 2], signs: [f64; 2]) -> Message {
         if self.conventions.mounting.is_some() {
             return text!["check-mounting-alone"];
         }
-        let [first, second] = [one, other].map(|quantity| self.conventions.column(quantity));
-        let columns = format!("{}={sign}{second},{}={first}", one.key(), other.key());
-        text!["if-they-are", remedy = given("columns", columns)]
+        let [one, other] = quantities.map(Quantity::key);
+        let signed = |key: &str, sign: f64| if sign < 0.0 { format!("-{key}") } else { key.to_owned() };
+        let keys = [signed(other, signs[0]), signed(one, signs[1])];
+        text!["if-they-are", remedy = self.conventions.columns_of(&[&keys[0], &keys[1]], &quantities)]
+    }
+
+    /// Part of the changes of speed that a force along x leaves unexplained; none where there are
+    /// few.
+    fn unexplained_speed(&self, force: impl Iterator<Item = f64>) -> Option<f64> {
+        let changes = self.speed_changes();
+        let size = root_mean_square(&changes);
+        (size >= MIN_SPEED_CHANGE).then(|| difference(&changes, &self.driven(force)) / size)
+    }
+
+    /// The angular velocities about all axes, smoothed, axis after axis; none where one is missing.
+    fn measured_rates(&self) -> Option<Vec<f64>> {
+        let is_usable = self.has_body_rates() && (0..3).all(|axis| self.is_measured(Quantity::Rate(axis)));
+        let axis = |axis: usize| smooth(self.rate(axis).skip(1), self.step);
+        is_usable.then(|| (0..3).flat_map(axis).collect())
+    }
+
+    /// The same of the orientation, whose quaternions are read and whose rates are turned so.
+    fn rates_of_orientation(
+        &self,
+        reading: Reading,
+        turned: impl Fn(&Input, Vector3<f64>) -> Vector3<f64>,
+    ) -> Vec<f64> {
+        let rotation = |input: &Input| {
+            let RollPitchYaw { roll, pitch, yaw } = input.orientation;
+            let own = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+            let [w, x, y, z] = reading([own.w, own.i, own.j, own.k]);
+            UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z))
+        };
+        let rate = |pair: &[Input]| {
+            let change = rotation(&pair[0]).inverse() * rotation(&pair[1]);
+            turned(&pair[1], change.scaled_axis() / self.step)
+        };
+        let rates: Vec<Vector3<f64>> = self.inputs.windows(2).map(rate).collect();
+        (0..3).flat_map(|axis| smooth(rates.iter().map(|rate| rate[axis]), self.step)).collect()
     }
 
     /// Ratio of a rate and the derivative of its angle, where the recording has both.
@@ -185,32 +247,140 @@ pub fn exchanged_forces(channels: &Channels, _: Quantity) -> Option<Message> {
     if ratio(0).is_some() || !is_same(ratio(1)) {
         return None;
     }
-    let sign = if ratio(1)? > 0.0 { "" } else { "-" };
-    let remedy = channels.exchanged_columns([Quantity::Force(0), Quantity::Force(1)], sign);
+    let remedy = channels.exchanged_columns([Quantity::Force(0), Quantity::Force(1)], [ratio(1)?, 1.0]);
     Some(text!["forces-exchanged", remedy = remedy])
 }
 
-/// A roll that goes with the rate of pitch.
-pub fn exchanged_rates(channels: &Channels, _: Quantity) -> Option<Message> {
-    if !channels.has_body_rates() {
+/// Two axes of which the angle of each goes with the rate of the other.
+pub fn exchanged_rates(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    let [one, other] = pair_of_axes(quantity)?;
+    let has_angles = [one, other].iter().all(|&axis| channels.has(Quantity::Angle(axis)));
+    if !channels.has_body_rates() || !has_angles {
         return None;
     }
-    let signals = [0, 1].map(|axis| channels.derivative_and_rate(axis, TAU));
+    let signals = [one, other].map(|axis| channels.derivative_and_rate(axis, TAU));
     let ratio =
         |angle: usize, rate: usize| relation(&signals[angle].0, &signals[rate].1).slope_above(MIN_EXCHANGED_RATE);
-    let is_exchanged = ratio(0, 0).is_none() && ratio(1, 1).is_none() && is_same(ratio(0, 1)) && is_same(ratio(1, 0));
-    let remedy = channels.exchanged_columns([Quantity::Rate(0), Quantity::Rate(1)], "");
-    is_exchanged.then(|| text!["rates-exchanged", remedy = remedy])
+    let (first, second) = (ratio(0, 1), ratio(1, 0));
+    if ratio(0, 0).is_some() || ratio(1, 1).is_some() || !is_same(first) || !is_same(second) {
+        return None;
+    }
+    let remedy = channels.exchanged_columns([one, other].map(Quantity::Rate), [first?, second?]);
+    let [rate, other_rate] = [other, one].map(|axis| Quantity::Rate(axis).key());
+    let (angle, other_angle) = (["Roll", "Pitch", "Yaw"][one], Quantity::Angle(other).key());
+    Some(text![
+        "rates-exchanged",
+        angle = angle,
+        rate = rate,
+        other_angle = other_angle,
+        other_rate = other_rate,
+        remedy = remedy
+    ])
+}
+
+/// Bends whose lateral force goes with a rate that is not the yaw rate.
+pub fn exchanged_yaw_rate(channels: &Channels, rate: Quantity) -> Option<Message> {
+    let Quantity::Rate(axis) = rate else { return None };
+    let lateral = channels.lateral();
+    let turning = channels.smoothed(|(input, speed)| speed * input.angular_velocity[axis]);
+    let found = relation(&turning, &lateral).slope_above(MIN_BEND_FORCE);
+    let is_expected = relation(&channels.turning(), &lateral).slope().is_some();
+    if !channels.is_measured(Quantity::Rate(2)) || is_expected || !is_same(found) {
+        return None;
+    }
+    let remedy = channels.exchanged_columns([rate, Quantity::Rate(2)], [1.0, found?]);
+    Some(text!["yaw-rate-exchanged", rate = rate.key(), remedy = remedy])
+}
+
+/// Forces that change the speed where they are taken from the world's axes to the vehicle's.
+pub fn world_forces(channels: &Channels, _: Quantity) -> Option<Message> {
+    let Channels { conventions, inputs, .. } = channels;
+    if conventions.force_frame == Frame::World || conventions.mounting.is_some() {
+        return None;
+    }
+    let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+    let accelerations = |input: &Input| {
+        let to_vehicle = Orientation::new(input.orientation).rotation.transpose();
+        let own = input.specific_force - to_vehicle * gravity;
+        let given = if conventions.gravity == Gravity::Removed { own } else { input.specific_force - gravity };
+        // Neither level axes nor other ones of the vehicle may explain it as well.
+        [(to_vehicle * given).x, own.x, given.x, -own.x, own.y, -own.y]
+    };
+    let left = |which: usize| channels.unexplained_speed(inputs.iter().map(|input| accelerations(input)[which]));
+    let world = left(0)?;
+    let is_clear = world < CLEAR_FRACTION && (1..6).filter_map(left).all(|other| world < CLEAR_FRACTION * other);
+    is_clear.then(|| text!["world-forces"])
+}
+
+/// True where gravity has been taken out of the vertical force alone: that along x changes with
+/// slopes. Conversion has put gravity back into all of them.
+pub fn has_horizontal_gravity(channels: &Channels) -> bool {
+    let slope = |sign: f64| channels.angle(1).map(move |pitch| sign * STANDARD_GRAVITY * pitch.sin());
+    let left =
+        |sign: f64| channels.unexplained_speed(channels.force(0).zip(slope(sign)).map(|(force, slope)| force + slope));
+    // Along x conversion has taken g sin(pitch) away.
+    let of_file = |sign: f64| left(1.0 + sign).unwrap_or(f64::INFINITY);
+    channels.conventions.gravity == Gravity::Removed
+        && channels.has(Quantity::Speed)
+        && of_file(1.0) < CLEAR_FRACTION
+        && of_file(1.0) < CLEAR_FRACTION * of_file(0.0)
+}
+
+/// Rates that are those of the angles about the world's axes.
+pub fn world_rates(channels: &Channels, _: Quantity) -> Option<Message> {
+    let found = channels.measured_rates()?;
+    let turned = |input: &Input, own: Vector3<f64>| Orientation::new(input.orientation).rotation * own;
+    let own = difference(&found, &channels.rates_of_orientation(|parts| parts, |_, own| own));
+    let world = difference(&found, &channels.rates_of_orientation(|parts| parts, turned));
+    (own > MIN_MISSED_RATE && world < CLEAR_FRACTION * own).then(|| text!["world-rates"])
+}
+
+/// Rates that are those of the quaternion in another convention.
+pub fn quaternion(channels: &Channels, _: Quantity) -> Option<Message> {
+    const OTHERS: [(&str, [&str; 4], Reading); 3] = [
+        ("its inverse", ["qw", "-qx", "-qy", "-qz"], |[w, x, y, z]| [w, -x, -y, -z]),
+        ("one whose scalar part comes last", ["qz", "qw", "qx", "qy"], |[w, x, y, z]| [z, w, x, y]),
+        ("one of axes that point to the right and down", ["qw", "qx", "-qy", "-qz"], |[w, x, y, z]| [w, x, -y, -z]),
+    ];
+    if !channels.has_quaternion() || channels.conventions.axes != Axes::ForwardLeftUp {
+        return None;
+    }
+    let found = channels.measured_rates()?;
+    let left = |reading: Reading| difference(&found, &channels.rates_of_orientation(reading, |_, own| own));
+    let own = left(|parts| parts);
+    let others = OTHERS.iter().map(|(kind, keys, reading)| (left(*reading), kind, keys));
+    let (other, kind, keys) = others.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    if own <= MIN_MISSED_RATE || other >= CLEAR_FRACTION * own {
+        return None;
+    }
+    let columns = channels.conventions.columns_of(keys, &Quantity::QUATERNION);
+    Some(text!["quaternion", kind = *kind, columns = columns])
+}
+
+/// A pitch with the wrong sign, as the speed on slopes tells.
+pub fn sign_of_pitch(channels: &Channels, _: Quantity) -> Option<Message> {
+    let Channels { conventions, .. } = channels;
+    if conventions.gravity == Gravity::Removed || conventions.mounting.is_some() {
+        return None;
+    }
+    let left = |sign: f64| {
+        let slope = channels.angle(1).map(|pitch| sign * STANDARD_GRAVITY * pitch.sin());
+        channels.unexplained_speed(channels.force(0).zip(slope).map(|(force, slope)| force + slope))
+    };
+    let (level, right, opposite) = (left(0.0)?, left(1.0)?, left(-1.0)?);
+    if opposite > CLEAR_FRACTION || opposite > CLEAR_FRACTION * level.min(right) {
+        return None;
+    }
+    let with_rate = channels.rate_ratio(1).is_none_or(|ratio| ratio > 0.0);
+    let (keys, quantities) = (["-pitch", "-wy"], [Quantity::Angle(1), Quantity::Rate(1)]);
+    let count = if with_rate { 2 } else { 1 };
+    Some(text!["pitch-opposite", columns = conventions.columns_of(&keys[..count], &quantities[..count])])
 }
 
 /// Two axes with the same values, of either sign. Those of a mounted sensor may be equal.
 pub fn same_values(channels: &Channels, quantity: Quantity) -> Option<Message> {
-    let pair = |of: fn(usize) -> Quantity, axis: usize| [[0, 1], [0, 2], [1, 2]][axis].map(of);
-    let quantities = match quantity {
-        Quantity::Force(axis) => pair(Quantity::Force, axis),
-        Quantity::Rate(axis) => pair(Quantity::Rate, axis),
-        _ => return None,
-    };
+    let of = if let Quantity::Force(_) = quantity { Quantity::Force } else { Quantity::Rate };
+    let quantities = pair_of_axes(quantity)?.map(of);
     let Channels { table, conventions, .. } = channels;
     let [Some(one), Some(other)] = quantities.map(|quantity| table.columns.get(&quantity)) else { return None };
     let equals = |sign: f64| one.iter().zip(other).all(|(one, other)| *one == sign * other);
@@ -234,11 +404,18 @@ pub fn missing_force(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// A vehicle that does not lean and drives bends without a lateral force.
 pub fn missing_lateral_force(channels: &Channels, _: Quantity) -> Option<Message> {
-    let is_missing = channels.is_constant(Quantity::Force(1))
-        && channels.has_speed()
-        && root_mean_square(&channels.turning()) >= MIN_BEND_FORCE
-        && !channels.leans();
-    is_missing.then(|| channels.unmeasured(Quantity::Force(1), "the vehicle drives bends"))
+    let found = relation(&channels.turning(), &channels.lateral());
+    if !channels.has_speed() || found.sizes[0] < MIN_BEND_FORCE || channels.leans() {
+        return None;
+    }
+    if channels.is_constant(Quantity::Force(1)) {
+        return Some(channels.unmeasured(Quantity::Force(1), "the vehicle drives bends"));
+    }
+    let is_missing = channels.is_measured(Quantity::Force(1))
+        && found.sizes[0] >= MIN_MISSED_BEND_FORCE
+        && found.correlation.abs() < UNRELATED_CORRELATION;
+    let name = channels.conventions.column(Quantity::Force(1));
+    is_missing.then(|| text!["no-bends", name = name, size = found.sizes[0]])
 }
 
 /// A constant speed that the force along x would change.

@@ -5,7 +5,7 @@ use moris_washout::Input;
 use super::text::text;
 use crate::message::{Message, given};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{Conventions, Quantity, RateFrame};
+use crate::recording::conventions::{Conventions, Frame, Quantity};
 use crate::recording::signal::{centred, integral, is_constant, relation, root_mean_square, runs, smooth};
 use crate::recording::table::Table;
 
@@ -89,7 +89,14 @@ impl<'a> Channels<'a> {
     pub fn unit_remedy(&self, quantity: Quantity, word: &str) -> Message {
         let (unit, source) = self.table.unit(quantity);
         match source {
-            UnitSource::Header => text!["correct-the-header", unit = unit.word],
+            UnitSource::Header => {
+                let other = quantity.dimension().units().find(|other| other.word == word).unwrap_or(unit);
+                let layout = self.table.layout.iter().map(|column| column.quantity);
+                let alike: Vec<Quantity> = layout.filter(|other| other.dimension() == quantity.dimension()).collect();
+                let factor = (other.in_si / unit.in_si * 1e6).round() / 1e6;
+                let columns = self.conventions.scaled(&alike, &format!("* {factor}"));
+                text!["correct-the-header", unit = unit.word, columns = columns]
+            }
             UnitSource::Ending | UnitSource::Option | UnitSource::Default => {
                 text!["use", remedy = given(quantity.dimension().option(), word)]
             }
@@ -122,12 +129,19 @@ impl<'a> Channels<'a> {
 
     /// True where rates are the derivatives of angles, for small angles.
     pub fn has_body_rates(&self) -> bool {
-        self.conventions.rate_frame == RateFrame::Body
+        self.conventions.rate_frame == Frame::Body
     }
 
     /// Specific force along an axis.
     pub fn force(&self, axis: usize) -> impl Iterator<Item = f64> {
         self.inputs.iter().map(move |input| input.specific_force[axis])
+    }
+
+    /// True where roll, pitch and yaw are those of a quaternion.
+    pub fn has_quaternion(&self) -> bool {
+        self.is_measured(Quantity::Quaternion(0))
+            && self.has(Quantity::Angle(0))
+            && !self.is_measured(Quantity::Angle(0))
     }
 
     /// Angular velocity about an axis.

@@ -1,6 +1,6 @@
 //! Rules that every recording must pass, in SI units and the washout's axes.
 //!
-//! A row of [`RULES`] is one of them: what it looks at, when it fires, and which others it explains.
+//! A row of [`RULES`] is one of them: what it needs, when it fires, and which others it explains.
 //! Their sentences stand in `texts.toml`.
 //!
 //! - `units` detects wrong units and axes, by gravity, and by what heads can do.
@@ -18,6 +18,7 @@ mod waveform;
 use super::conventions::Quantity::{self, Angle, Force, Lean, Rate, Speed, Time};
 use super::message::RecordingError;
 use crate::message::Message;
+pub use agreement::has_horizontal_gravity;
 pub use channels::Channels;
 
 /// A rule.
@@ -31,7 +32,7 @@ struct Rule {
     of: &'static [Quantity],
     /// What breaks the rule, as a sentence; none where nothing does.
     test: fn(&Channels, Quantity) -> Option<Message>,
-    /// Rules whose finding has the cause that this one names: it is told in their place.
+    /// Later rules whose findings have the cause that this one names: it is told in their place.
     supersedes: &'static [&'static str],
 }
 
@@ -58,17 +59,31 @@ macro_rules! rules {
 
 /// The rules of a recording before it is faded in, in the order in which they are told.
 const RULES: &[Rule] = rules! {
-    // What a sensor shows after it has stopped is no unit or axis.
-    "stop" warn [Speed], &[Force(0), Rate(2)], waveform::stop, supersedes ["angle range", "angle unit", "gravity", "rate unit"];
     // Angles before gravity: with them it is put back.
     "angle range" refuse [], ONCE, units::angle_range;
     "angle unit" refuse [], &[Angle(0), Angle(1), Angle(2), Lean], units::angle_unit;
+    "quaternion from below" refuse [], ONCE, units::quaternion_from_below;
+    "exchanged sensors" refuse [], ONCE, units::exchanged_sensors;
+    // What a sensor shows after it has stopped is no unit or axis.
+    "repeated lines" warn [], ONCE, waveform::repeated_lines, supersedes ["stop", "gravity", "rate unit"];
+    "stop" warn [Speed], &[Force(0), Rate(2)], waveform::stop, supersedes ["gravity", "rate unit"];
     "gravity" refuse [], ONCE, units::gravity;
     "rate unit" refuse [], ONCE, units::rate_unit;
     "repeated values" warn [], ONCE, waveform::repeated;
     "coarse values" warn [], FORCES_AND_RATES, waveform::coarse;
-    "exchanged forces" warn [Speed], ONCE, agreement::exchanged_forces;
-    "exchanged rates" warn [Angle(0), Angle(1)], ONCE, agreement::exchanged_rates;
+    "world forces" warn [Speed, Angle(2)], ONCE, agreement::world_forces,
+        supersedes ["exchanged forces", "no force", "no lateral force", "speed and force", "sign of bends", "rates of bends"];
+    "exchanged forces" warn [Speed], ONCE, agreement::exchanged_forces, supersedes ["no lateral force"];
+    "world rates" warn [Angle(0), Angle(1), Angle(2)], ONCE, agreement::world_rates,
+        supersedes ["exchanged rates", "no rate of an angle", "sign of rates", "scale of rates", "delayed angle"];
+    "quaternion" warn [], ONCE, agreement::quaternion,
+        supersedes ["exchanged rates", "no rate of an angle", "sign of rates", "scale of rates", "delayed angle"];
+    "exchanged rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::exchanged_rates,
+        supersedes ["exchanged yaw rate", "no rate of an angle", "no yaw rate", "no lateral force"];
+    "exchanged yaw rate" warn [Speed], &[Rate(0), Rate(1)], agreement::exchanged_yaw_rate,
+        supersedes ["no yaw rate", "no lateral force"];
+    "sign of pitch" warn [Speed, Angle(1)], ONCE, agreement::sign_of_pitch,
+        supersedes ["no force", "speed and force", "delayed speed"];
     "same forces" warn [], &[Force(0), Force(1), Force(2)], agreement::same_values;
     "same rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::same_values;
     "no force" warn [Speed], ONCE, agreement::missing_force;
@@ -102,6 +117,11 @@ const RULES_OF_MOTION: &[Rule] = rules! {
 /// It breaks a rule that refuses it. The message names the cause and the remedy.
 pub fn warnings(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
     apply(RULES, channels)
+}
+
+/// The warning about gravity that only the vertical force lacks.
+pub fn horizontal_gravity() -> Message {
+    text::text!["horizontal-gravity"]
 }
 
 /// The warnings about the motion that is ridden.

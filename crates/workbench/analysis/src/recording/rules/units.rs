@@ -36,14 +36,20 @@ const MIN_COMPARED_RATE: f64 = 0.005;
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors are biased
 /// and tilted.
 const GRAVITY_TOLERANCE: f64 = 3.0;
+/// Cosine of the angle to the vertical below which a vehicle is upside down.
+const UPSIDE_DOWN: f64 = -0.5;
+/// Relative distance from standard gravity of rates in m/s2, and the largest force beside them in
+/// the file's unit. A circle at as many degrees a second has a lateral force.
+const EXCHANGED_GRAVITY_TOLERANCE: f64 = 0.05;
+const MAX_EXCHANGED_FORCE: f64 = 0.5;
 /// Size of gravity from which it may be in counts \[1\].
 const MIN_COUNTS: f64 = 60.0;
 /// Angular velocity that no head exceeds for a hundredth of a recording \[rad/s\].
 const FASTEST_RATE: f64 = 10.0;
 /// Time over which the drift of an integrated rate is removed \[s\].
 const DRIFT_TIME: f64 = 10.0;
-/// Swing of roll or pitch, drift removed, that no vehicle exceeds \[rad\]: a motorcycle goes from -1
-/// to 1.
+/// Swing of roll or pitch, drift removed, that no vehicle exceeds \[rad\]: a
+/// motorcycle goes from -1 to 1.
 const WIDEST_SWING: f64 = 3.5;
 /// Least lateral specific force of a turn, as a standard deviation \[m/s2\].
 const MIN_TURN_FORCE: f64 = 0.3;
@@ -66,7 +72,8 @@ pub fn angle_range(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// Angles that change as degrees would. A given unit overrides it.
 pub fn angle_unit(channels: &Channels, quantity: Quantity) -> Option<Message> {
-    if channels.table.unit(quantity).1 != UnitSource::Default || !channels.has(quantity) {
+    let is_open = channels.table.unit(quantity).1 == UnitSource::Default && channels.has(quantity);
+    if !is_open || matches!(quantity, Quantity::Angle(_)) && channels.has_quaternion() {
         return None;
     }
     let name = quantity.key();
@@ -105,6 +112,37 @@ fn steady_ratio(channels: &Channels, axis: usize) -> Option<f64> {
     let rate = median(channels.rate(axis));
     let spread = median(derivative().map(|change| (change - usual).abs()));
     (rate.abs() > MIN_COMPARED_RATE && spread < STEADY_SPREAD * usual.abs()).then(|| usual / rate)
+}
+
+/// A quaternion of axes that point down, which turns the vehicle upside down.
+pub fn quaternion_from_below(channels: &Channels, _: Quantity) -> Option<Message> {
+    let up = |input: &Input| input.orientation.roll.cos() * input.orientation.pitch.cos();
+    let is_upside_down = channels.has_quaternion() && median(channels.inputs.iter().map(up)) < UPSIDE_DOWN;
+    is_upside_down.then(|| {
+        // Half a turn about x before it leads from north, east, down to north, west, up.
+        text![
+            "quaternion-from-below",
+            columns = channels.conventions.columns_of(&["-qx", "qw", "-qz", "qy"], &Quantity::QUATERNION)
+        ]
+    })
+}
+
+/// Gravity in the columns of the rates, and none in those of the forces.
+pub fn exchanged_sensors(channels: &Channels, _: Quantity) -> Option<Message> {
+    let Channels { table, conventions, .. } = channels;
+    let median_of = |quantity: fn(usize) -> Quantity| {
+        let column =
+            |axis: usize| table.columns.get(&quantity(axis)).map_or(0.0, |values| median(values.iter().copied()));
+        Vector3::from_fn(|axis, _| column(axis)) / table.unit(quantity(0)).0.in_si
+    };
+    let (force, rate) = (median_of(Quantity::Force), median_of(Quantity::Rate));
+    let is_gravity = (rate.norm() / STANDARD_GRAVITY - 1.0).abs() < EXCHANGED_GRAVITY_TOLERANCE;
+    if !is_gravity || force.norm() > MAX_EXCHANGED_FORCE || conventions.mounting.is_some() {
+        return None;
+    }
+    let quantities = [0, 1, 2, 3, 4, 5].map(|k| if k < 3 { Quantity::Force(k) } else { Quantity::Rate(k - 3) });
+    let columns = conventions.columns_of(&["wx", "wy", "wz", "ax", "ay", "az"], &quantities);
+    Some(text!["exchanged-sensors", gravity = rate.norm(), columns = columns])
 }
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.

@@ -16,6 +16,11 @@ use crate::recording::signal::{integral, is_constant, median, root_mean_square, 
 const MIN_STOP_TIME: f64 = 2.0;
 /// Largest part of a recording in which a sensor has stopped: one that never moves was never there.
 const MAX_STOP_FRACTION: f64 = 0.95;
+/// Changes of a channel in its usual ones, and the number of channels, from which they jump.
+const JUMP_SIZE: f64 = 5.0;
+const MIN_JUMPING: usize = 2;
+/// Most times that a logger repeats its last line for seconds.
+const MAX_REPEATED_LINES: usize = 10;
 /// Times that each value is repeated, from which the steps are felt.
 const MIN_REPETITIONS: usize = 3;
 /// Least number of steps that are looked at, and the part of the samples that they must be.
@@ -28,6 +33,29 @@ const COARSE_FORCE: f64 = 0.15;
 const COARSE_RATE: f64 = 0.05;
 /// Number of values from which a signal is no test of a few steps.
 const MIN_LEVELS: usize = 4;
+
+/// Lines that are repeated for seconds, after which several channels jump. Computed rides that are
+/// steady end so smoothly.
+pub fn repeated_lines(channels: &Channels, _: Quantity) -> Option<Message> {
+    let Channels { table, step, .. } = channels;
+    let measured = table.columns.iter().filter(|(quantity, _)| channels.is_measured(**quantity));
+    let moving: Vec<&Vec<f64>> = measured.map(|(_, values)| values).filter(|values| !is_constant(values)).collect();
+    let changes = (1..table.time.len()).map(|k| f64::from(moving.iter().any(|values| values[k] != values[k - 1])));
+    let changes: Vec<f64> = changes.collect();
+    let jumps = |end: usize| {
+        let jumps = |values: &&&Vec<f64>| {
+            let usual: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            (values[end] - values[end - 1]).abs() > JUMP_SIZE * root_mean_square(&usual)
+        };
+        moving.iter().filter(jumps).count() >= MIN_JUMPING
+    };
+    let least = (MIN_STOP_TIME / step) as usize;
+    let is_stop = |run: &Range<usize>| changes[run.start] == 0.0 && run.len() > least && run.end < changes.len();
+    let stops: Vec<Range<usize>> = runs(&changes, |a, b| a == b).filter(is_stop).collect();
+    // A receiver of less than a value a second stands still between all of them.
+    let stop = stops.iter().find(|stop| stops.len() <= MAX_REPEATED_LINES && jumps(stop.end + 1))?;
+    Some(text!["repeated-lines", from = channels.time(stop.start), to = channels.time(stop.end)])
+}
 
 /// A force or yaw rate that stays at one value for seconds, while the speed changes otherwise or
 /// the vehicle drives bends.

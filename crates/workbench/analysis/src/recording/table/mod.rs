@@ -31,7 +31,7 @@ use std::path::PathBuf;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::{Quaternion, UnitQuaternion};
 
-use crate::message::{Message, given, message};
+use crate::message::{Message, message};
 use crate::recording::columns::{Column, UnitSource};
 use crate::recording::conventions::{Conventions, Gravity, Quantity, Unit};
 use crate::recording::message::RecordingError;
@@ -85,7 +85,7 @@ impl Table {
         let mut table = Table { file, time, columns, layout, lines, warnings, complete };
         table.rest(conventions);
         table.centre_angles();
-        table.orient()?;
+        table.orient(conventions)?;
         Ok(table)
     }
 
@@ -107,7 +107,7 @@ impl Table {
     }
 
     /// Makes roll, pitch and yaw of the columns of a quaternion, unless there are angles.
-    fn orient(&mut self) -> Result<(), RecordingError> {
+    fn orient(&mut self, conventions: &Conventions) -> Result<(), RecordingError> {
         let [Some(w), Some(x), Some(y), Some(z)] = Quantity::QUATERNION.map(|part| self.columns.remove(&part)) else {
             return Ok(());
         };
@@ -118,9 +118,10 @@ impl Table {
         let is_off = |&k: &usize| (quaternion(k).norm() - 1.0).abs() > NORM;
         if let Some(sample) = (0..w.len()).find(is_off) {
             let norm = quaternion(sample).norm();
+            let decimals = if norm > 10.0 { 0 } else { 3 };
             let reason = message![
-                "qw, qx, qy and qz have the norm {norm:.3}, and those of a rotation 1; name others or scale them with ",
-                given("columns", "\"qw=NAME / 16384\"")
+                "qw, qx, qy and qz have the norm {norm:.3}, and those of a rotation 1; name others, or use ",
+                conventions.scaled(&Quantity::QUATERNION, &format!("/ {norm:.decimals$}"))
             ];
             return Err(self.refused_at(sample, Quantity::Quaternion(0), reason));
         }
