@@ -32,6 +32,7 @@
 mod axes;
 mod columns;
 pub mod conventions;
+mod dialects;
 pub mod felt;
 mod message;
 mod read;

@@ -156,30 +156,17 @@ impl ConventionOptions {
         // A format's mounting is that of the sensor whose columns it names: what a receiver computes is not turned.
         let names_others = self.missing == Some(Missing::Rest)
             && self.columns.iter().any(|(quantity, _)| matches!(quantity, Quantity::Force(_)));
-        ConventionOptions {
-            format: self.format.or(under.format),
-            columns,
-            time_unit: self.time_unit.or(under.time_unit),
-            force_unit: self.force_unit.or(under.force_unit),
-            rate_unit: self.rate_unit.or(under.rate_unit),
-            angle_unit: self.angle_unit.or(under.angle_unit),
-            speed_unit: self.speed_unit.or(under.speed_unit),
-            length_unit: self.length_unit.or(under.length_unit),
-            gravity: self.gravity.or(under.gravity),
-            axes: self.axes.or(under.axes),
-            mounting: self.mounting.or(under.mounting.filter(|_| !names_others)),
-            rate_frame: self.rate_frame.or(under.rate_frame),
-            force_frame: self.force_frame.or(under.force_frame),
-            empty_fields: self.empty_fields.or(under.empty_fields),
-            missing: self.missing.or(under.missing),
-            lap: self.lap.or(under.lap),
-            position: self.position || under.position,
-            repair: self.repair || under.repair,
-            rate: self.rate.or(under.rate),
-            resample: self.resample.or(under.resample),
-            fade_in: self.fade_in.or(under.fade_in),
-            conventions: self.conventions.clone(),
+        let (position, repair) = (self.position || under.position, self.repair || under.repair);
+        let mounting = self.mounting.or(under.mounting.filter(|_| !names_others));
+        let conventions = self.conventions.clone();
+        /// The options over others, of fields that are absent where they are not given.
+        macro_rules! given {
+            ($($field:ident)*) => {
+                ConventionOptions { columns, position, repair, mounting, conventions, $( $field: self.$field.or(under.$field), )* }
+            };
         }
+        given! { format time_unit force_unit rate_unit angle_unit speed_unit length_unit gravity axes rate_frame force_frame
+        empty_fields missing lap rate resample fade_in }
     }
 
     fn checked(&self) -> Result<Conventions, RecordingError> {

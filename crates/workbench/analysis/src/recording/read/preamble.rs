@@ -150,7 +150,7 @@ fn is_names(titles: &[String], is_above_numbers: bool) -> bool {
     let units = written.clone().filter(|title| any_spelled(title).is_some()).count();
     let numbers = titles.iter().filter(|title| is_number(title)).count();
     let is_parted = titles.iter().any(|title| title == "|");
-    let may_be = numbers == 0 || is_above_numbers && !is_number(&titles[0]) && numbers * 2 < written.clone().count();
+    let may_be = numbers == 0 || is_above_numbers && !is_number(&titles[0]) && numbers * 2 <= written.clone().count();
     may_be && !is_parted && units * 2 <= written.clone().count() && written.count() > 0
 }
 

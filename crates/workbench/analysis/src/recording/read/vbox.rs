@@ -5,35 +5,7 @@
 //! <https://developers.racelogic.co.uk/Portal/Tutorials/tutorialVBOfilestructure.html>
 
 use crate::recording::columns::units::any_spelled;
-
-/// Names of channels in the loggers' spellings without spaces and signs, and as the format `vbox`
-/// has them, with the unit of a file that gives none. The first that a file has counts: an inertial
-/// unit's before a satellite receiver's.
-const NAMES: [(&str, &str, &[&str]); 7] = [
-    (
-        "longitudinal accel",
-        "g",
-        &[
-            "xaccel",
-            "longacc",
-            "longaccg",
-            "longaccel",
-            "longitudinalacc",
-            "longitudinalaccel",
-            "longitudinalacceleration",
-        ],
-    ),
-    (
-        "lateral accel",
-        "g",
-        &["yaccel", "latacc", "lataccg", "lataccel", "lateralacc", "lateralaccel", "lateralacceleration"],
-    ),
-    ("vertical accel", "g", &["zaccel", "vertacc", "vertaccel", "verticalaccel", "verticalacceleration"]),
-    ("roll rate", "deg/s", &["rollrate", "xrate", "xrotationgyroscope", "xrateofrotation", "gyrox"]),
-    ("pitch rate", "deg/s", &["pitchrate", "yrate", "yrotationgyroscope", "yrateofrotation", "gyroy"]),
-    ("yaw rate", "deg/s", &["yawrate", "zrate", "zrotationgyroscope", "zrateofrotation", "gyroz"]),
-    ("speed", "km/h", &["velocity", "velocitykmh", "speed"]),
-];
+use crate::recording::dialects::{Channel, DIALECTS};
 
 /// The text as CSV with the same lines; none if it is no .vbo file.
 pub fn as_csv(text: &str) -> Option<String> {
@@ -84,11 +56,12 @@ fn titles(text: &str, names: &[&str]) -> Vec<String> {
     let plain: Vec<String> =
         names.iter().map(|name| name.to_lowercase().chars().filter(char::is_ascii_alphanumeric).collect()).collect();
     let called = |place: usize| {
-        let spelled = |spellings: &[&str]| {
-            spellings.iter().find_map(|spelling| plain.iter().position(|name| name == spelling)) == Some(place)
+        let is_spelled = |(_, channel): &(&String, &Channel)| {
+            let mut spellings = channel.spellings.split(' ');
+            spellings.find_map(|spelling| plain.iter().position(|name| name == spelling)) == Some(place)
         };
-        let found = NAMES.iter().find(|(_, _, spellings)| spelled(spellings));
-        found.map_or((names[place], None), |(name, unit, _)| (*name, Some(*unit)))
+        let found = DIALECTS.vbox.iter().find(is_spelled);
+        found.map_or((names[place], None), |(name, channel)| (name.as_str(), Some(channel.unit.as_str())))
     };
     let title = |place: usize| {
         let (name, usual) = called(place);

@@ -132,14 +132,20 @@ impl Channels<'_> {
     /// True where slopes explain the changes of speed beside the force along x, as the pitch or the
     /// rate of pitch gives them.
     fn slopes_explain(&self) -> bool {
-        // Pitch is positive with the nose down, where gravity accelerates.
-        let pitch: Vec<f64> = self.angle(1).collect();
         let of_rate = centred(integral(self.rate(1), self.step).into_iter());
-        let on_slopes = |pitch: &Vec<f64>| {
-            let force = self.force(0).zip(pitch).map(|(force, pitch)| force + STANDARD_GRAVITY * pitch.sin());
-            self.ratio_of_force(force).is_some_and(is_equal)
-        };
-        [pitch, of_rate].iter().any(on_slopes)
+        let explains = |force: Vec<f64>| self.ratio_of_force(force.into_iter()).is_some_and(is_equal);
+        explains(self.on_slopes(self.angle(1), 1.0)) || explains(self.on_slopes(of_rate.into_iter(), 1.0))
+    }
+
+    /// The force along x with so many times the gravity of slopes. Pitch is positive with the nose
+    /// down, where gravity accelerates.
+    fn on_slopes(&self, pitch: impl Iterator<Item = f64>, times: f64) -> Vec<f64> {
+        self.force(0).zip(pitch).map(|(force, pitch)| force + times * STANDARD_GRAVITY * pitch.sin()).collect()
+    }
+
+    /// Part of the changes of speed that is left with so many times the gravity of slopes.
+    fn left_on_slopes(&self, times: f64) -> Option<f64> {
+        self.unexplained_speed(self.on_slopes(self.angle(1), times).into_iter())
     }
 
     /// Ratio of the changes of speed and the integral of the force along x; 1 where slopes explain
@@ -315,15 +321,12 @@ pub fn world_forces(channels: &Channels, _: Quantity) -> Option<Message> {
 /// True where gravity has been taken out of the vertical force alone: that along x changes with
 /// slopes. Conversion has put gravity back into all of them.
 pub fn has_horizontal_gravity(channels: &Channels) -> bool {
-    let slope = |sign: f64| channels.angle(1).map(move |pitch| sign * STANDARD_GRAVITY * pitch.sin());
-    let left =
-        |sign: f64| channels.unexplained_speed(channels.force(0).zip(slope(sign)).map(|(force, slope)| force + slope));
-    // Along x conversion has taken g sin(pitch) away.
-    let of_file = |sign: f64| left(1.0 + sign).unwrap_or(f64::INFINITY);
+    // Along x conversion has taken it away once.
+    let [with, without] = [2.0, 1.0].map(|times| channels.left_on_slopes(times).unwrap_or(f64::INFINITY));
     channels.conventions.gravity == Gravity::Removed
         && channels.has(Quantity::Speed)
-        && of_file(1.0) < CLEAR_FRACTION
-        && of_file(1.0) < CLEAR_FRACTION * of_file(0.0)
+        && with < CLEAR_FRACTION
+        && with < CLEAR_FRACTION * without
 }
 
 /// Rates that are those of the angles about the world's axes.
@@ -363,11 +366,8 @@ pub fn sign_of_pitch(channels: &Channels, _: Quantity) -> Option<Message> {
     if conventions.gravity == Gravity::Removed || conventions.mounting.is_some() {
         return None;
     }
-    let left = |sign: f64| {
-        let slope = channels.angle(1).map(|pitch| sign * STANDARD_GRAVITY * pitch.sin());
-        channels.unexplained_speed(channels.force(0).zip(slope).map(|(force, slope)| force + slope))
-    };
-    let (level, right, opposite) = (left(0.0)?, left(1.0)?, left(-1.0)?);
+    let [level, right, opposite] = [0.0, 1.0, -1.0].map(|times| channels.left_on_slopes(times));
+    let (level, right, opposite) = (level?, right?, opposite?);
     if opposite > CLEAR_FRACTION || opposite > CLEAR_FRACTION * level.min(right) {
         return None;
     }
