@@ -6,7 +6,6 @@ mod bounds;
 #[path = "../../../../../tests/cases/mod.rs"]
 mod cases;
 mod commands;
-mod consistency;
 mod fit;
 mod forms;
 mod frequency_response;
@@ -19,6 +18,5 @@ mod mounting;
 mod outliers;
 mod recordings;
 mod rules;
-mod silent;
 mod tune;
 mod ways_in;

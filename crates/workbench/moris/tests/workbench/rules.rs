@@ -27,14 +27,14 @@ struct Sample {
 }
 
 impl Sample {
-    /// A vehicle that speeds up and slows down in bends over hills, at a sample of 50 a second. Its
-    /// channels follow from speed and angles: the velocity is along x, and turns with it.
-    fn of_hills(k: usize) -> Self {
+    /// A vehicle that speeds up and slows down in bends over hills of a size, at a sample of 50 a
+    /// second. Its channels follow from speed and angles: the velocity is along x.
+    fn of_ride(k: usize, hills: f64) -> Self {
         let time = 0.02 * k as f64;
         let (w, phase) = ([0.21, 0.13, 0.08].map(|hertz| TAU * hertz), TAU / 15.0 * time);
         let (speed, change) = (9.0 - 5.0 * phase.cos(), 5.0 * TAU / 15.0 * phase.sin());
-        let (roll, roll_rate) = (0.05 * (w[0] * time).sin(), 0.05 * w[0] * (w[0] * time).cos());
-        let (pitch, pitch_rate) = (-0.07 * (w[1] * time).sin(), -0.07 * w[1] * (w[1] * time).cos());
+        let (roll, roll_rate) = (0.05 * hills * (w[0] * time).sin(), 0.05 * hills * w[0] * (w[0] * time).cos());
+        let (pitch, pitch_rate) = (-0.07 * hills * (w[1] * time).sin(), -0.07 * hills * w[1] * (w[1] * time).cos());
         let (yaw, yaw_rate) = (1.2 - 0.6 * (w[2] * time).cos(), 0.6 * w[2] * (w[2] * time).sin());
         let rate = Vector3::new(
             roll_rate - yaw_rate * pitch.sin(),
@@ -71,7 +71,7 @@ impl Sample {
 
 /// The ride with each sample changed, by its number and the ride, read with options in TOML.
 fn read(header: &str, options: &str, change: fn(usize, &[Sample]) -> Sample) -> Result<Recording, String> {
-    let ride: Vec<Sample> = (0..1501).map(Sample::of_hills).collect();
+    let ride: Vec<Sample> = (0..1501).map(|k| Sample::of_ride(k, 1.0)).collect();
     let mut text = format!("{header}\n");
     for k in 0..ride.len() {
         let sample = change(k, &ride);
@@ -91,15 +91,15 @@ struct Row {
     /// Options in TOML.
     options: &'static str,
     change: fn(usize, &[Sample]) -> Sample,
-    /// Part of what is said; nothing is where it is empty.
-    said: &'static str,
+    /// Parts of what is said, and with ! of what is not; nothing is said where there are none.
+    said: &'static [&'static str],
     /// The remedy in TOML, with which nothing more is said; none where it is empty.
     remedy: &'static str,
 }
 
 macro_rules! rows {
-    ($( $header:expr, $options:literal, $change:expr => $said:literal, $remedy:literal; )+) => {
-        &[$( Row { header: $header, options: $options, change: $change, said: $said, remedy: $remedy }, )+]
+    ($( $header:expr, $options:literal, $change:expr => $said:tt, $remedy:literal; )+) => {
+        &[$( Row { header: $header, options: $options, change: $change, said: &$said, remedy: $remedy }, )+]
     };
 }
 
@@ -108,105 +108,219 @@ fn noise(k: usize) -> f64 {
     (12.9898 * k as f64).sin() * 43_758.545_3 % 1.0
 }
 
+/// The ride on a level road.
+fn flat(k: usize) -> Sample {
+    Sample::of_ride(k, 0.0)
+}
+
+/// A sample along axes that point to the right, with the sign of the vertical force.
+fn right_down(sample: Sample, up: f64) -> Sample {
+    let Sample { force, rate, .. } = sample;
+    Sample {
+        force: Vector3::new(force.x, -force.y, up * force.z),
+        rate: Vector3::new(rate.x, -rate.y, -rate.z),
+        ..sample
+    }
+}
+
+/// What a sensor reads that is turned and has no gyroscope.
+fn other_sensor(sample: Sample) -> Sample {
+    Sample { force: Vector3::new(sample.force.y, sample.force.x, GRAVITY), rate: Vector3::zeros(), ..sample }
+}
+
+/// A steady circle, whose heading is in a unit.
+fn circle(k: usize, unit: f64) -> Sample {
+    let angle = Vector3::new(0.0, 0.0, (0.01 * k as f64 / unit) % (TAU / unit));
+    Sample { force: Vector3::new(0.0, 5.0, GRAVITY), rate: 0.5 * Vector3::z(), speed: 10.0, angle, ..flat(k) }
+}
+
+/// The ride on a level road without gravity, with forces in a unit.
+fn in_unit(k: usize, unit: f64) -> Sample {
+    Sample { force: (flat(k).force - GRAVITY * Vector3::z()) / unit, ..flat(k) }
+}
+
 /// The rotation `other` in place of the one that a row changes.
 fn with_quaternion(sample: Sample, other: fn([f64; 4]) -> [f64; 4]) -> Sample {
     Sample { quaternion: other(sample.quaternion), ..sample }
 }
 
 const ROWS: &[Row] = rows! {
-    ANGLES, "", |k, ride| ride[k] => "", "";
-    SPEED, "", |k, ride| ride[k] => "", "";
-    SIX, "", |k, ride| ride[k] => "", "";
-    QUATERNION, "", |k, ride| ride[k] => "", "";
+    ANGLES, "", |k, ride| ride[k] => [], "";
+    SPEED, "", |k, ride| ride[k] => [], "";
+    SIX, "", |k, ride| ride[k] => [], "";
+    QUATERNION, "", |k, ride| ride[k] => [], "";
     // Rates of two axes that are exchanged: by the angles, or by bends.
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(0, 1); s }
-        => "Roll goes with the angular velocity wy, and pitch with wx", "columns = { wx = 'wy', wy = 'wx' }";
+        => ["Roll goes with the angular velocity wy, and pitch with wx"], "columns = { wx = 'wy', wy = 'wx' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(0, 2); s }
-        => "Roll goes with the angular velocity wz, and yaw with wx", "columns = { wx = 'wz', wz = 'wx' }";
+        => ["Roll goes with the angular velocity wz, and yaw with wx"], "columns = { wx = 'wz', wz = 'wx' }";
     ANGLES, "", |k, ride| { let s = ride[k]; Sample { rate: Vector3::new(-s.rate.z, s.rate.y, s.rate.x), ..s } }
-        => "use --columns wx=wz,wz=-wx.", "columns = { wx = 'wz', wz = '-wx' }";
+        => ["use --columns wx=wz,wz=-wx."], "columns = { wx = 'wz', wz = '-wx' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(1, 2); s }
-        => "Pitch goes with the angular velocity wz, and yaw with wy", "columns = { wy = 'wz', wz = 'wy' }";
+        => ["Pitch goes with the angular velocity wz, and yaw with wy"], "columns = { wy = 'wz', wz = 'wy' }";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(0, 2); s }
-        => "is speed by the angular velocity wx, and not by wz", "columns = { wx = 'wz', wz = 'wx' }";
+        => ["is speed by the angular velocity wx, and not by wz"], "columns = { wx = 'wz', wz = 'wx' }";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(1, 2); s }
-        => "is speed by the angular velocity wy, and not by wz", "columns = { wy = 'wz', wz = 'wy' }";
+        => ["is speed by the angular velocity wy, and not by wz"], "columns = { wy = 'wz', wz = 'wy' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.force.swap_rows(0, 1); s }
-        => "use --columns ax=ay,ay=ax", "columns = { ax = 'ay', ay = 'ax' }";
+        => ["use --columns ax=ay,ay=ax"], "columns = { ax = 'ay', ay = 'ax' }";
     // Channels that do not show what others do.
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.y -= s.speed * s.rate.z; s }
-        => "Column ay does not go with speed by yaw rate", "";
+        => ["Column ay does not go with speed by yaw rate"], "";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.x = 0.003 * noise(k); s }
-        => "Column ax hardly changes while the speed changes", "";
+        => ["Column ax hardly changes while the speed changes"], "";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.rate.z = 0.001 * noise(k); s }
-        => "Column wz hardly changes while the lateral force is that of bends", "";
+        => ["Column wz hardly changes while the lateral force is that of bends"], "";
     SPEED, "", |k, ride| Sample { speed: 9.0, ..ride[k] }
-        => "Column speed is constant, 9, while the force along x changes it", "";
-    ANGLES, "", |k, ride| { let mut s = ride[k]; s.force.y = -s.force.x; s } => "Columns ax and ay hold the same values", "";
-    ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.x = s.rate.z; s } => "Columns wx and wz hold the same values", "";
+        => ["Column speed is constant, 9, while the force along x changes it"], "";
+    ANGLES, "", |k, ride| { let mut s = ride[k]; s.force.y = -s.force.x; s }
+        => ["Columns ax and ay hold the same values"], "";
+    ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.x = s.rate.z; s }
+        => ["Columns wx and wz hold the same values"], "";
     // A sensor that stops, and a logger that does.
     SPEED, "", |k, ride| { let held = ride[k.min(900)]; Sample { force: held.force, rate: held.rate, ..ride[k] } }
-        => "Column ax stays at one value from 18.0 s to 30.0 s, while the speed changes", "";
+        => ["Column ax stays at one value from 18.0 s to 30.0 s, while the speed changes"], "";
     ANGLES, "", |k, ride| Sample { time: ride[k].time, ..ride[if (500..650).contains(&k) { 500 } else { k }] }
-        => "All channels stay at one value from 10.0 s to 13.0 s and then jump: the logger repeated its last line", "";
+        => ["All channels stay at one value from 10.0 s to 13.0 s and then jump: the logger repeated its last line"],
+        "";
     // Its last value may look like a wrong axis.
     SPEED, "", |k, ride| { let held = ride[k.min(200)]; Sample { force: held.force, rate: held.rate, ..ride[k] } }
-        => "from 4.0 s to 30.0 s, while the speed changes otherwise: the sensor has stopped. Cut this part off", "";
+        => ["from 4.0 s to 30.0 s, while the speed changes otherwise: the sensor has stopped. Cut this part off"], "";
     // The cause of a refusal is not hidden behind a sensor that has stopped.
     ANGLES, "", |k, ride| Sample { force: ride[k.min(900)].force, angle: 60.0 * ride[k].angle, ..ride[k] }
-        => "these are degrees, not radians", "";
+        => ["these are degrees, not radians"], "";
     SPEED, "", |k, ride| { let held = ride[k / 10 * 10]; Sample { force: held.force, rate: held.rate, ..ride[k] } }
-        => "Each value of ax, ay, az, wx, wy, wz comes 10 times: measured at about 5.0 Hz, it changes in steps, which are felt \
-            as jolts. --resample 5.0 takes each value once.", "";
+        => ["Each value of ax, ay, az, wx, wy, wz comes 10 times: measured at about 5.0 Hz, it changes in steps",
+            "--resample 5.0 takes each value once."], "";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.y = (s.force.y / 0.5).round() * 0.5; s }
-        => "The values of ay are 0.5 m/s2 apart or more", "";
-    SPEED, "", |k, ride| { let mut s = ride[k]; s.force.y = (s.force.y / 0.1).round() * 0.1; s } => "", "";
+        => ["The values of ay are 0.5 m/s2 apart or more"], "";
+    SPEED, "", |k, ride| { let mut s = ride[k]; s.force.y = (s.force.y / 0.1).round() * 0.1; s } => [], "";
     // Accelerometer and gyroscope exchanged; what the first advice would lead to is refused as well.
     SIX, "", |k, ride| Sample { force: ride[k].rate, rate: ride[k].force, ..ride[k] }
-        => "accelerometer and gyroscope seem to be exchanged",
+        => ["accelerometer and gyroscope seem to be exchanged"],
         "columns = { ax = 'wx', ay = 'wy', az = 'wz', wx = 'ax', wy = 'ay', wz = 'az' }";
-    SIX, "gravity = 'removed'\nrate-unit = 'deg/s'", |k, ride| Sample { force: ride[k].rate, rate: ride[k].force, ..ride[k] }
-        => "accelerometer and gyroscope seem to be exchanged", "";
+    SIX, "gravity = 'removed'\nrate-unit = 'deg/s'",
+        |k, ride| Sample { force: ride[k].rate, rate: ride[k].force, ..ride[k] }
+        => ["accelerometer and gyroscope seem to be exchanged"], "";
     // Signs, frames and gravity.
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.y = -s.angle.y; s.rate.y = -s.rate.y; s }
-        => "the pitch has the wrong sign", "columns = { pitch = '-pitch', wy = '-wy' }";
+        => ["the pitch has the wrong sign"], "columns = { pitch = '-pitch', wy = '-wy' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.y = -s.angle.y; s }
-        => "Use --columns pitch=-pitch.", "columns = { pitch = '-pitch' }";
+        => ["Use --columns pitch=-pitch."], "columns = { pitch = '-pitch' }";
     ANGLES, "", |k, ride| Sample { force: ride[k].rotation() * ride[k].force, ..ride[k] }
-        => "Use --force-frame world.", "force-frame = 'world'";
+        => ["Use --force-frame world."], "force-frame = 'world'";
     ANGLES, "gravity = 'removed'",
         |k, ride| Sample { force: ride[k].rotation() * ride[k].force - GRAVITY * Vector3::z(), ..ride[k] }
-        => "Use --force-frame world.", "force-frame = 'world'";
+        => ["Use --force-frame world."], "force-frame = 'world'";
     ANGLES, "", |k, ride| Sample { rate: ride[k].rotation() * ride[k].rate, ..ride[k] }
-        => "Use --rate-frame world.", "rate-frame = 'world'";
-    SIX, "force-frame = 'world'", |k, ride| ride[k] => "--force-frame world needs roll, pitch and yaw", "";
+        => ["Use --rate-frame world."], "rate-frame = 'world'";
+    SIX, "force-frame = 'world'", |k, ride| ride[k] => ["--force-frame world needs roll, pitch and yaw"], "";
     // Quaternions of other conventions.
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [w, -x, -y, -z])
-        => "but of its inverse", "columns = { qx = '-qx', qy = '-qy', qz = '-qz' }";
+        => ["but of its inverse"], "columns = { qx = '-qx', qy = '-qy', qz = '-qz' }";
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [x, y, z, w])
-        => "scalar part comes last", "columns = { qw = 'qz', qx = 'qw', qy = 'qx', qz = 'qy' }";
+        => ["scalar part comes last"], "columns = { qw = 'qz', qx = 'qw', qy = 'qx', qz = 'qy' }";
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [w, x, -y, -z])
-        => "axes that point to the right and down", "columns = { qy = '-qy', qz = '-qz' }";
+        => ["axes that point to the right and down"], "columns = { qy = '-qy', qz = '-qz' }";
     // Half a turn about x from it.
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [-x, w, -z, y])
-        => "turns the vehicle upside down", "columns = { qw = '-qx', qx = 'qw', qy = '-qz', qz = 'qy' }";
+        => ["turns the vehicle upside down"], "columns = { qw = '-qx', qx = 'qw', qy = '-qz', qz = 'qy' }";
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |parts| parts.map(|part| (32_767.0 * part).round()))
-        => "\"qw=qw / 32767,", "columns = { qw = 'qw / 32767', qx = 'qx / 32767', qy = 'qy / 32767', qz = 'qz / 32767' }";
+        => ["\"qw=qw / 32767,"],
+        "columns = { qw = 'qw / 32767', qx = 'qx / 32767', qy = 'qy / 32767', qz = 'qz / 32767' }";
     // A column that is left out.
     ANGLES, "columns = { roll = '', pitch = '', yaw = '' }", |k, ride| Sample { angle: 60.0 * ride[k].angle, ..ride[k] }
-        => "", "";
+        => [], "";
     // Units.
     "time,ax [m/s2],ay [m/s2],az [m/s2],wx,wy,wz", "", |k, ride| Sample { force: ride[k].force / GRAVITY, ..ride[k] }
-        => "or use --columns \"ax=ax * 9.80665,ay=ay * 9.80665,az=az * 9.80665\"",
+        => ["or use --columns \"ax=ax * 9.80665,ay=ay * 9.80665,az=az * 9.80665\""],
         "columns = { ax = 'ax * 9.80665', ay = 'ay * 9.80665', az = 'az * 9.80665' }";
     "time,ax,ay,az,wx [deg/s],wy [deg/s],wz [deg/s],speed", "", |k, ride| ride[k]
-        => "seem to be in rad/s, not in deg/s: correct the header", "";
+        => ["seem to be in rad/s, not in deg/s: correct the header"], "";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.x /= GRAVITY; s.force.y /= GRAVITY; s }
-        => "--columns \"ax=ax * 9.80665,ay=ay * 9.80665\"", "columns = { ax = 'ax * 9.80665', ay = 'ay * 9.80665' }";
+        => ["--columns \"ax=ax * 9.80665,ay=ay * 9.80665\""], "columns = { ax = 'ax * 9.80665', ay = 'ay * 9.80665' }";
     SPEED, "", |k, ride| Sample { speed: 100.0 * ride[k].speed, ..ride[k] }
-        => "--columns \"speed=speed * 0.01\"", "columns = { speed = 'speed * 0.01' }";
+        => ["--columns \"speed=speed * 0.01\""], "columns = { speed = 'speed * 0.01' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.x += TAU; s }
-        => "--angle-unit deg, or whole turns too many; write angles from -pi to pi", "";
+        => ["--angle-unit deg, or whole turns too many; write angles from -pi to pi"], "";
+    // Units of the speed, by the force and in bends.
+    "time,ax,ay,az,wx,wy,wz,speed [km/h]", "", |k, _| Sample { speed: 3.6 * flat(k).speed, ..flat(k) } => [], "";
+    SPEED, "", |k, _| Sample { speed: 3.6 * flat(k).speed, ..flat(k) }
+        => ["3.6 times as much as the integral", "it seems to be in km/h, not in m/s: use --speed-unit km/h."],
+        "speed-unit = 'km/h'";
+    SPEED, "", |k, _| Sample { speed: flat(k).speed / 0.44704, ..flat(k) }
+        => ["2.2 times as much as the integral", "it seems to be in mph, not in m/s: use --speed-unit mph."],
+        "speed-unit = 'mph'";
+    SPEED, "", |k, _| { let mut s = flat(k); s.force.x = 0.0; s.speed *= 3.6; s }
+        => ["its speed is in km/h, not in m/s: use --speed-unit km/h."], "";
+    SPEED, "", |k, _| { let mut s = flat(k); s.force.x = 0.0; s.speed /= 0.44704; s }
+        => ["its speed is in mph, not in m/s: use --speed-unit mph."], "";
+    SPEED, "speed-unit = 'km/h'", |k, ride| ride[k]
+        => ["it seems to be in m/s, not in km/h: use --speed-unit m/s."], "";
+    "time,ax,ay,az,wx,wy,wz,speed [km/h]", "", |k, _| flat(k) => ["correct the header, which gives km/h"], "";
+    SPEED, "", |k, _| Sample { speed: 7.0 * flat(k).speed, ..flat(k) } => ["check --speed-unit."], "";
+    // Slopes, scales and two-wheelers are no contradictions.
+    SPEED, "", |k, _| { let mut s = flat(k); s.force.x *= 1.3; s } => [], "";
+    SPEED, "", |k, _| { let mut s = flat(k); s.force.y *= -0.2; s } => [], "";
+    ANGLES, "", |k, _| { let mut s = flat(k); s.force = Vector3::new(s.force.x, 0.0, s.force.y.hypot(GRAVITY)); s }
+        => [], "";
+    ANGLES, "", |k, _| { let mut s = flat(k); s.force.y = 0.0; s }
+        => ["Column ay is constant, 0, while the vehicle drives bends"], "";
+    // Signs.
+    ANGLES, "", |k, _| { let mut s = flat(k); s.rate.z = -s.rate.z; s }
+        => ["lateral force is -1.0 times speed by yaw rate", "use --columns wz=-wz where", "use --columns ay=-ay where",
+            "wz is -1.0 times the derivative of yaw"], "columns = { wz = '-wz' }";
+    ANGLES, "columns = { wz = '-wz' }", |k, _| flat(k) => ["use --columns wz=wz where"], "";
+    SPEED, "", |k, _| { let mut s = flat(k); s.force.x = -s.force.x; s }
+        => ["If the axis does, use --columns ax=-ax."], "columns = { ax = '-ax' }";
+    SPEED, "mounting = [0.0, 0.0, 180.0]", |k, _| flat(k) => ["If the axis does, check --mounting."], "";
+    // Forces of the opposite sign, as phones write gravity, look like axes that point down.
+    SIX, "", |k, ride| Sample { force: -ride[k].force, ..ride[k] }
+        => ["use --columns \"ax=-ax,ay=-ay,az=-az\""], "columns = { ax = '-ax', ay = '-ay', az = '-az' }";
+    SIX, "", |k, ride| right_down(ride[k], -1.0) => ["use --axes forward-right-down"], "axes = 'forward-right-down'";
+    SIX, "", |k, ride| right_down(ride[k], 1.0) => ["!wrong sign"], "";
+    SIX, "", |k, ride| { let mut s = ride[k]; s.rate.z = -s.rate.z; s }
+        => ["backward: one of them has the wrong sign", "wz=-wz"], "columns = { wz = '-wz' }";
+    // Delays.
+    SPEED, "", |k, _| Sample { speed: flat(k.saturating_sub(25)).speed, ..flat(k) }
+        => ["Column speed comes 0.5 s after the force along x"], "";
+    SPEED, "", |k, _| Sample { speed: flat(k + 15).speed, ..flat(k) }
+        => ["Column speed comes 0.3 s before the force along x"], "";
+    SPEED, "", |k, ride| Sample { speed: ride[k.saturating_sub(5)].speed, ..ride[k] } => ["!comes"], "";
+    ANGLES, "", |k, ride| Sample { angle: ride[k.saturating_sub(25)].angle, ..ride[k] }
+        => ["Column yaw comes 0.5 s after the angular velocity"], "";
+    ANGLES, "", |k, ride| Sample { angle: Sample::of_ride(k + 15, 1.0).angle, ..ride[k] }
+        => ["Column yaw comes 0.3 s before the angular velocity"], "";
+    ANGLES, "", |k, ride| Sample { angle: ride[k.saturating_sub(5)].angle, ..ride[k] } => ["!comes"], "";
+    // Times.
+    SIX, "", |k, ride| Sample { time: (k % 256) as f64, ..ride[k] }
+        => ["time begins again every 256 samples", "--rate HERTZ"], "";
+    SIX, "", |k, ride| Sample { time: ride[k].time + if k > 700 { 3600.0 } else { 0.0 }, ..ride[k] }
+        => ["the clock has jumped", "!--resample"], "";
+    SIX, "", |k, ride| Sample { time: (ride[k].time / 3600.0 * 1e5).floor() / 1e5, ..ride[k] }
+        => ["give the unit of time with --time-unit", "!--resample"], "";
+    SIX, "resample = 50.0", |k, ride| Sample { time: ride[k].time + if k > 700 { 86_400.0 } else { 0.0 }, ..ride[k] }
+        => ["nothing was recorded for 86400 s", "the clock has jumped"], "";
+    SIX, "", |k, ride| Sample { time: k as f64, ..ride[k] } => ["if it counts samples, use --rate"], "";
+    ANGLES, "", |k, _| Sample { time: 0.5 * flat(k).time, ..flat(k) } => ["2.0 times too fast", "!--speed-unit"], "";
+    ANGLES, "", |k, _| Sample { time: 3.0 * flat(k).time, ..flat(k) } => ["3.0 times too slow", "!--speed-unit"], "";
+    ANGLES, "", |k, ride| {
+        let rate = (Sample::of_ride(k + 1, 1.0).angle - ride[k].angle) / 0.02;
+        Sample { time: 3.0 * ride[k].time, rate, speed: 0.0, ..ride[k] }
+    }
+        => ["times the derivatives of the angles: the time seems to run 3.0"], "";
+    // A steady circle has a lasting lateral force and nothing else, also with its heading in degrees.
+    ANGLES, "", |k, _| circle(k, 1.0) => ["!vertical", "!not measured"], "";
+    ANGLES, "", |k, _| circle(k, 1f64.to_radians()) => ["these are degrees, not radians; use --angle-unit deg"], "";
+    ANGLES, "angle-unit = 'deg'", |k, _| circle(k, 1f64.to_radians()) => ["!not measured", "!degrees, not"], "";
+    SIX, "", |k, ride| if k % 2 == 1 { other_sensor(ride[k]) } else { ride[k] }
+        => ["the samples are those of 2 sensors by turns"], "";
+    // Nothing is suspected of this size, of a unit that is given, and of what the speed confirms.
+    SIX, "gravity = 'removed'", |k, _| in_unit(k, GRAVITY)
+        => ["if they are in g, use --force-unit g."], "force-unit = 'g'";
+    SIX, "gravity = 'removed'", |k, _| in_unit(k, 1.0) => [], "";
+    "time,ax [m/s2],ay [m/s2],az [m/s2],wx,wy,wz", "gravity = 'removed'", |k, _| in_unit(k, GRAVITY) => ["!in g"], "";
+    SPEED, "gravity = 'removed'", |k, _| in_unit(k, GRAVITY) => ["--force-unit g"], "force-unit = 'g'";
 };
 
 #[test]
@@ -215,15 +329,20 @@ fn each_change_of_a_ride_is_said_and_its_remedy_is_one() {
         Ok(recording) => words::warnings(&recording).join(" "),
         Err(error) => error,
     };
+    let mut failures = Vec::new();
     for (number, row) in ROWS.iter().enumerate() {
         let found = said(row, row.options);
-        assert_eq!(found.is_empty(), row.said.is_empty(), "row {number}: {found}");
-        assert!(found.contains(row.said), "row {number}: {found}");
+        let is_said = |part: &&str| part.strip_prefix('!').map_or(found.contains(*part), |part| !found.contains(part));
+        let missed: Vec<&str> = row.said.iter().copied().filter(|part| !is_said(part)).collect();
+        if !missed.is_empty() || row.said.is_empty() && !found.is_empty() {
+            failures.push(format!("row {number}, {missed:?}: {found}"));
+        }
         if !row.remedy.is_empty() {
             let remedied = said(row, &format!("{}\n{}", row.options, row.remedy));
-            assert_eq!(remedied, "", "row {number}, remedied");
+            failures.extend((!remedied.is_empty()).then(|| format!("row {number}, remedied: {remedied}")));
         }
     }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
 #[test]
@@ -233,6 +352,6 @@ fn gravity_that_only_the_vertical_force_lacks_is_put_back_along_z_alone() {
     let said = words::warnings(&recording).join(" ");
     assert!(said.contains("Gravity has been taken out of az alone"), "{said}");
     for (k, input) in recording.inputs().iter().enumerate() {
-        assert!((input.specific_force - Sample::of_hills(k).force).amax() < 1e-6, "{k}: {}", input.specific_force);
+        assert!((input.specific_force - Sample::of_ride(k, 1.0).force).amax() < 1e-6, "{k}: {}", input.specific_force);
     }
 }

@@ -18,9 +18,11 @@ use crate::recording::message::RecordingError;
 const SHOWN: usize = 3;
 const LINES_OF_FORM: usize = 20;
 
-/// Forms of files in which columns are not found, by the fields of the lines below the header, and
-/// how to convert them.
-const FORMS: [(fn(&[Vec<String>]) -> bool, &str); 3] = [
+/// True for fields of the lines below a header that are of a form.
+type IsOfForm = fn(&[Vec<String>]) -> bool;
+
+/// Forms of files in which columns are not found, and how to convert them.
+const FORMS: [(IsOfForm, &str); 3] = [
     (
         |lines| lines.iter().flatten().any(|field| field.starts_with(['[', '(']) && field.contains([',', ' '])),
         "; fields hold lists of numbers: make a column of each number, in Python: \
