@@ -169,9 +169,9 @@ impl Record {
         self.made.fill(Made::default());
     }
 
-    /// Goes on to the next tick with the force [`LAG_TICKS`] ticks ago, and the present one with its
-    /// slope. `passes` are the forces of the earlier passes to come and at present, if there are
-    /// any. Returns the forecast.
+    /// Goes on to the next tick with the force [`LAG_TICKS`] ticks ago, and the present one with
+    /// its slope. `passes` are the forces of the earlier passes to come and at present, if there
+    /// are any. Returns the forecast.
     pub fn tick(
         &mut self,
         truth: f64,

@@ -140,7 +140,8 @@ impl Rider {
         if change.is_finite() { state.error + within(change, LARGEST) } else { state.error }
     }
 
-    /// Speed \[m/s\] of the knot number `k`, below [`GAIN_SPEED_COUNT`], for which gains were computed.
+    /// Speed \[m/s\] of the knot number `k`, below [`GAIN_SPEED_COUNT`], for
+    /// which gains were computed.
     pub fn knot(&self, k: usize) -> f64 {
         self.speeds.knot(k, GAIN_SPEED_COUNT)
     }

@@ -26,8 +26,8 @@ pub struct Tested {
     pub fraction: f64,
 }
 
-/// Costs of a recording that was left out, at each of the [`TRIED_FRACTIONS`]. `None` where the limits
-/// are not kept on the other recordings.
+/// Costs of a recording that was left out, at each of the [`TRIED_FRACTIONS`]. `None` where the
+/// limits are not kept on the other recordings.
 type Trials = [Option<Cost>; TRIED_FRACTIONS.len()];
 
 /// Factor by which the scales are reduced at a time, and largest number of times, where limits are
