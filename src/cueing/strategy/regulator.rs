@@ -120,7 +120,7 @@ impl Problem {
     pub fn cost(&self, disturbance: &SMatrix<f64, 6, 6>) -> Result<SMatrix<f64, 6, 6>, Unsolvable> {
         riccati::solve::<6, 12>(&self.a, &(self.b * self.to_input - disturbance), &self.q)
             // Rounding alone makes the least eigenvalue of a semidefinite matrix negative.
-            .filter(|cost| cost.symmetric_eigenvalues().min() >= -1e-9 * cost.amax())
+            .filter(|cost| (cost + SMatrix::from_diagonal_element(1e-9 * cost.amax())).cholesky().is_some())
             .ok_or(Unsolvable::RiccatiEquation)
     }
 
