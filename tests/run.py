@@ -36,7 +36,7 @@ NO_TESTS = 5
 OLDEST_PYTHON = (3, 10)
 WEBASSEMBLY = "wasm32-unknown-unknown"
 BOARD_TARGETS = ("thumbv7em-none-eabihf", "thumbv7m-none-eabi")
-BOARD_TOOLS = ("qemu-system-arm",)
+BOARD_TOOLS = ("gcc-arm-none-eabi", "qemu-system-arm")
 LACKING_LINE = re.compile(r"SKIPPED \[\d+\] (?P<test>\S+?)(:\d+)?: (?P<reason>needs .*)|(?P<part>\S.*?):? +missing \((?P<what>.*)\)")
 """A line of pytest, or of a script beside this one, that says what this machine lacks."""
 lacking = []

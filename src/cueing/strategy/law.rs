@@ -170,7 +170,7 @@ impl Unsolvable {
             Unsolvable::NotBuiltIn => {
                 return ParameterError {
                     variable: variable.to_owned(),
-                    reason: format!("is {value}, which is not built in; build moris-washout with the feature {value}"),
+                    reason: format!("is {value}, which is not built in; build with the feature {value}"),
                 };
             }
         };

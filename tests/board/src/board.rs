@@ -1,12 +1,15 @@
 //! The emulated board: start, semihosting, counts of instructions, and depths of the stack.
 
 use alloc::format;
+use alloc::vec::Vec;
 use core::arch::asm;
 use core::cell::UnsafeCell;
 use core::ptr::{addr_of, addr_of_mut};
 use core::sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed};
 
-use crate::arena;
+use moris_board::{BUFFER_SIZE, arena};
+use moris_washout::Washout;
+
 use crate::ride::{COLUMNS, Drive, ride_all};
 
 unsafe extern "C" {
@@ -41,8 +44,9 @@ unsafe impl<T> Sync for Memory<T> {}
 static NUMBERS: Memory<[f64; 1 + MAX_ROWS * COLUMNS]> = Memory(UnsafeCell::new([0.0; 1 + MAX_ROWS * COLUMNS]));
 const HEAP: usize = 1 << 20;
 static HEAP_MEMORY: Memory<[u64; HEAP / 8]> = Memory(UnsafeCell::new([0; HEAP / 8]));
+static BUFFER: Memory<[u64; BUFFER_SIZE / 8]> = Memory(UnsafeCell::new([0; BUFFER_SIZE / 8]));
 
-/// Word that the unused stack is filled with.
+/// Word that the unused stack and the unused buffer are filled with.
 const UNUSED: u32 = 0x5afe_57ac;
 const SYSTICK_CONTROL: *mut u32 = 0xe000_e010 as *mut u32;
 const SYSTICK_RELOAD: *mut u32 = 0xe000_e014 as *mut u32;
@@ -73,11 +77,6 @@ fn start() -> ! {
 extern "C" fn fault() -> ! {
     print("fault\n");
     exit(false)
-}
-
-#[panic_handler]
-fn panicked(_: &core::panic::PanicInfo) -> ! {
-    fault()
 }
 
 fn semihost(operation: usize, argument: *const usize) -> usize {
@@ -113,14 +112,14 @@ fn read_drive() -> Drive {
 
 static FILLED_FROM: AtomicUsize = AtomicUsize::new(0);
 static STACK_OF_CREATION: AtomicUsize = AtomicUsize::new(0);
-static HEAP_USED: AtomicUsize = AtomicUsize::new(0);
+static BUFFER_USED: AtomicUsize = AtomicUsize::new(0);
 static SUM: AtomicU32 = AtomicU32::new(0);
 static MOST: AtomicU32 = AtomicU32::new(0);
 static COUNT: AtomicU32 = AtomicU32::new(0);
 
 /// Fills the unused stack, from which on its depth counts.
 #[inline(never)]
-fn fill_stack() {
+pub fn fill_stack() {
     let end: *mut u32;
     // SAFETY: it reads the stack pointer.
     unsafe { asm!("mov {}, sp", out(reg) end) };
@@ -143,21 +142,39 @@ fn stack_depth() -> usize {
     FILLED_FROM.load(Relaxed).saturating_sub(word.addr())
 }
 
-/// Before a washout is made: an empty heap, an unused stack.
-pub fn begin() {
-    // SAFETY: what was in it is gone.
-    unsafe { arena::open(HEAP_MEMORY.0.get().cast(), HEAP) };
+/// Empties the heap of this program: what was in it is gone.
+pub fn open_heap() {
+    // SAFETY: nothing else uses the memory.
+    unsafe { arena::open_memory(HEAP_MEMORY.0.get().cast(), HEAP) };
+}
+
+/// Makes a washout in the buffer, and notes how much of the buffer and of the stack that took.
+pub fn create(make: impl FnOnce(*mut u8, usize) -> *mut Washout) -> *mut Washout {
     for count in [&SUM, &MOST, &COUNT] {
         count.store(0, Relaxed);
     }
+    let words: *mut u32 = BUFFER.0.get().cast();
+    // SAFETY: the words are the buffer's, which no washout uses any more.
+    (0..BUFFER_SIZE / 4).for_each(|k| unsafe { words.add(k).write_volatile(UNUSED) });
     fill_stack();
+    let washout = make(words.cast(), BUFFER_SIZE);
+    STACK_OF_CREATION.store(stack_depth(), Relaxed);
+    // SAFETY: as above.
+    let used = (0..BUFFER_SIZE / 4).rfind(|&k| unsafe { words.add(k).read_volatile() } != UNUSED);
+    BUFFER_USED.store(used.map_or(0, |last| 4 * (last + 1)), Relaxed);
+    washout
 }
 
-/// A washout is made.
-pub fn made() {
-    STACK_OF_CREATION.store(stack_depth(), Relaxed);
-    HEAP_USED.store(HEAP - arena::free(), Relaxed);
-    fill_stack();
+/// A copy of the buffer: the state of its washout.
+pub fn saved_buffer() -> Vec<u64> {
+    // SAFETY: the buffer is not written meanwhile.
+    unsafe { (*BUFFER.0.get()).to_vec() }
+}
+
+/// Writes a copy back into the buffer.
+pub fn restore_buffer(saved: &[u64]) {
+    // SAFETY: nothing refers into the buffer meanwhile.
+    unsafe { (*BUFFER.0.get()).copy_from_slice(saved) };
 }
 
 fn ticks() -> u32 {
@@ -180,9 +197,9 @@ pub fn report(name: &str) {
     let [sum, most, count] = [&SUM, &MOST, &COUNT].map(|count| count.load(Relaxed));
     let mean = u64::from(sum) * u64::from(INSTRUCTIONS_PER_TICK) / u64::from(count.max(1));
     let stacks = [STACK_OF_CREATION.load(Relaxed), stack_depth()];
-    let [sizes, heap] = [size_of::<moris_washout::Washout>(), HEAP_USED.load(Relaxed)];
+    let buffer = BUFFER_USED.load(Relaxed);
     print(&format!(
-        "# {name}: instructions a step {mean} mean {} most, washout {sizes} B, heap {heap} B, stack {} B to make {} B to step\n",
+        "# {name}: instructions a step {mean} mean {} most, buffer {buffer} B, stack {} B to make {} B to step\n",
         most * INSTRUCTIONS_PER_TICK,
         stacks[0],
         stacks[1],

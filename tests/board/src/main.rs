@@ -9,8 +9,6 @@
 extern crate alloc;
 
 #[cfg(target_os = "none")]
-mod arena;
-#[cfg(target_os = "none")]
 mod board;
 #[cfg(target_os = "none")]
 mod ride;

@@ -1,12 +1,14 @@
 //! The drive, and the sets that make it.
 
 use alloc::format;
+use core::ffi::{CStr, c_char};
 
-use moris_interface::{Group, Writer, slot_count};
+use moris_board::{OUTPUT_COUNT, moris_create, moris_preview, moris_read, moris_step};
+use moris_interface::slots_of;
 use moris_washout::motion::orientation::RollPitchYaw;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::presets::{self, ADAPTIVE, CLASSICAL, OPTIMAL, PAPER, PREDICTIVE, PREVIEW, ROBUST};
-use moris_washout::{Input, Output, Preview, Washout};
+use moris_washout::presets::{self, ADAPTIVE, CLASSICAL, OPTIMAL, PAPER, PREVIEW, ROBUST};
+use moris_washout::{Input, Preview, Washout};
 
 use crate::board;
 
@@ -14,12 +16,14 @@ use crate::board;
 pub const COLUMNS: usize = 11;
 /// Elements of a preview, and seconds between them.
 const PREVIEWED: (usize, f64) = (20, 0.2);
+/// Rows that are driven once more, from a state that was saved.
+const REPEATED_ROWS: usize = 50;
 const SETS: [(&str, &str); 7] = [
     ("classical", CLASSICAL),
     ("adaptive", ADAPTIVE),
     ("optimal", OPTIMAL),
     ("robust", ROBUST),
-    ("predictive", PREDICTIVE),
+    ("default", ""),
     ("preview", PREVIEW),
     ("paper", PAPER),
 ];
@@ -60,30 +64,63 @@ impl Drive {
 /// The whole drive with each set.
 pub fn ride_all(drive: &Drive) {
     for (name, set) in SETS {
-        board::begin();
-        let parameters = presets::parameters(set);
-        match Washout::new(&parameters) {
-            Ok(washout) => ride(name, &mut washout.starting_with(&drive.input(0)), drive),
-            Err(error) => board::print(&format!("{name} {error}\n")),
+        board::open_heap();
+        let parameters = slots_of(&presets::parameters(set));
+        let mut message = [0; 160];
+        let (text, size) = (message.as_mut_ptr(), message.len());
+        let washout = board::create(|buffer, buffer_size| {
+            // SAFETY: the pointers are those of the buffer, the vector and the array.
+            unsafe { moris_create(buffer, buffer_size, parameters.as_ptr(), parameters.len(), text, size) }
+        });
+        board::open_heap();
+        if washout.is_null() {
+            board::print(&format!("# {name}: {}\n", text_of(&message)));
+        } else {
+            ride(name, washout, drive);
         }
     }
 }
 
-fn ride(name: &str, washout: &mut Washout, drive: &Drive) {
-    board::made();
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut slots = [0.0; slot_count(Output::ROWS)];
-    for row in 0..drive.rows.len() {
-        let (input, preview) = (drive.input(row), drive.preview(row));
-        board::measured(|| {
-            washout.preview(&preview);
-            washout.step(&input, drive.step);
-        });
-        washout.output().write(&mut Writer::new(&mut slots));
-        for slot in slots {
-            hash = (hash ^ slot.to_bits()).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
+fn text_of(message: &[c_char]) -> &str {
+    // SAFETY: it is as long as the slice.
+    let bytes = unsafe { core::slice::from_raw_parts(message.as_ptr().cast(), message.len()) };
+    CStr::from_bytes_until_nul(bytes).ok().and_then(|text| text.to_str().ok()).unwrap_or_default()
+}
+
+fn ride(name: &str, washout: *mut Washout, drive: &Drive) {
+    // SAFETY: the washout has just been made, and is moved within its place.
+    unsafe { washout.write(washout.read().starting_with(&drive.input(0))) };
+    board::fill_stack();
+    let until = drive.rows.len();
+    let saved_at = until - REPEATED_ROWS;
+    let before = hash_of_rows(washout, drive, 0..saved_at, 0xcbf2_9ce4_8422_2325);
+    let saved = board::saved_buffer();
+    let hash = hash_of_rows(washout, drive, saved_at..until, before);
     board::print(&format!("{name} {hash:016x}\n"));
     board::report(name);
+    board::restore_buffer(&saved);
+    if hash_of_rows(washout, drive, saved_at..until, before) != hash {
+        board::print("restored differently\n");
+    }
+}
+
+/// Continues a hash with all outputs at these rows.
+fn hash_of_rows(washout: *mut Washout, drive: &Drive, rows: core::ops::Range<usize>, mut hash: u64) -> u64 {
+    let mut output = [0.0; OUTPUT_COUNT];
+    for row in rows {
+        let (input, preview) = (slots_of(&drive.input(row)), slots_of(&drive.preview(row)));
+        board::measured(|| {
+            // SAFETY: the washout is there, and the arrays are as long as their groups.
+            unsafe {
+                moris_preview(washout, preview.as_ptr());
+                moris_step(washout, input.as_ptr(), drive.step);
+            }
+        });
+        // SAFETY: as above.
+        unsafe { moris_read(washout, output.as_mut_ptr()) };
+        for value in output {
+            hash = (hash ^ value.to_bits()).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+    hash
 }

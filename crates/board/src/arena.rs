@@ -1,5 +1,6 @@
-//! The heap: a piece of memory, handed out from its start on. A washout allocates only while it is
-//! made.
+//! The memory that a washout is made in: a piece of the caller's, handed out from its start on.
+//!
+//! A washout allocates only while it is made. Copying the piece copies the whole state.
 
 use core::alloc::{GlobalAlloc, Layout};
 use core::ptr;
@@ -18,14 +19,19 @@ static ARENA: Arena = Arena { start: AtomicUsize::new(0), end: AtomicUsize::new(
 ///
 /// # Safety
 /// The piece has as many bytes, nothing else uses it, and no interrupt allocates.
-pub unsafe fn open(piece: *mut u8, size: usize) {
+pub unsafe fn open_memory(piece: *mut u8, size: usize) {
     let start = piece.expose_provenance();
     ARENA.start.store(start, Relaxed);
     ARENA.end.store(start + size, Relaxed);
 }
 
-/// Bytes that are free.
-pub fn free() -> usize {
+/// Refuses further allocations.
+pub fn close_memory() {
+    ARENA.end.store(ARENA.start.load(Relaxed), Relaxed);
+}
+
+/// Bytes that are still free.
+pub fn free_bytes() -> usize {
     ARENA.end.load(Relaxed) - ARENA.start.load(Relaxed)
 }
 
