@@ -1,4 +1,4 @@
-//! What the outputs depend on before the first step, as a description lists it.
+//! Dependencies of the outputs before the first step, as a description lists them.
 
 use std::collections::{BTreeMap, BTreeSet};
 

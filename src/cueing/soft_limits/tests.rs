@@ -39,7 +39,7 @@ fn by_interior_point(demand: &Accelerations, inverse_weights: &Accelerations, ro
     Accelerations::from_column_slice(&solver.solution.x[..6])
 }
 
-/// What the nearest accelerations minimise.
+/// Cost that the nearest accelerations minimise.
 fn cost(accelerations: &Accelerations, demand: &Accelerations, rows: &Rows) -> f64 {
     let changed = accelerations - demand;
     let values = rows.normals * accelerations;

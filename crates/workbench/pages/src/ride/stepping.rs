@@ -201,7 +201,7 @@ impl Ride {
         }
     }
 
-    /// What follows has nothing to do with the road so far.
+    /// Starts a new road, without relation to the last one.
     fn interrupt(&mut self) {
         self.road.interrupt();
         self.washout.preview(&Preview::default());

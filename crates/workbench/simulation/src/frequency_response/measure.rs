@@ -41,7 +41,7 @@ const BLOCK_AGREEMENT: f64 = 1e-4;
 /// input that is no matter.
 pub const SETTLED: f64 = 1e-2;
 
-/// What moves by the washout's commands, and what its rider feels.
+/// Platform moved by the washout's commands, and the motion that its rider feels.
 pub trait Machine {
     /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the
     /// order of the channels.

@@ -163,7 +163,7 @@ pub struct Tables {
     hold: [Targets; 2],
     fade: [Targets; 2],
     trend: Targets,
-    /// What each target's fit starts with, and forgets to.
+    /// Prior of each target's recursive least-squares fit; old data decay towards it.
     priors: [Regression; TARGETS],
 }
 
