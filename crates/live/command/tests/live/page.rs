@@ -204,6 +204,15 @@ fn hostile_connections_do_no_harm() {
     end(live);
 }
 
+/// Sets its flag when it is dropped, by a panic too: threads that wait for it end.
+struct SetAtEnd<'a>(&'a std::sync::atomic::AtomicBool);
+
+impl Drop for SetAtEnd<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, std::sync::atomic::Ordering::Relaxed);
+    }
+}
+
 /// Connections without end from the same machine, which ask for nothing: an order is answered.
 #[test]
 fn a_flood_of_connections_loses_no_stop() {
@@ -211,6 +220,7 @@ fn a_flood_of_connections_loses_no_stop() {
     let (mut live, page) = start(directory.path(), &[]);
     let ends = std::sync::atomic::AtomicBool::new(false);
     std::thread::scope(|scope| {
+        let _ended = SetAtEnd(&ends);
         for _ in 0..4 {
             scope.spawn(|| {
                 let mut held = std::collections::VecDeque::new();
@@ -219,6 +229,8 @@ fn a_flood_of_connections_loses_no_stop() {
                     if held.len() > 50 {
                         held.pop_front();
                     }
+                    // Thousands a second, and time for others on a machine with one core.
+                    std::thread::sleep(std::time::Duration::from_micros(200));
                 }
             });
         }
@@ -227,7 +239,6 @@ fn a_flood_of_connections_loses_no_stop() {
         let answers = [(); 20].map(|()| page.ask("", "{\"event\":\"stop\"}"));
         assert_eq!(answers, [200; 20]);
         live.wait_for("off");
-        ends.store(true, std::sync::atomic::Ordering::Relaxed);
     });
     live.interrupt();
     assert!(live.end().0.success());
