@@ -9,7 +9,7 @@ use serde::Deserialize;
 pub static DIALECTS: LazyLock<Dialects> =
     LazyLock::new(|| toml::from_str(include_str!("dialects.toml")).expect("a test reads the dialects"));
 
-/// What is known of files by their names and first bytes.
+/// Files known by their names and first bytes.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dialects {
@@ -39,7 +39,7 @@ pub struct Channel {
 pub struct Foreign {
     /// Bytes that show it, each a character of Latin-1: one of them is enough.
     marks: Vec<String>,
-    /// What it is, and how to make CSV of it.
+    /// The program and the way to CSV.
     pub remedy: String,
 }
 

@@ -94,7 +94,7 @@ impl Relation {
     }
 }
 
-/// How two signals are related.
+/// Relation of two signals.
 pub fn relation(x: &[f64], y: &[f64]) -> Relation {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (xx, xy, yy) = (dot(x, x), dot(x, y), dot(y, y));

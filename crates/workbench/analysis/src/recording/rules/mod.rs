@@ -30,7 +30,7 @@ struct Rule {
     needs: &'static [Quantity],
     /// Quantities that are tested one by one.
     of: &'static [Quantity],
-    /// What breaks the rule, as a sentence; none where nothing does.
+    /// The breach of the rule as a sentence; none where there is none.
     test: fn(&Channels, Quantity) -> Option<Message>,
     /// Later rules whose findings have the cause that this one names: it is told in their place.
     supersedes: &'static [&'static str],
