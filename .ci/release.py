@@ -124,7 +124,7 @@ def program(options):
         run(moris, "simulate", "ride.csv", cwd=folder)
         base = options.output / "MorisWashout.fmu"
         if base.exists():
-            run(moris, "build-fmu", "--base", base, "--parameters", "motorcycle", cwd=folder)
+            run(moris, "build-fmu", "--base", base, "--parameters", "classical", cwd=folder)
 
 
 def wheel(options):

@@ -257,7 +257,7 @@ def test_outputs_have_the_fmus_names_shapes_and_kinds(ride):
         ({"parameters": {"tilt.rateLimit": float("nan")}}, "tilt.rateLimit", "must be a finite number"),
         ({"parameters": {"gravityRemoval": "ful"}}, "gravityRemoval", "must be one of head_vertical, full, none"),
         ({"parameters": {"head.torsoLength": 1.5}}, "head.torsoLength", "must not exceed head.height"),
-        ({"parameters": "motorcicle"}, "motorcicle", "did you mean motorcycle"),
+        ({"parameters": "classicle"}, "classicle", "did you mean classical"),
         ({"strategy": "optimum"}, "strategy", "must be one of classical, adaptive, optimal, predictive"),
         ({"rig": {"neutralHight": 1.0}}, "neutralHight", "did you mean neutralHeight"),
         ({"rig": "no/such/rig.toml"}, None, "cannot read no/such/rig.toml"),
@@ -281,7 +281,7 @@ def test_the_error_of_a_combination_has_the_value():
 def test_parameters_come_from_presets_dicts_files_and_lists(tmp_path):
     file = tmp_path / "mine.toml"
     file.write_text("[tilt]\nrateLimit = 0.03\n")
-    washout = moris.Washout(parameters=["motorcycle", file, {"tilt": {"angleLimit": np.float32(0.25)}, "limit.specificForce.x": np.int64(7)}])
+    washout = moris.Washout(parameters=["classical", file, {"tilt": {"angleLimit": np.float32(0.25)}, "limit.specificForce.x": np.int64(7)}])
     values = washout.parameters
     assert (values["tilt.rateLimit"], values["tilt.angleLimit"], values["limit.specificForce.x"]) == (0.03, 0.25, 7.0)
     assert values["strategy"] == "classical" and set(values) == set(moris.variables("parameter"))
@@ -424,7 +424,7 @@ def test_the_variables_are_those_of_the_fmu(fmu):
 
 
 def test_what_is_shipped_goes_by_name():
-    assert {"default", "classical", "motorcycle", "paper"} <= set(moris.presets())
+    assert {"default", "classical", "paper"} <= set(moris.presets())
     assert {"default", "hobby150", "narrow"} <= set(moris.rigs())
     for name in moris.rigs():
         file = ROOT / "examples" / "rigs" / f"{name}.toml"

@@ -159,8 +159,8 @@ def check_included():
 def check_start_values():
     """Start values in the sources, which the C compiler alone makes a library."""
     ending, platform, define = VERSIONS["2"]
-    folder = WORK / "motorcycle"
-    run("cargo", "build-fmu", "--model", MODEL, "--sources", "--parameters", "motorcycle", "--output", folder)
+    folder = WORK / "paper"
+    run("cargo", "build-fmu", "--model", MODEL, "--sources", "--parameters", "paper", "--output", folder)
     with zipfile.ZipFile(folder / f"{MODEL}{ending}") as archive:
         archive.extractall(folder)
     made = folder / "made.so"
