@@ -103,7 +103,7 @@ interface! {
         "platform.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0);
         /// Angular velocity of the platform in the base frame.
         "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
-        /// Commanded length of the actuator, from base joint to platform joint.
+        /// Commanded length of the actuator, from base joint to platform joint; with cranks, the distance from axle to platform joint.
         "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], starts_from(&["rig."]);
         /// Commanded rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
@@ -137,6 +137,10 @@ interface! {
         "status.softLimited" soft_limited: bool = false;
         /// Factor by which the automatic scale multiplies surge, sway and rates; 1 while it is off.
         "automaticScale.factor" scale_factor: f64 = 1.0, starts_from(&["automaticScale.", "scale.automatic"]);
+        /// Commanded angle of the crank's arm above its heading; 0 with legs.
+        "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], starts_from(&["crank.", "rig."]);
+        /// Commanded angular velocity of the crank's arm; 0 with legs.
+        "actuator[#].angularVelocity" angular_rate: [f64; 6] [RAD_PER_S] = [0.0; 6];
     }
 }
 
@@ -433,18 +437,70 @@ interface! {
     pub struct Rig: Parameter, Fixed {
         /// Height of the platform frame's origin above the base frame's at neutral; negative for a platform that hangs.
         "rig.neutralHeight" neutral_height: f64 [M] { -100.0 ..= 100.0 } = 1.091, heading("Rig");
-        /// Shortest length of an actuator.
+        /// Shortest length of an actuator; without effect with cranks.
         "actuator.minLength" min_length: f64 [M] { 1e-3 ..= 100.0 } = 1.0, heading("Rig");
-        /// Longest length of an actuator.
+        /// Longest length of an actuator; without effect with cranks.
         "actuator.maxLength" max_length: f64 [M] { 1e-3 ..= 100.0 } = 1.6, heading("Rig");
-        /// Largest speed of an actuator.
+        /// Largest speed of an actuator; with cranks, of the arms' ends.
         "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] { 1e-3 ..= 100.0 } = 1.0, heading("Rig");
-        /// Largest acceleration of an actuator.
+        /// Largest acceleration of an actuator; with cranks, of the arms' ends along their circle.
         "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] { 1e-3 ..= 1e4 } = 15.0, heading("Rig");
         /// Joint of the actuator on the base, in the base frame.
         "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
         /// Joint of the actuator on the platform, in the platform frame.
         "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
+        /// Length of a crank's arm, from its axle at the base joint to the rod; 0 for a rig with legs.
+        "crank.arm" crank_arm: f64 [M] { 0.0 ..= 100.0 } = 0.0;
+        /// Length of a crank's rod, from the arm's end to the platform joint.
+        "crank.rod" crank_rod: f64 [M] { 0.0 ..= 100.0 } = 0.0;
+        /// Heading of the crank's arm while it is level, from x towards y; the axle is horizontal and across it.
+        "crank.heading[#]" crank_heading: [f64; 6] [RAD] { -7.0 ..= 7.0 } = [0.0; 6];
+        /// Lowest angle of a crank's arm above its heading.
+        "crank.minAngle" crank_min_angle: f64 [RAD] { -2.0 ..= 2.0 } = -1.0;
+        /// Highest angle of a crank's arm above its heading.
+        "crank.maxAngle" crank_max_angle: f64 [RAD] { -2.0 ..= 2.0 } = 1.0;
+        /// Smallest transmission of a crank: the sine of the angle between rod and arm, in the arm's plane and with the rod's slant.
+        "crank.leastTransmission" crank_least_transmission: f64 { 0.05 ..= 0.99 } = 0.3;
+    }
+}
+
+impl Output {
+    /// Positions of the actuators and their rates, within [`Rig::stroke`] \[m, m/s\]: lengths of
+    /// legs, or arcs of the cranks' arms.
+    pub fn actuators(&self, rig: &Rig) -> [[f64; 6]; 2] {
+        if rig.has_cranks() {
+            [self.angle, self.angular_rate].map(|values| values.map(|value| rig.crank_arm * value))
+        } else {
+            [self.length, self.leg_velocity]
+        }
+    }
+}
+
+impl Rig {
+    /// True if the actuators are cranks, and not legs.
+    pub fn has_cranks(&self) -> bool {
+        self.crank_arm > 0.0
+    }
+
+    /// The ends of an actuator's stroke \[m\]: its shortest and longest length, or the arcs of a
+    /// crank's arm at its lowest and highest angle.
+    pub fn stroke(&self) -> [f64; 2] {
+        if self.has_cranks() {
+            [self.crank_min_angle, self.crank_max_angle].map(|angle| self.crank_arm * angle)
+        } else {
+            [self.min_length, self.max_length]
+        }
+    }
+
+    /// The length of an actuator's stroke \[m\].
+    pub fn stroke_length(&self) -> f64 {
+        let [start, end] = self.stroke();
+        end - start
+    }
+
+    /// The farthest that a platform joint can be from its base joint \[m\].
+    pub fn farthest_joint(&self) -> f64 {
+        if self.has_cranks() { self.crank_arm + self.crank_rod } else { self.max_length }
     }
 }
 

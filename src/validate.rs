@@ -3,10 +3,11 @@
 use alloc::{borrow::ToOwned, format, string::String, vec, vec::Vec};
 
 use moris_interface::{Condition, Group, Kind, ParameterError, Row, check_fixed, refuse, shown, slot_count, slots_of};
+use nalgebra::Vector2;
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig};
 use crate::platform::reach::{Axis, single_axis_range, stroke_margin};
-use crate::platform::{Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
+use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
@@ -71,7 +72,7 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
 const MIN_ROOM_FRACTION: f64 = 0.1;
 
 fn near_an_end(rig: &Rig) -> Option<String> {
-    let (room, stroke) = (stroke_margin(rig, &Pose::neutral(rig)), rig.max_length - rig.min_length);
+    let (room, stroke) = (stroke_margin(rig, &Pose::neutral(rig)), rig.stroke_length());
     (room < MIN_ROOM_FRACTION * stroke).then(|| {
         format!(
             "rig.neutralHeight is {} m, where a leg is only {room:.4} m from an end of its stroke of {stroke:.3} m: the \
@@ -219,6 +220,9 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), ParameterE
 /// # Errors
 /// The first parameter that cannot be used, and why.
 pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
+    if let Some(cranks) = Cranks::of(rig) {
+        check_cranks(rig, &cranks)?;
+    }
     let Rig { min_length, max_length, .. } = *rig;
     if min_length >= max_length {
         return refuse(
@@ -228,7 +232,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
     }
     let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig));
     for (i, length) in neutral.iter().enumerate() {
-        if !(min_length < *length && *length < max_length) {
+        if !(rig.has_cranks() || min_length < *length && *length < max_length) {
             return refuse(
                 "rig.neutralHeight",
                 format!(
@@ -250,13 +254,135 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
         Err(failed) => refuse(
             "rig.base, rig.platform",
             format!(
-                "make the platform singular inside the stroke of its actuators, at or near lengths of {:.3?} m; choose other \
-                 joints, or a shorter stroke{}",
-                failed.lengths,
+                "make the platform singular inside the stroke of its actuators, at or near {}; choose other joints, or a \
+                 shorter stroke{}{}",
+                positions_text(rig, &failed.lengths),
+                if rig.has_cranks() { ", or correct the order of crank.heading" } else { "" },
                 numbering_advice(rig)
             ),
         ),
     }
+}
+
+/// Positions of the actuators as a text: lengths of legs, or angles of cranks.
+fn positions_text(rig: &Rig, positions: &[f64; 6]) -> String {
+    if rig.has_cranks() {
+        format!("angles of {:.1?} degrees", positions.map(|arc| (arc / rig.crank_arm).to_degrees()))
+    } else {
+        format!("lengths of {positions:.3?} m")
+    }
+}
+
+/// Checks cranks at neutral: the order of their angles, and that their arms do not cross. Each rod
+/// must reach its joint, with the arm within its angles and away from a dead centre.
+fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
+    let Rig { crank_min_angle, crank_max_angle, crank_rod, crank_arm, .. } = *rig;
+    let degrees = f64::to_degrees;
+    if crank_min_angle >= crank_max_angle {
+        return refuse(
+            "crank.minAngle",
+            format!("is {crank_min_angle} rad; it must be below crank.maxAngle, {crank_max_angle} rad"),
+        );
+    }
+    if crank_rod <= crank_arm {
+        return refuse(
+            "crank.rod",
+            format!(
+                "is {crank_rod} m; it must be longer than crank.arm, {crank_arm} m, or the crank passes a dead centre"
+            ),
+        );
+    }
+    if let Some([first, second]) = crossing_arms(rig) {
+        return refuse(
+            "crank.arm",
+            format!(
+                "is {crank_arm} m, with which the arms of cranks {first} and {second} meet above the base; shorten the arms, or \
+                 correct crank.heading[{first}], crank.heading[{second}] or the base joints"
+            ),
+        );
+    }
+    let geometry = Geometry::from(rig);
+    let neutral = Pose::neutral(rig);
+    for i in 0..6 {
+        let joint = geometry.between(i, &neutral);
+        let [shortest, longest] = cranks.reaching_rods(i, &joint);
+        if !(shortest < crank_rod && crank_rod < longest) {
+            return refuse(
+                "crank.rod",
+                format!(
+                    "is {crank_rod} m, but at neutral the rod of crank {} needs {shortest:.4} to {longest:.4} m to reach its joint; \
+                     correct crank.rod, crank.arm or rig.neutralHeight, {} m{}",
+                    i + 1,
+                    rig.neutral_height,
+                    heading_advice(rig)
+                ),
+            );
+        }
+    }
+    for i in 0..6 {
+        let state = cranks.arm_state(i, &geometry.between(i, &neutral));
+        let angle = state.angle();
+        if !(crank_min_angle < angle && angle < crank_max_angle) {
+            return refuse(
+                "rig.neutralHeight",
+                format!(
+                    "is {} m, and there the arm of crank {} would stand at {:.2} degrees, outside its angles from {:.2} to \
+                     {:.2}; correct it, or crank.heading[{}], crank.minAngle or .maxAngle{}",
+                    rig.neutral_height,
+                    i + 1,
+                    degrees(angle),
+                    degrees(crank_min_angle),
+                    degrees(crank_max_angle),
+                    i + 1,
+                    heading_advice(rig)
+                ),
+            );
+        }
+        if state.transmission <= cranks.least_transmission {
+            return refuse(
+                "crank.leastTransmission",
+                format!(
+                    "is {}, but at neutral crank {} has only {:.3}: it is near a dead centre, where rod and arm are in line; reduce \
+                     it, or choose another crank.rod, crank.heading[{}] or rig.neutralHeight{}",
+                    cranks.least_transmission,
+                    i + 1,
+                    state.transmission,
+                    i + 1,
+                    heading_advice(rig)
+                ),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The first two cranks, from 1, whose arms cross each other as seen from above while both are
+/// level. Both may then be at the same height.
+fn crossing_arms(rig: &Rig) -> Option<[usize; 2]> {
+    let arm = |i: usize| {
+        let (sin, cos) = libm::sincos(rig.crank_heading[i]);
+        (rig.base[i].xy(), rig.crank_arm * Vector2::new(cos, sin))
+    };
+    let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| [i, j]));
+    pairs.into_iter().find_map(|[i, j]| {
+        let [(from, first), (to, second)] = [arm(i), arm(j)];
+        let turn = first.perp(&second);
+        let apart = to - from;
+        let [along_first, along_second] = [apart.perp(&second) / turn, apart.perp(&first) / turn];
+        let cross = (0.0..=1.0).contains(&along_first) && (0.0..=1.0).contains(&along_second);
+        let high = (rig.base[i].z - rig.base[j].z).abs() <= 2.0 * rig.crank_arm;
+        (cross && high).then_some([i + 1, j + 1])
+    })
+}
+
+/// Advice as the end of a message, where the cranks would stand at neutral with their arms
+/// turned by half a circle.
+fn heading_advice(rig: &Rig) -> String {
+    let turned = Rig { crank_heading: rig.crank_heading.map(|angle| angle + core::f64::consts::PI), ..*rig };
+    if stroke_margin(&turned, &Pose::neutral(&turned)) > 0.0 {
+        return ". With the headings turned by 180 degrees it would fit".to_owned();
+    }
+    numbering_advice(rig)
 }
 
 /// Advice as the end of a message, for joints whose lists go opposite ways round.
@@ -268,7 +394,8 @@ fn numbering_advice(rig: &Rig) -> String {
 /// between two ends of a step.
 fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), ParameterError> {
     let reserve = stroke_reserve(rig, longest_step);
-    let least = neutral.iter().map(|length| (length - rig.min_length).min(rig.max_length - length));
+    let [start, end] = rig.stroke();
+    let least = neutral.iter().map(|length| (length - start).min(end - length));
     let room = least.fold(f64::INFINITY, f64::min);
     if room > reserve {
         return Ok(());

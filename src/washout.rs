@@ -24,7 +24,10 @@ use crate::interface::{
 };
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
-use crate::platform::{ActuatorGuard, LocationFrame, PlatformCoordinates, PlatformMotion, PlatformState};
+use crate::platform::{
+    ActuatorGuard, Legs, LocationFrame, PlatformCoordinates, PlatformMotion, PlatformState, inverse_kinematics,
+    leg_accelerations,
+};
 use crate::validate::{check, check_change};
 
 /// The washout filter with its platform.
@@ -567,6 +570,7 @@ impl Washout {
     /// The output now.
     pub fn output(&self) -> Output {
         let PlatformState { motion, legs, .. } = self.guard.now();
+        let (legs, [angle, angular_rate]) = self.actuators(motion, legs);
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let (plan_kept, plan_age, plan_iterations) = match self.strategy.plan() {
             Some(plan) => (plan.kept, plan.age, plan.iterations as i32),
@@ -595,6 +599,22 @@ impl Washout {
             plan_iterations,
             soft_limited: self.limited.soft,
             scale_factor: self.scale.factor(),
+            angle,
+            angular_rate,
+        }
+    }
+
+    /// Lengths and rates of the legs, and angles and rates of the cranks. With cranks the lengths
+    /// are the distances of the joints.
+    #[inline(always)]
+    fn actuators(&self, motion: &PlatformMotion, legs: &Legs) -> (Legs, [[f64; 6]; 2]) {
+        let geometry = self.guard.geometry();
+        match &geometry.cranks {
+            None => (*legs, [[0.0; 6]; 2]),
+            Some(cranks) => {
+                let angles = [legs.length, legs.velocity].map(|values| values.map(|value| value / cranks.arm));
+                (inverse_kinematics(&geometry.with_legs(), motion), angles)
+            }
         }
     }
 
@@ -605,6 +625,15 @@ impl Washout {
     /// over the last internal step. They are zero before the first.
     pub fn output_derivative(&self) -> Output {
         let PlatformState { motion, legs, .. } = self.guard.now();
+        let accelerations = self.guard.leg_accelerations();
+        let (legs, [_, angular_rate]) = self.actuators(motion, legs);
+        let (leg_velocity, angular_acceleration) = match &self.guard.geometry().cranks {
+            None => (accelerations, [0.0; 6]),
+            Some(cranks) => (
+                leg_accelerations(&self.guard.geometry().with_legs(), motion),
+                accelerations.map(|acceleration| acceleration / cranks.arm),
+            ),
+        };
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let per_step = if self.before.step > 0.0 { 1.0 / self.before.step } else { 0.0 };
         Output {
@@ -614,7 +643,9 @@ impl Washout {
             orientation: motion.orientation.rates(motion.angular_velocity),
             angular_velocity: motion.angular_acceleration,
             length: legs.velocity,
-            leg_velocity: self.guard.leg_accelerations(),
+            leg_velocity,
+            angle: angular_rate,
+            angular_rate: angular_acceleration,
             felt_specific_force: (self.felt.specific_force - self.before.felt.specific_force) * per_step,
             felt_angular_velocity: (self.felt.angular_velocity - self.before.felt.angular_velocity) * per_step,
             tilt_roll: tilt_roll.velocity,

@@ -1,4 +1,5 @@
-//! Forward kinematics: from leg lengths to the pose, by Newton's method from a pose nearby.
+//! Forward kinematics: from leg lengths or arcs of cranks to the pose, by Newton's
+//! method from a pose nearby.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -23,7 +24,9 @@ pub struct NotConverged {
     pub residual: f64,
 }
 
-/// The pose in which the legs have these lengths \[m\], on the branch of the pose `guess`.
+/// The pose in which the legs have these lengths \[m\], on the branch of the pose
+/// `guess`. With cranks they are the arcs of the arms; the rods from the arms' ends are
+/// then legs of a fixed length.
 ///
 /// ```
 /// use moris_washout::Rig;
@@ -43,6 +46,9 @@ pub struct NotConverged {
 /// # Errors
 /// If Newton's method does not converge within [`MAX_ITERATIONS`].
 pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose) -> Result<Pose, NotConverged> {
+    if let Some(cranks) = &geometry.cranks {
+        return forward_kinematics(&cranks.rods(geometry, lengths), &[cranks.rod; 6], guess);
+    }
     let target = Vector6::from(*lengths);
     let mut pose = *guess;
     let mut residual = f64::INFINITY;

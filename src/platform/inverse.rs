@@ -1,4 +1,5 @@
-//! Inverse kinematics: L_i = |v_p + R a_i - b_i| and its derivatives.
+//! Inverse kinematics: L_i = |v_p + R a_i - b_i| and its derivatives; those of cranks are in
+//! [`Cranks`](super::Cranks).
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +7,8 @@ use super::{Geometry, PlatformMotion, Pose};
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
 
-/// The six legs: length \[m\] and rate \[m/s\].
+/// The six legs: length \[m\] and rate \[m/s\]. With cranks, the length is the arc of an arm's end
+/// from its heading, positive up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Legs {
     pub length: [f64; 6],
@@ -43,7 +45,10 @@ const SHORTEST: f64 = 1e-9;
 /// ```
 #[inline(always)]
 pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
-    let Geometry { base, platform } = geometry;
+    let Geometry { base, platform, cranks } = geometry;
+    if let Some(cranks) = cranks {
+        return cranks.inverse(geometry, motion);
+    }
     let arm = platform.turned(&motion.orientation.rotation);
     let (p, v, w) = (motion.position, motion.velocity, motion.angular_velocity);
     let mut legs = Legs::default();
@@ -61,21 +66,26 @@ pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs 
 }
 
 /// The six legs with their accelerations: length \[m\], rate \[m/s\] and acceleration \[m/s2\].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LegMotion {
     pub length: [f64; 6],
     pub velocity: [f64; 6],
     pub acceleration: [f64; 6],
+    /// The smallest transmission of the cranks; 1 with legs.
+    pub transmission: f64,
 }
 
 /// Lengths, rates and accelerations of the legs for a motion of the platform.
 #[inline]
 pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
-    let Geometry { base, platform } = geometry;
+    let Geometry { base, platform, cranks } = geometry;
+    if let Some(cranks) = cranks {
+        return cranks.motion(geometry, motion);
+    }
     let arm = platform.turned(&motion.orientation.rotation);
     let PlatformMotion { position: p, velocity: v, acceleration: a, .. } = motion;
     let (w, turn) = (motion.angular_velocity, motion.angular_acceleration);
-    let mut legs = LegMotion { length: [0.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6] };
+    let mut legs = LegMotion { transmission: 1.0, ..LegMotion::default() };
     // Written out and not in vectors, so that the processor does two legs at a time.
     for i in 0..6 {
         let (ax, ay, az) = (arm.x[i], arm.y[i], arm.z[i]);
@@ -118,7 +128,7 @@ pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 
     leg_motion(geometry, motion).acceleration
 }
 
-/// Lengths of the legs in a pose \[m\].
+/// Lengths of the legs, or arcs of the cranks, in a pose \[m\].
 ///
 /// ```
 /// use moris_washout::Rig;
@@ -129,9 +139,10 @@ pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 
 /// assert!(lengths.iter().all(|length| (length - 1.3).abs() < 1e-3));
 /// ```
 pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
-    core::array::from_fn(|i| {
-        (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
-    })
+    match &geometry.cranks {
+        None => core::array::from_fn(|i| geometry.between(i, pose).norm()),
+        Some(cranks) => cranks.arcs(geometry, pose),
+    }
 }
 
 #[cfg(test)]

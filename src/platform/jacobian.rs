@@ -1,4 +1,4 @@
-//! The platform's Jacobian, from the platform's velocity to the legs' rates.
+//! The platform's Jacobian, from the platform's velocity to the rates of legs or cranks.
 
 use nalgebra::{Matrix6, Vector6};
 
@@ -9,7 +9,8 @@ use crate::motion::square_root::square_root;
 /// angular velocity x, y, z \[rad/s\], in the base frame.
 pub type Jacobian = Matrix6<f64>;
 
-/// The Jacobian in a pose: row i is (n_i, R a_i x n_i), with n_i the direction of leg i.
+/// The Jacobian in a pose: row i is (n_i, R a_i x n_i), with n_i the direction of leg i. With
+/// cranks, n_i is the direction of the rod, and the row is divided by the transmission.
 ///
 /// ```
 /// use moris_washout::Rig;
@@ -24,7 +25,11 @@ pub type Jacobian = Matrix6<f64>;
 /// assert!((forces.dot(&jacobian.column(2)) - weight[2]).abs() < 1e-6);
 /// ```
 pub fn jacobian(geometry: &Geometry, pose: &Pose) -> Jacobian {
-    let Geometry { base, platform } = geometry;
+    let Geometry { base, platform, cranks } = geometry;
+    if let Some(cranks) = cranks {
+        let amplified = Vector6::from(cranks.amplifications(geometry, pose));
+        return Matrix6::from_diagonal(&amplified) * jacobian(&geometry.rods(pose), pose);
+    }
     let (arm, p) = (platform.turned(&pose.orientation.rotation), pose.position);
     // The directions of the legs, and their moments about the platform's origin.
     let [mut n, mut m] = [Joints::default(); 2];

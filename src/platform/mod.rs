@@ -1,4 +1,4 @@
-//! The Stewart platform: its geometry, and the way from pose to legs and back.
+//! The Stewart platform: its geometry, and the way from pose to legs or cranks and back.
 //!
 //! ```
 //! use moris_washout::Rig;
@@ -20,6 +20,7 @@
 //! ```
 
 mod coordinates;
+mod crank;
 mod forward;
 mod guard;
 mod inverse;
@@ -38,6 +39,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 pub(crate) use coordinates::PlatformCoordinates;
+pub use crank::Cranks;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
 pub(crate) use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
@@ -56,16 +58,42 @@ use crate::motion::Motion;
 use crate::motion::orientation::{Orientation, RollPitchYaw, RotationalMotion};
 
 /// Where the joints are: on the base in the base frame, on the platform in the
-/// platform frame \[m\].
+/// platform frame \[m\]. A joint of the base is the axle's where there are cranks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Geometry {
     pub base: Joints,
     pub platform: Joints,
+    /// The cranks, if the actuators are cranks and not legs.
+    pub cranks: Option<Cranks>,
+}
+
+impl Geometry {
+    /// The same joints with legs between them: their lengths are the distances of the joints.
+    pub fn with_legs(&self) -> Self {
+        Geometry { cranks: None, ..*self }
+    }
+
+    /// In a pose, the rods of cranks as legs of a fixed length, with the ends of the arms as their
+    /// base joints. Legs are what they are.
+    pub fn rods(&self, pose: &Pose) -> Self {
+        self.cranks.map_or(*self, |cranks| cranks.rods(self, &cranks.arcs(self, pose)))
+    }
+
+    /// The smallest transmission of the cranks in a pose, the sine of the angle between rod and
+    /// arm; 0 where a rod does not reach, and 1 for legs.
+    pub fn transmission(&self, pose: &Pose) -> f64 {
+        self.cranks.as_ref().map_or(1.0, |cranks| cranks.transmission(self, pose))
+    }
+
+    /// The vector from the base's joint `i` to the platform's, in a pose \[m\].
+    pub(crate) fn between(&self, i: usize, pose: &Pose) -> Vector3<f64> {
+        pose.position + pose.orientation.rotation * self.platform.joint(i) - self.base.joint(i)
+    }
 }
 
 impl From<&Rig> for Geometry {
     fn from(rig: &Rig) -> Self {
-        Geometry { base: Joints::from(&rig.base), platform: Joints::from(&rig.platform) }
+        Geometry { base: Joints::from(&rig.base), platform: Joints::from(&rig.platform), cranks: Cranks::of(rig) }
     }
 }
 

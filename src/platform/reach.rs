@@ -61,10 +61,15 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
 }
 
 /// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\].
-/// Negative where a leg would have to be beyond its stroke.
+/// Negative where a leg would have to be beyond its stroke. With cranks, the stroke is the arc of
+/// the arms' ends, and what their transmission has beyond its limit counts as well, times the arm.
 pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
-    let lengths = leg_lengths(&Geometry::from(rig), pose);
-    lengths.iter().map(|length| (length - rig.min_length).min(rig.max_length - length)).fold(f64::INFINITY, f64::min)
+    let geometry = Geometry::from(rig);
+    let [start, end] = rig.stroke();
+    let lengths = leg_lengths(&geometry, pose);
+    let margin = lengths.iter().map(|length| (length - start).min(end - length)).fold(f64::INFINITY, f64::min);
+    let Some(cranks) = &geometry.cranks else { return margin };
+    margin.min(cranks.arm * (cranks.transmission(&geometry, pose) - cranks.least_transmission))
 }
 
 /// Lengths of the shortest and of the longest leg at neutral \[m\].
@@ -86,13 +91,17 @@ const FULL_STROKE: f64 = 0.3;
 /// Fraction of a reserve at the ends of the stroke that a rig keeps: in proportion to a short
 /// stroke, which the whole reserve would use up.
 pub fn short_stroke(rig: &Rig) -> f64 {
-    ((rig.max_length - rig.min_length) / FULL_STROKE).min(1.0)
+    (rig.stroke_length() / FULL_STROKE).min(1.0)
 }
 
-/// Smaller of the two reaches of surge and of sway, as [`single_axis_range`] but in closed form.
+/// Smaller of the two reaches of surge and of sway, as [`single_axis_range`] but in
+/// closed form for legs.
 ///
 /// A leg whose joints are d apart at neutral has the squared length |d|^2 + 2 x d_k + x^2.
 pub fn horizontal_reach(rig: &Rig) -> [f64; 2] {
+    if rig.has_cranks() {
+        return [Axis::Surge, Axis::Sway].map(|axis| single_axis_range(rig, axis).min_reach());
+    }
     let neutral = Vector3::new(0.0, 0.0, rig.neutral_height);
     [0, 1].map(|k: usize| {
         let legs = rig.platform.iter().zip(&rig.base);
@@ -109,7 +118,7 @@ pub fn horizontal_reach(rig: &Rig) -> [f64; 2] {
     })
 }
 
-/// Largest reach considered: translations \[multiples of the longest leg\], rotations \[rad\].
+/// Largest reach considered: translations \[multiples of the farthest joint\], rotations \[rad\].
 const FARTHEST: [f64; 2] = [2.0, core::f64::consts::FRAC_PI_2];
 /// Number of points checked on the path, so that a leg that leaves its stroke and returns is found.
 const PARTS: u32 = 2000;
@@ -117,7 +126,7 @@ const PARTS: u32 = 2000;
 const HALVINGS: u32 = 40;
 
 fn reach(rig: &Rig, axis: Axis, sign: f64) -> f64 {
-    let farthest = if axis.is_rotation() { FARTHEST[1] } else { FARTHEST[0] * rig.max_length };
+    let farthest = if axis.is_rotation() { FARTHEST[1] } else { FARTHEST[0] * rig.farthest_joint() };
     let inside = |amount: f64| stroke_margin(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
     let amount_at = |part: u32| farthest * f64::from(part) / f64::from(PARTS);
     let Some(beyond) = (1..=PARTS).find(|&part| !inside(amount_at(part))) else { return farthest };

@@ -1,4 +1,4 @@
-//! A survey of a rig for singularities, over all lengths of its legs.
+//! A survey of a rig for singularities, over all lengths of its legs or arcs of its cranks.
 
 use nalgebra::Vector3;
 
@@ -24,13 +24,15 @@ pub struct Survey {
     pub worst_condition: f64,
 }
 
-/// Leg lengths at which the platform is singular or cannot be followed to \[m\].
+/// Leg lengths, or arcs of cranks, at which the platform is singular or cannot
+/// be followed to \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurveyFailed {
     pub lengths: [f64; 6],
 }
 
-/// Surveys a rig over the whole box of its leg lengths.
+/// Surveys a rig over the whole box of its leg lengths, or of the angles of its cranks. The rods of
+/// cranks count as legs from the ends of the arms.
 ///
 /// From neutral the platform is followed by forward kinematics from grid point to grid point,
 /// each one leg's move away from the last. At each the Jacobian must be well conditioned, and
@@ -54,7 +56,8 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
     let geometry = Geometry::from(rig);
     let mut pose = Pose::neutral(rig);
     let mut lengths = leg_lengths(&geometry, &pose);
-    let neutral_sign = jacobian(&geometry, &pose).determinant().signum();
+    let rods = |lengths: &[f64; 6]| geometry.cranks.map_or(geometry, |cranks| cranks.rods(&geometry, lengths));
+    let neutral_sign = jacobian(&rods(&lengths), &pose).determinant().signum();
     let radius = mean_radius(&rig.platform);
     let mut found = Survey { smallest_singular_value: f64::INFINITY, worst_condition: 0.0 };
     let mut failed = false;
@@ -65,7 +68,7 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
             None => failed = true,
         }
         lengths = target;
-        let mut jacobian = jacobian(&geometry, &pose);
+        let mut jacobian = jacobian(&rods(&lengths), &pose);
         jacobian.fixed_columns_mut::<3>(3).apply(|entry| *entry /= radius);
         // A decomposition of what is no number does not end: joints at one point have no radius.
         if !jacobian.iter().all(|entry| entry.is_finite()) {
@@ -110,7 +113,7 @@ fn walk(visit: &mut impl FnMut(&[usize; 6]) -> bool) {
 }
 
 fn level_length(rig: &Rig, level: usize) -> f64 {
-    rig.min_length + (rig.max_length - rig.min_length) * level as f64 / (LEVELS - 1) as f64
+    rig.stroke()[0] + rig.stroke_length() * level as f64 / (LEVELS - 1) as f64
 }
 
 /// Forward kinematics along the straight line between two sets of leg lengths.

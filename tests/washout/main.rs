@@ -14,6 +14,7 @@ mod common;
 mod communication_steps;
 mod compensation;
 mod conditioning;
+mod cranks;
 mod default_set;
 mod derivatives;
 mod errata;

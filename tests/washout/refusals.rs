@@ -35,7 +35,16 @@ fn what_is_not_a_finite_number_is_refused_for_every_parameter() {
 #[test]
 fn what_must_be_above_zero_is_refused_at_zero_and_below() {
     for name in real_parameters() {
-        let any_sign = ["rig.base[", "rig.neutralHeight", "rig.platform[", "washoutPoint.", "scale."];
+        let any_sign = [
+            "rig.base[",
+            "rig.neutralHeight",
+            "rig.platform[",
+            "washoutPoint.",
+            "scale.",
+            "crank.heading[",
+            "crank.minAngle",
+            "crank.maxAngle",
+        ];
         if any_sign.iter().any(|prefix| name.starts_with(prefix)) {
             continue;
         }
@@ -46,6 +55,8 @@ fn what_must_be_above_zero_is_refused_at_zero_and_below() {
             "head.torsoLength",
             "softLimit.pace",
             "softLimit.margin",
+            "crank.arm",
+            "crank.rod",
         ]
         .contains(&name.as_str());
         let bad = if may_be_zero { vec![-1.0] } else { vec![-1.0, 0.0] };

@@ -1,4 +1,4 @@
-//! Rig files: where a platform's joints are, and what its legs can do.
+//! Rig files: where a platform's joints are, and what its legs or cranks can do.
 //!
 //! ```toml
 //! name = "MORIS, default rig"
@@ -28,10 +28,26 @@
 //! accelerationLimit = [10.0, 10.0, 10.0] # m/s2
 //! ```
 //!
-//! Joints and legs are required in full, since a mixture with the default rig describes no machine.
-//! The head and the safety units' speeds and accelerations are the default's where they are not
-//! given. The safety units' positions then follow from the rig: 95 % of what it reaches along each
-//! axis alone.
+//! A platform with cranks has a table `crank` in the place of `actuator`; its base joints
+//! are where the axles are:
+//!
+//! ```toml
+//! [crank]                            # motors with an arm each, and a rod from its end to the platform
+//! arm = 0.18                         # m, from the axle to the rod
+//! rod = 0.72                         # m, from the arm's end to the platform joint
+//! headingDegrees = [150, -90, 30, 150, -90, 30] # of the level arms, from x towards y; the axles are across
+//! minAngleDegrees = -60.0            # of the arm above level
+//! maxAngleDegrees = 60.0
+//! leastTransmission = 0.3            # optional: sine of the least angle between rod and arm
+//! velocityLimit = 6.0                # rad/s
+//! accelerationLimit = 60.0           # rad/s2
+//! diameter = 0.02                    # m, optional: of the rods
+//! ```
+//!
+//! Joints and actuators are required in full, since a mixture with the default rig describes no
+//! machine. The head and the safety units' speeds and accelerations are the default's where they
+//! are not given. The safety units' positions then follow from the rig: 95 % of what it reaches
+//! along each axis alone.
 
 use moris_interface::shown;
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
@@ -61,8 +77,10 @@ pub struct RigFile {
     pub base: Joints,
     /// Joints on the platform.
     pub platform: Joints,
-    /// Limits of the legs.
-    pub actuator: Actuator,
+    /// Limits of the legs; none for a rig with cranks.
+    pub actuator: Option<Actuator>,
+    /// Cranks in the place of legs.
+    pub crank: Option<Crank>,
     /// Where the rider's head is.
     #[serde(default)]
     pub head: Head,
@@ -101,6 +119,31 @@ pub struct Actuator {
     pub diameter: Option<f64>,
 }
 
+/// Arms, rods and limits of cranks.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
+pub struct Crank {
+    /// From the axle to the rod \[m\].
+    pub arm: f64,
+    /// From the arm's end to the platform joint \[m\].
+    pub rod: f64,
+    /// Of the arms while they are level, from x towards y \[deg\].
+    pub heading_degrees: [f64; 6],
+    /// Lowest angle of the arms above level \[deg\].
+    pub min_angle_degrees: f64,
+    /// Highest angle of the arms \[deg\].
+    pub max_angle_degrees: f64,
+    /// Sine of the least angle between rod and arm that is allowed.
+    pub least_transmission: Option<f64>,
+    /// \[rad/s\]
+    pub velocity_limit: f64,
+    /// \[rad/s2\]
+    pub acceleration_limit: f64,
+    /// Thickness of the rods, as [`Actuator::diameter`] \[m\].
+    pub diameter: Option<f64>,
+}
+
 /// The rider's head.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
@@ -128,7 +171,9 @@ pub struct Safety {
 /// Every key that a rig file may have.
 const RIG_FILE_KEYS: &str = "name neutralHeight base.radius base.degrees base.joints platform.radius platform.degrees \
     platform.joints actuator.minLength actuator.maxLength actuator.velocityLimit \
-    actuator.accelerationLimit actuator.diameter head.height head.torsoLength \
+    actuator.accelerationLimit actuator.diameter crank.arm crank.rod crank.headingDegrees \
+    crank.minAngleDegrees crank.maxAngleDegrees crank.leastTransmission crank.velocityLimit \
+    crank.accelerationLimit crank.diameter head.height head.torsoLength \
     safety.positionLimit safety.velocityLimit safety.accelerationLimit";
 
 /// A platform larger than this, in metres, has been given in other units.
@@ -139,6 +184,10 @@ const MIN_JOINT_DISTANCE: f64 = 1e-3;
 const MAX_LEG_SPEED: f64 = 20.0;
 /// A leg with more than this, in m/s2, has been given in other units.
 const LARGEST_ACCELERATION: f64 = 500.0;
+/// A crank faster than this, in rad/s, has been given in degrees.
+const MAX_CRANK_SPEED: f64 = 60.0;
+/// A crank with more than this, in rad/s2, has been given in degrees.
+const MAX_CRANK_ACCELERATION: f64 = 5000.0;
 /// A leg thicker than this, in metres, has been given in other units.
 const LARGEST_DIAMETER: f64 = 1.0;
 
@@ -173,13 +222,15 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
 }
 
 /// Remedy for a rig of another kind.
-const OTHER_KIND: &str = "rigs with six legs that change their lengths are supported, not cranks, cables or fewer legs; \
-                          docs/platforms.md says how the pose serves other rigs";
+const OTHER_KIND: &str = "rigs with six legs in a table [actuator], or six motors with arms and rods in a table [crank], are \
+                          supported, not cables or fewer legs; docs/platforms.md has the keys, and says how the pose \
+                          serves other rigs";
 
-/// True for a key of cranks, cables or other mechanisms than legs.
+/// True for a key of other mechanisms than legs and cranks.
 fn is_other_kind(key: &str) -> bool {
     const WORDS: [&str; 8] = ["servo", "crank", "arm", "rod", "horn", "rotary", "cable", "winch"];
-    key.to_lowercase().split('.').any(|part| WORDS.iter().any(|word| part.starts_with(word)))
+    !key.starts_with("crank.")
+        && key.to_lowercase().split('.').any(|part| WORDS.iter().any(|word| part.starts_with(word)))
 }
 
 /// The keys of a table, those of tables within it after its name.
@@ -224,6 +275,37 @@ impl Joints {
     }
 }
 
+impl Crank {
+    /// Values with the largest that can be meant, and their units.
+    fn units(&self) -> [(&'static str, f64, f64, [&'static str; 2]); 4] {
+        [
+            ("crank.arm", self.arm, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+            ("crank.rod", self.rod, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+            ("crank.velocityLimit", self.velocity_limit, MAX_CRANK_SPEED, ["rad/s", "deg/s"]),
+            ("crank.accelerationLimit", self.acceleration_limit, MAX_CRANK_ACCELERATION, ["rad/s2", "deg/s2"]),
+        ]
+    }
+
+    /// Gives a rig these cranks. Its shortest and longest length become those that
+    /// the joints can be apart.
+    fn put_into(&self, rig: &mut Rig) {
+        let Crank { arm, rod, .. } = *self;
+        rig.crank_arm = arm;
+        rig.crank_rod = rod;
+        rig.crank_heading = self.heading_degrees.map(f64::to_radians);
+        rig.crank_min_angle = self.min_angle_degrees.to_radians();
+        rig.crank_max_angle = self.max_angle_degrees.to_radians();
+        rig.crank_least_transmission = self.least_transmission.unwrap_or(rig.crank_least_transmission);
+        rig.velocity_limit = arm * self.velocity_limit;
+        rig.acceleration_limit = arm * self.acceleration_limit;
+        // Between rod and arm there is at least the angle of the least transmission.
+        let along = 2.0 * arm * rod * (1.0 - rig.crank_least_transmission.powi(2)).max(0.0).sqrt();
+        let squares = arm * arm + rod * rod;
+        rig.min_length = (squares - along).max(0.0).sqrt();
+        rig.max_length = (squares + along).sqrt();
+    }
+}
+
 impl RigFile {
     /// Checks beyond the file's syntax: each joint once, and lengths in metres.
     fn check_joints(&self, source_name: &str) -> Result<(), Error> {
@@ -241,31 +323,52 @@ impl RigFile {
                 return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
             }
         }
-        self.check_actuators(source_name)?;
-        if let Some(diameter) = self.actuator.diameter.filter(|diameter| !(0.0..LARGEST_DIAMETER).contains(diameter)) {
+        match (&self.actuator, &self.crank) {
+            (Some(actuator), None) => self.check_actuators(actuator, source_name)?,
+            (None, Some(crank)) => self.check_units(source_name, &crank.units())?,
+            _ => {
+                let reason = "needs a table [actuator] for legs or a table [crank] for cranks; not both".to_owned();
+                return Err(Error::wrong_value(source_name, "[actuator]", reason));
+            }
+        }
+        if let Some(diameter) = self.diameter().filter(|diameter| !(0.0..LARGEST_DIAMETER).contains(diameter)) {
             let reason = format!("is {} m, but must be from 0 to {LARGEST_DIAMETER} m", shown(diameter));
-            return Err(Error::wrong_value(source_name, "actuator.diameter", reason));
+            let name = if self.crank.is_some() { "crank.diameter" } else { "actuator.diameter" };
+            return Err(Error::wrong_value(source_name, name, reason));
+        }
+        Ok(())
+    }
+
+    /// Diameter of the legs or of the cranks' rods, if the file has it \[m\].
+    pub fn diameter(&self) -> Option<f64> {
+        self.actuator.and_then(|legs| legs.diameter).or(self.crank.and_then(|crank| crank.diameter))
+    }
+
+    /// Checks that the rig's height and these values are in their units: name, value, the largest
+    /// that can be meant, the unit and the one that is suspected.
+    fn check_units(&self, source_name: &str, values: &[(&str, f64, f64, [&str; 2])]) -> Result<(), Error> {
+        let height = ("neutralHeight", self.neutral_height.abs(), MAX_PLATFORM_SIZE, ["m", "millimetres"]);
+        for (name, value, largest, [unit, other]) in [height].iter().chain(values) {
+            // Numbers that are beyond any unit have the parameter's range as their error.
+            if value > largest && *value < 1e6 {
+                let reason = format!("is {}; is this in {other}? Write {unit}", shown(*value));
+                return Err(Error::wrong_value(source_name, name, reason));
+            }
         }
         Ok(())
     }
 
     /// Checks that the legs' lengths are in metres from joint to joint, and their limits in m/s and
     /// m/s2.
-    fn check_actuators(&self, source_name: &str) -> Result<(), Error> {
-        let Actuator { min_length, max_length, velocity_limit, acceleration_limit, .. } = self.actuator;
-        for (name, value, largest, [unit, other]) in [
-            ("neutralHeight", self.neutral_height.abs(), MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+    fn check_actuators(&self, legs: &Actuator, source_name: &str) -> Result<(), Error> {
+        let Actuator { min_length, max_length, velocity_limit, acceleration_limit, .. } = *legs;
+        let values = [
             ("actuator.minLength", min_length, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
             ("actuator.maxLength", max_length, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
             ("actuator.velocityLimit", velocity_limit, MAX_LEG_SPEED, ["m/s", "mm/s"]),
             ("actuator.accelerationLimit", acceleration_limit, LARGEST_ACCELERATION, ["m/s2", "mm/s2"]),
-        ] {
-            // Numbers that are beyond any unit have the parameter's range as their error.
-            if value > largest && value < 1e6 {
-                let reason = format!("is {}; is this in {other}? Write {unit}", shown(value));
-                return Err(Error::wrong_value(source_name, name, reason));
-            }
-        }
+        ];
+        self.check_units(source_name, &values)?;
         let rig = self.rig();
         let neutral = leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig));
         let mean = neutral.iter().sum::<f64>() / 6.0;
@@ -287,15 +390,20 @@ impl RigFile {
     /// The rig as the washout takes it.
     pub fn rig(&self) -> Rig {
         let coordinates = |joints: &Joints| joints.coordinates().expect("the file was checked when it was read");
-        Rig {
+        let mut rig = Rig {
             base: coordinates(&self.base),
             platform: coordinates(&self.platform),
             neutral_height: self.neutral_height,
-            min_length: self.actuator.min_length,
-            max_length: self.actuator.max_length,
-            velocity_limit: self.actuator.velocity_limit,
-            acceleration_limit: self.actuator.acceleration_limit,
+            ..Rig::default()
+        };
+        if let Some(legs) = &self.actuator {
+            (rig.min_length, rig.max_length) = (legs.min_length, legs.max_length);
+            (rig.velocity_limit, rig.acceleration_limit) = (legs.velocity_limit, legs.acceleration_limit);
         }
+        if let Some(crank) = &self.crank {
+            crank.put_into(&mut rig);
+        }
+        rig
     }
 
     /// The washout's parameters on this rig, all others the default's.

@@ -7,8 +7,9 @@ macro_rules! rigs {
     };
 }
 
-/// The texts of the rig files that are shipped, by the names that users write, by stroke.
-pub const RIGS: [(&str, &str); 12] = rigs! {
+/// The texts of the rig files that are shipped, by the names that users write: legs
+/// by stroke, then cranks.
+pub const RIGS: [(&str, &str); 14] = rigs! {
     "hobby100" "hobby150" "hobby200" "diy283" "compact" "dim330" "moog-like450" "narrow" "default" "flight091" "flight125"
-    "long-stroke"
+    "long-stroke" "crank-servo" "crank-person"
 };

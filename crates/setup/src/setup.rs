@@ -46,7 +46,7 @@ impl Setup {
         let rig_alone = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
         let names: Vec<&str> = sets.iter().map(|(name, _)| name.as_str()).collect();
         Setup {
-            actuator_diameter: rig.as_ref().and_then(|rig| rig.actuator.diameter),
+            actuator_diameter: rig.as_ref().and_then(RigFile::diameter),
             rig_name: rig.map_or_else(|| "default rig".to_owned(), |rig| rig.name),
             parameters_name: if sets.is_empty() { "default".to_owned() } else { names.join(" + ") },
             parameters: sets.iter().fold(rig_alone, |parameters, (_, values)| overlaid(&parameters, values)),

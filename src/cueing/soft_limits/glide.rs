@@ -68,7 +68,7 @@ impl SoftLimitGlide {
         let way = POSITION_RATE * step;
         let margin = max(min(margin, before.margin + way), before.margin - way);
         // Beyond the actuators' length no limit is reached.
-        let far = parameters.rig.max_length;
+        let far = parameters.rig.farthest_joint();
         let position_limit = self.position_limit.zip_map(&parameters.safety.position_limit, |now, target| {
             if now >= far { target } else { min(target, now + way) }
         });

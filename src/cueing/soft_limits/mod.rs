@@ -189,9 +189,9 @@ impl SoftLimits {
             let ends = [-farthest(k), farthest(k)];
             Ends::new(ends, [0.0; 2], safety.velocity_limit[k], safety.acceleration_limit[k], margin, pace)
         });
-        let Rig { min_length, max_length, velocity_limit, acceleration_limit, .. } = *rig;
+        let Rig { velocity_limit, acceleration_limit, .. } = *rig;
         let neutral = neutral_lengths(&geometry, rig.neutral_height);
-        let leg = Ends::new([min_length, max_length], neutral, velocity_limit, acceleration_limit, margin, pace);
+        let leg = Ends::new(rig.stroke(), neutral, velocity_limit, acceleration_limit, margin, pace);
         SoftLimits {
             geometry,
             neutral_height: rig.neutral_height,

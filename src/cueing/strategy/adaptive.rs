@@ -86,7 +86,7 @@ impl Law for Adaptive {
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
         let Circumstances { parameters, guard, .. } = situation.circumstances;
-        let longer = ((parameters.rig.max_length - parameters.rig.min_length) / NEAR_END_STROKE).max(1.0);
+        let longer = (parameters.rig.stroke_length() / NEAR_END_STROKE).max(1.0);
         let stroke_margin = guard.stroke_margin() / longer;
         Some(self.decide(&situation.states, situation.references, stroke_margin, step))
     }
@@ -96,7 +96,7 @@ impl Law for Adaptive {
 /// takes longer than [`STROKE_TIME`] at the legs' full speed: travel would jolt at that speed.
 fn on_rig(parameters: &Parameters) -> AdaptiveParameters {
     let Parameters { adaptive, rig, .. } = parameters;
-    let slower = ((rig.max_length - rig.min_length) / rig.velocity_limit / STROKE_TIME).max(1.0);
+    let slower = (rig.stroke_length() / rig.velocity_limit / STROKE_TIME).max(1.0);
     AdaptiveParameters { weight_velocity: slower * slower * adaptive.weight_velocity, ..*adaptive }
 }
 

@@ -10,6 +10,7 @@
 use nalgebra::Vector3;
 
 use super::bounds::JointBounds;
+use super::cranks::Lever;
 use super::machine::{Machine, STOP_FRACTION, Speed, sum_of_magnitudes};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
@@ -39,6 +40,22 @@ impl Machine {
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<f64> {
+        match &self.geometry.cranks {
+            None => self.certify_within::<false>(&self.lever_of_legs(), from, to, safety, step),
+            Some(cranks) => self.certify_cranks_by_bounds(cranks, from, to, safety, step),
+        }
+    }
+
+    /// The same with the actuators as levers; the transmission matters with cranks alone.
+    #[inline(always)]
+    pub(super) fn certify_within<const CRANKS: bool>(
+        &self,
+        lever: &Lever,
+        from: &PlatformState,
+        to: &PlatformState,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<f64> {
         let (now, next) = (&from.coordinates, &to.coordinates);
         let per_step = 1.0 / step;
         let bend = 2.0 * per_step * per_step;
@@ -49,14 +66,14 @@ impl Machine {
         let rate = max(speed.angular, before.angular);
         let joint_speed = speed.of_joints(self.radius);
         let fastest = max(joint_speed, before.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
-        let curvature = fastest * fastest / self.limits.min + rate * rate * self.radius;
+        let curvature = fastest * fastest / lever.turning_length + rate * rate * self.radius;
         // The gap turns the legs a little as well, which changes their rates.
-        let gap_turning = 0.5 * step * gap_acceleration * (fastest / self.limits.min + rate);
+        let gap_turning = 0.5 * step * gap_acceleration * (fastest / lever.turning_length + rate);
         let steady = change.norm() * per_step
             + sum_of_magnitudes(&turn) * per_step * self.radius
             + gap_acceleration
             + gap_turning;
-        let mut duration = joint_speed * self.stop_time_per_speed;
+        let mut duration = joint_speed * lever.stop_time_per_speed;
         for k in 0..3 {
             let speed = next.linear.velocity[k].abs();
             if speed >= safety.acceleration_limit[k] * duration {
@@ -67,11 +84,13 @@ impl Machine {
         let reach = fastest * time;
 
         let [least, greatest] = to.legs.extremes();
-        let legs_keep = curvature <= (1.0 - STOP_FRACTION) * self.limits.acceleration
-            && curvature + steady <= self.limits.acceleration
-            && fastest <= self.limits.velocity
-            && least - reach >= self.limits.min
-            && greatest + reach <= self.limits.max;
+        let moved = if CRANKS { reach / lever.transmission } else { reach };
+        let legs_keep = curvature <= (1.0 - STOP_FRACTION) * lever.acceleration
+            && curvature + steady <= lever.acceleration
+            && fastest <= lever.velocity
+            && least - moved >= self.limits.min
+            && greatest + moved <= self.limits.max
+            && (!CRANKS || reach <= lever.travel);
         let axis_keeps = |k: usize| {
             let most = safety.acceleration_limit[k];
             let ends = max(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
@@ -142,9 +161,10 @@ impl Machine {
         let accelerations = [linear.start.acceleration.norm(), sum_of_magnitudes(&angles.start.acceleration)];
         let bounds = JointBounds::new(speeds, accelerations, self.radius);
         // The gap at the end as accelerations: one from lengths, one from rates.
+        let rounding = ROUNDING / right.transmission;
         let gaps = core::array::from_fn(|i| {
-            let length = without_rounding(to.legs.length[i] - right.length[i]).abs();
-            let rate = without_rounding(to.legs.velocity[i] - right.velocity[i]).abs();
+            let length = without_rounding(to.legs.length[i] - right.length[i], rounding).abs();
+            let rate = without_rounding(to.legs.velocity[i] - right.velocity[i], rounding).abs();
             2.0 * length / (step * step) + rate / step
         });
         self.interval_keeps_legs(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY), &gaps)
@@ -156,12 +176,15 @@ impl Machine {
         let duration = stops[3];
         let speed = Speed::of(plan.start()).of_joints(self.radius);
         // Between points d apart the bound is about 1.5 (G1²/L) d/T.
-        let needed = 1.5 * speed * speed / (self.limits.min * MARGIN * self.limits.acceleration);
+        let lever = self.lever(self.transmission_at(plan.start()));
+        let needed = 1.5 * speed * speed / (lever.turning_length * MARGIN * lever.acceleration);
         let whole = libm::ceil(needed).clamp(1.0, MOST_CELLS);
         if duration <= 0.0 {
             // At rest already.
-            let lengths = self.leg_motion_of(plan.start()).length;
-            return lengths.iter().all(|length| (self.limits.min..=self.limits.max).contains(length));
+            let start = self.leg_motion_of(plan.start());
+            let least = self.geometry.cranks.map_or(0.0, |cranks| cranks.least_transmission);
+            return start.transmission >= least
+                && start.length.iter().all(|length| (self.limits.min..=self.limits.max).contains(length));
         }
         let mut begin = 0.0;
         for end in stops {
@@ -221,11 +244,19 @@ impl Machine {
     ) -> bool {
         let half = 0.5 * interval;
         let least = |lengths: &[f64; 6]| lengths.iter().fold(f64::INFINITY, |a, &b| a.min(b));
-        let length = least(&left.length).min(least(&right.length)) - bounds.velocity * half;
-        if length.is_nan() || length <= 0.0 {
-            return false;
-        }
-        let spread = bounds.leg_jerk(length) * half;
+        let spread = match &self.geometry.cranks {
+            None => {
+                let length = least(&left.length).min(least(&right.length)) - bounds.velocity * half;
+                if length.is_nan() || length <= 0.0 {
+                    return false;
+                }
+                bounds.leg_jerk(length) * half
+            }
+            Some(cranks) => match cranks.spread(bounds, left.transmission.min(right.transmission), interval) {
+                Some(spread) => spread,
+                None => return false,
+            },
+        };
         let mut keeps = true;
         for (i, gap) in gaps.iter().enumerate() {
             let acceleration = max(left.acceleration[i].abs(), right.acceleration[i].abs()) + spread;
@@ -261,7 +292,7 @@ impl Transition {
         Transition {
             start: Motion { acceleration, ..*now },
             end: Motion { position: next.position - gap, velocity: next.velocity, acceleration },
-            gap: gap.map(without_rounding),
+            gap: gap.map(|gap| without_rounding(gap, ROUNDING)),
         }
     }
 }
@@ -318,8 +349,8 @@ fn change_and_gap(now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>, step:
 }
 
 /// A difference of positions without what rounding may have added.
-fn without_rounding(gap: f64) -> f64 {
-    if gap.is_nan() { gap } else { (gap.abs() - ROUNDING).max(0.0).copysign(gap) }
+fn without_rounding(gap: f64, rounding: f64) -> f64 {
+    if gap.is_nan() { gap } else { (gap.abs() - rounding).max(0.0).copysign(gap) }
 }
 
 #[cfg(test)]

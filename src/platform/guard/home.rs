@@ -14,6 +14,7 @@
 //! The way is certified if every leg is inside its stroke by at least s times a clearance. From any
 //! point of a certified way the rest of it is certified as well.
 
+use super::cranks::Lever;
 use super::machine::{Home, Machine, Speed, sum_of_magnitudes};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
@@ -29,19 +30,34 @@ const MOST_PARTS: f64 = 32.0;
 
 /// Distances on the straight way to neutral.
 #[derive(Clone, Copy)]
-struct Distance {
+pub(super) struct Distance {
     /// Largest distance that any joint may have from its place at neutral \[m\].
-    joint: f64,
+    pub(super) joint: f64,
     /// Sum of the angles' magnitudes \[rad\].
-    angular: f64,
+    pub(super) angular: f64,
 }
 
 impl Distance {
     #[inline(always)]
-    fn of(coordinates: &PlatformCoordinates, radius: f64) -> Self {
+    pub(super) fn of(coordinates: &PlatformCoordinates, radius: f64) -> Self {
         let angular = sum_of_magnitudes(&coordinates.angles.position);
         Distance { joint: coordinates.linear.position.norm() + angular * radius, angular }
     }
+}
+
+/// A point of the way home.
+#[derive(Clone, Copy)]
+pub(super) struct Point {
+    /// Room of each actuator to either end of its stroke, less the clearance there.
+    pub(super) beyond: [[f64; 2]; 6],
+    /// The smallest transmission of the cranks; 1 with legs.
+    pub(super) transmission: f64,
+}
+
+/// True if what the ends of a part have beyond their limits is not negative, and adds up to
+/// `least`.
+pub(super) fn keep_chords(left: &[[f64; 2]; 6], right: &[[f64; 2]; 6], least: [f64; 2]) -> bool {
+    (0..6).all(|i| (0..2).all(|k| left[i][k] >= 0.0 && right[i][k] >= 0.0 && left[i][k] + right[i][k] >= least[k]))
 }
 
 impl Machine {
@@ -50,6 +66,9 @@ impl Machine {
     /// its speed.
     #[inline(always)]
     pub fn sees_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
+        if let Some(cranks) = &self.geometry.cranks {
+            return self.cranks_see_home_by_bounds(cranks, to, duration);
+        }
         let Home { longest, beyond_clearance: [below, above], per_two_lengths, .. } = self.home;
         let speed = Speed::of(&to.coordinates);
         let (travel, turn) = (0.5 * duration * speed.of_joints(self.radius), 0.5 * duration * speed.angular);
@@ -69,28 +88,40 @@ impl Machine {
         let turning = distance.angular * distance.angular * self.radius;
         let chord_gap = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
         let [low, high] = self.home.clearance;
-        // Beyond the clearances, at the fraction s of the way: squares of lengths, and lengths.
+        let cranks = self.geometry.cranks.as_ref();
+        // Beyond the clearances, at the fraction s of the way: squares of lengths, and lengths. Arcs of
+        // cranks count as they are.
         let beyond = |s: f64, lengths: &[f64; 6]| {
             let shortest = self.limits.min + low * s;
             let longest = self.limits.max - high * s;
-            lengths.map(|length| [length * length - shortest * shortest, longest - length])
+            let above = |length: f64| match cranks {
+                None => length * length - shortest * shortest,
+                Some(_) => length - shortest,
+            };
+            lengths.map(|length| [above(length), longest - length])
         };
         let at = |s: f64| {
             let coordinates = PlatformCoordinates {
                 linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
                 angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
             };
-            beyond(s, &self.state(coordinates).legs.length)
+            Point {
+                beyond: beyond(s, &self.state(coordinates).legs.length),
+                transmission: self.transmission_at(&coordinates),
+            }
         };
-        let neutral = beyond(1.0, &self.home.length);
+        let neutral = Point { beyond: beyond(1.0, &self.home.length), transmission: self.home.transmission };
         let (mut begin, mut left, mut part) = (0.0, at(0.0), 1.0);
         for _ in 1..MOST_POINTS {
             let end = begin + part;
             let right = if end < 1.0 { at(end) } else { neutral };
-            let least = [chord_gap * part * part, 0.5 * turning * part * part];
-            let certified = (0..6).all(|i| {
-                (0..2).all(|k| left[i][k] >= 0.0 && right[i][k] >= 0.0 && left[i][k] + right[i][k] >= least[k])
-            });
+            let certified = match cranks {
+                None => {
+                    let least = [chord_gap * part * part, 0.5 * turning * part * part];
+                    keep_chords(&left.beyond, &right.beyond, least)
+                }
+                Some(cranks) => self.cranks_keep_part(cranks, &distance, [begin, end], [&left, &right]),
+            };
             if certified && end >= 1.0 {
                 return true;
             }
@@ -105,6 +136,7 @@ impl Machine {
         }
         false
     }
+
     /// The state `step` seconds later on the straight way to neutral. The platform is at rest, or
     /// moves along that way already. `fraction` reduces speed and acceleration.
     pub fn homeward(
@@ -116,9 +148,11 @@ impl Machine {
     ) -> PlatformCoordinates {
         let distance = Distance::of(now, self.radius).joint;
         // Of the legs' acceleration a part remains for their turning, of every limit a part for rounding.
-        let Limits { min: shortest, velocity, acceleration, longest_step, .. } = self.limits;
+        let lever = self.lever(min(self.transmission_at(now), self.home.transmission));
+        let Lever { turning_length, velocity, acceleration, .. } = lever;
+        let longest_step = self.limits.longest_step;
         let mut hardest = 0.25 * acceleration;
-        let mut fastest = min(0.5 * velocity, square_root(0.1 * acceleration * shortest));
+        let mut fastest = min(0.5 * velocity, square_root(0.1 * acceleration * turning_length));
         for k in 0..3 {
             // The joints' travel for each metre on this axis.
             let ratio = 0.5 * distance / max(now.linear.position[k].abs(), f64::MIN_POSITIVE);

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::cranks::Lever;
 use crate::interface::Rig;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
@@ -55,6 +56,10 @@ impl Speed {
 pub struct Home {
     pub(super) length: [f64; 6],
     pub(super) longest: f64,
+    /// The least and the greatest distance of a platform joint from its base joint \[m\].
+    pub(super) joints: [f64; 2],
+    /// The smallest transmission of the cranks; 1 with legs.
+    pub(super) transmission: f64,
     /// The clearances at neutral from the shortest and the longest length \[m\].
     pub(super) clearance: [f64; 2],
     /// Least distance of the legs beyond their clearances at neutral \[m\].
@@ -64,14 +69,20 @@ pub struct Home {
 }
 
 impl Home {
-    /// For legs that have these lengths at neutral.
-    pub fn new(length: &[f64; 6], limits: &Limits) -> Self {
-        let shortest = length.iter().fold(f64::INFINITY, |least, &length| min(length, least));
-        let longest = length.iter().fold(0.0, |most, &length| max(length, most));
+    /// For actuators with these joints and limits.
+    pub fn new(geometry: &Geometry, neutral: &Pose, limits: &Limits) -> Self {
+        let extremes = |values: &[f64; 6]| {
+            let least = values.iter().fold(f64::INFINITY, |least, &value| min(value, least));
+            [least, values.iter().fold(f64::NEG_INFINITY, |most, &value| max(value, most))]
+        };
+        let length = leg_lengths(geometry, neutral);
+        let [shortest, longest] = extremes(&length);
         let room = [shortest - limits.min, limits.max - longest];
         Home {
-            length: *length,
+            length,
             longest,
+            joints: extremes(&leg_lengths(&geometry.with_legs(), neutral)),
+            transmission: geometry.cranks.as_ref().map_or(1.0, |cranks| cranks.transmission(geometry, neutral)),
             clearance: room.map(|room| CLEARANCE * room),
             beyond_clearance: room.map(|room| (1.0 - CLEARANCE) * room),
             per_two_lengths: 0.5 / limits.min,
@@ -92,21 +103,49 @@ impl Machine {
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
         let reserve = stroke_reserve(rig, longest_step);
         let geometry = Geometry::from(rig);
+        let [start, end] = rig.stroke();
         let limits = Limits {
-            min: rig.min_length + reserve,
-            max: rig.max_length - reserve,
+            min: start + reserve,
+            max: end - reserve,
             velocity: rig.velocity_limit,
             acceleration: rig.acceleration_limit,
             longest_step,
         };
         Machine {
-            home: Home::new(&leg_lengths(&geometry, &Pose::neutral(rig)), &limits),
+            home: Home::new(&geometry, &Pose::neutral(rig), &limits),
             geometry,
             neutral_height: rig.neutral_height,
             radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
             limits,
             stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
         }
+    }
+
+    /// The legs as levers between joints and actuators.
+    #[inline(always)]
+    pub(super) fn lever_of_legs(&self) -> Lever {
+        Lever {
+            transmission: 1.0,
+            turning_length: self.limits.min,
+            velocity: self.limits.velocity,
+            acceleration: self.limits.acceleration,
+            stop_time_per_speed: self.stop_time_per_speed,
+            travel: f64::INFINITY,
+        }
+    }
+
+    /// The actuators as levers about these coordinates; `transmission` is the smallest one there.
+    pub(super) fn lever(&self, transmission: f64) -> Lever {
+        match &self.geometry.cranks {
+            None => self.lever_of_legs(),
+            Some(cranks) => self.lever_of(cranks, transmission),
+        }
+    }
+
+    /// The smallest transmission of the cranks in these coordinates; 1 with legs.
+    pub(super) fn transmission_at(&self, coordinates: &PlatformCoordinates) -> f64 {
+        let pose = || coordinates.motion(self.neutral_height).pose();
+        self.geometry.cranks.as_ref().map_or(1.0, |cranks| cranks.transmission(&self.geometry, &pose()))
     }
 
     /// The state with these coordinates.

@@ -14,6 +14,7 @@
 
 mod bounds;
 mod certificate;
+mod cranks;
 mod home;
 mod machine;
 mod pursuit;
@@ -69,7 +70,7 @@ impl ActuatorGuard {
         let machine = Machine::new(rig, longest_step);
         ActuatorGuard {
             machine,
-            stroke: [rig.min_length, rig.max_length],
+            stroke: rig.stroke(),
             pursuit: machine.pursuit_limits(),
             now: machine.state(PlatformCoordinates::default()),
             plan: StopPlan::rest(),

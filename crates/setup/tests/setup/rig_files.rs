@@ -52,6 +52,55 @@ fn every_example_is_a_rig_that_a_washout_runs_on() {
 }
 
 #[test]
+fn cranks_are_read_in_degrees_and_rates_of_their_arms() {
+    for (name, arm, rod, headings, highest) in [
+        ("crank-person", 0.184_15, 0.7239, [150.0, -90.0, 30.0, 150.0, -90.0, 30.0], 60.0),
+        ("crank-servo", 0.015, 0.14, [-60.0, 120.0, 180.0, 0.0, 60.0, -120.0], 80.0),
+    ] {
+        let file = load_rig(&example(&format!("{name}.toml"))).unwrap();
+        assert_eq!(file.check(), Ok(()), "{name}");
+        let rig = file.rig();
+        assert!(rig.has_cranks() && (rig.crank_arm, rig.crank_rod) == (arm, rod));
+        let degrees = rig.crank_heading.map(f64::to_degrees);
+        assert!(degrees.iter().zip(headings).all(|(found, heading): (&f64, f64)| (found - heading).abs() < 1e-12));
+        assert!((rig.crank_max_angle.to_degrees() - highest).abs() < 1e-12);
+        assert!((rig.stroke()[1] - arm * highest.to_radians()).abs() < 1e-12);
+        assert!((rig.velocity_limit - 6.0 * arm).abs() < 1e-12, "{name}");
+        // With a rod across the axle's plane or not, joints are this far apart at neutral.
+        let [shortest, longest] = [rig.min_length, rig.max_length];
+        assert!((arm * arm + rod * rod - 0.5 * (shortest * shortest + longest * longest)).abs() < 1e-12);
+    }
+}
+
+/// Text of a rig file with cranks.
+fn crank_text() -> String {
+    std::fs::read_to_string(example("crank-person.toml")).unwrap()
+}
+
+#[test]
+fn a_rig_has_either_legs_or_cranks() {
+    let legs = "[actuator]\nminLength = 0.5\nmaxLength = 0.9\nvelocityLimit = 1.0\naccelerationLimit = 10.0\n";
+    let neither = crank_text().split("[crank]").next().unwrap().to_owned();
+    for text in [crank_text() + legs, neither] {
+        let message = refusal(&text);
+        assert!(message.contains("[actuator] for legs or a table [crank] for cranks"), "{message}");
+    }
+}
+
+#[test]
+fn cranks_in_other_units_are_named() {
+    for (value, other, expected) in [
+        ("arm = 0.18415", "arm = 184.15", "crank.arm is 184.15; is this in millimetres? Write m"),
+        ("rod = 0.7239", "rod = 723.9", "crank.rod is 723.9; is this in millimetres? Write m"),
+        ("velocityLimit = 6.0", "velocityLimit = 340", "crank.velocityLimit is 340; is this in deg/s? Write rad/s"),
+        ("headingDegrees", "headings", "did you mean"),
+    ] {
+        let message = refusal(&crank_text().replace(value, other));
+        assert!(message.contains(expected), "{message}");
+    }
+}
+
+#[test]
 fn every_example_is_shipped_under_its_name() {
     let files = std::fs::read_dir(example("default.toml").parent().unwrap()).unwrap();
     let stems = files.map(|file| file.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned());
@@ -152,12 +201,15 @@ fn joints_at_one_point_are_refused() {
 fn rigs_of_other_kinds_are_named_as_such() {
     for text in [
         default_text() + "\n[servo]\narmLength = 0.13\n",
-        default_text() + "\n[crank]\nradius = 0.13\n",
+        default_text() + "\n[horn]\nlength = 0.13\n",
         default_text().replace("radius = 1.0", "radius = 1.0\ncrankRadius = 0.1"),
         default_text().replace("[-8, 8, 112, 128, 232, 248]", "[0, 120, 240]"),
     ] {
         let message = refusal(&text);
-        assert!(message.contains("rigs with six legs") && message.contains("docs/platforms.md"), "{message}");
+        assert!(
+            message.contains("rigs with six legs in a table") && message.contains("docs/platforms.md"),
+            "{message}"
+        );
         assert!(!message.contains("did you mean"), "{message}");
     }
 }

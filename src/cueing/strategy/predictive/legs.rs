@@ -61,7 +61,7 @@ impl<'a> Surroundings<'a> {
         Surroundings {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,
-            stroke: [rig.min_length, rig.max_length],
+            stroke: rig.stroke(),
             margin: predictive.leg_margin * short_stroke(rig),
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,

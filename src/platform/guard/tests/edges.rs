@@ -448,7 +448,7 @@ fn points_on_the_way_certify_a_stop_in_pieces_as_their_conditions_say() {
 #[test]
 fn an_interval_in_which_a_leg_could_vanish_is_refused() {
     let machine = Machine::new(&Limits([1e-9, 1e9, 1e9, 1e9, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]).rig(), 1e-9);
-    let legs = LegMotion { length: [1.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6] };
+    let legs = LegMotion { length: [1.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6], transmission: 1.0 };
     let keeps = |speed: f64, length: f64| {
         let bounds = JointBounds { velocity: speed, acceleration: 0.0, jerk: 0.0 };
         let legs = LegMotion { length: [length; 6], ..legs };

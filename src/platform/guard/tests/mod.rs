@@ -105,6 +105,67 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
     assert!(closest.iter().all(|ratio| ratio.get() > 0.4), "{closest:?}");
 }
 
+/// Cranks about neutral, which move at random: derivatives of arcs against their bounds at the real
+/// transmission, and the change of the transmission against its slope.
+#[test]
+fn no_crank_exceeds_the_bounds_on_its_derivatives() {
+    let mut rig = Rig {
+        crank_arm: 0.2,
+        crank_rod: 1.1,
+        crank_heading: [-1.6, 1.6, 0.5, 3.7, 2.6, 5.8],
+        crank_least_transmission: 0.05,
+        ..Rig::default()
+    };
+    rig.neutral_height = 0.98;
+    let geometry = crate::platform::Geometry::from(&rig);
+    let cranks = geometry.cranks.expect("the rig has cranks");
+    let radius = rig.platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
+    let speeds = (-2.0..0.5_f64, -2.0..0.5_f64, -1.0..1.0_f64, -1.0..1.0_f64)
+        .prop_map(|(a, b, c, d)| [a, b, c, d].map(|exponent| 10.0_f64.powf(exponent)));
+    let pieces = speeds.prop_flat_map(|[v, w, s, e]| (moving(0.15, v, s), moving(0.15, w, e)));
+    let closest = [const { Cell::new(0.0_f64) }; 4];
+    let checked = Cell::new(0);
+    search(case_count(400_000))
+        .run(&(pieces, 0..6_usize), |((linear, angles), i)| {
+            let start = PlatformCoordinates { linear, angles };
+            let h = 1e-4;
+            let motion = |time: f64| coordinates_after(&start, time).motion(rig.neutral_height);
+            let state = |time: f64| cranks.arm_state(i, &geometry.between(i, &motion(time).pose()));
+            let transmission = (-3..=3).map(|k| state(f64::from(k) * h).transmission).fold(f64::INFINITY, f64::min);
+            if transmission < 0.1 {
+                return Ok(());
+            }
+            checked.set(checked.get() + 1);
+            let bounds = JointBounds::new(
+                [
+                    linear.velocity.norm() + 3.0 * h * linear.acceleration.norm(),
+                    sum(&angles.velocity) + 3.0 * h * sum(&angles.acceleration),
+                ],
+                [linear.acceleration.norm(), sum(&angles.acceleration)],
+                radius,
+            );
+            let JointBounds { velocity, acceleration, .. } = bounds;
+            let [first, second, third] = derivatives(|time| cranks.arm * state(time).angle(), 0.0, h);
+            let slope = (state(h).transmission - state(-h).transmission) / (2.0 * h);
+            let pairs = [
+                (first, velocity / transmission),
+                (second, (acceleration + velocity * velocity * cranks.turning(transmission)) / transmission),
+                (third, cranks.arc_jerk(&bounds, transmission)),
+                (slope, velocity * cranks.transmission_slope(transmission)),
+            ];
+            for (k, (found, bound)) in pairs.into_iter().enumerate() {
+                let rounding = 1e-14 / h.powi((k % 3) as i32 + 1);
+                prop_assert!(found.abs() <= 1.001 * bound + rounding, "{k}: {found} > {bound} at {transmission}");
+                closest[k].set(closest[k].get().max(found.abs() / (bound + rounding)));
+            }
+            Ok(())
+        })
+        .unwrap();
+    let closest = closest.map(|ratio| ratio.get());
+    // The bounds are not so wide that nothing could refute them.
+    assert!(checked.get() > 1000 && closest[0] > 0.9 && closest[1] > 0.6 && closest[3] > 0.3, "{closest:?}");
+}
+
 /// A machine whose limits are of the size of what the tested states need.
 fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
     (-0.7..1.6_f64, -1.0..0.5_f64, -4.0..-1.3_f64, -0.5..1.3_f64).prop_map(|(a, v, step, safety)| {

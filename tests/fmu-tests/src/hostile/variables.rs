@@ -146,6 +146,7 @@ pub fn set(world: &mut World, who: usize) -> i32 {
         let (slot, row) = (reference as usize, IDENTITY.row(reference as usize));
         (expected.settable(slot) || repeats && expected.takes(slot, expected.values[slot]))
             && (!inputs_only || row.causality == Causality::Input)
+            && !row.name.starts_with("crank.")
             && (rig_too || !(row.name.starts_with("rig.") || row.name.starts_with("actuator.")))
     };
     let references = references(functions, choices, kind, 60, fits);

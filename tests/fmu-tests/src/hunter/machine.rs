@@ -121,7 +121,9 @@ impl<'a> Machines<'a> {
     /// The filters' structure and the rider.
     fn draw_structure(&self, random: &mut Random, machine: &mut Values) {
         for (slot, row, name) in self.variables.parameters(Variability::Fixed) {
-            if name.starts_with("rig.") || name.starts_with("actuator.") || name == "solver.maxStep" {
+            // The oracle judges legs.
+            let is_of_rig = ["rig.", "actuator.", "crank."].iter().any(|group| name.starts_with(group));
+            if is_of_rig || name == "solver.maxStep" {
                 continue;
             }
             let choice = matches!(row.kind, Kind::Enumeration(_) | Kind::Integer | Kind::Boolean);

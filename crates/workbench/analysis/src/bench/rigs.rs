@@ -1,4 +1,4 @@
-//! The rigs of the bench, which are the shipped ones.
+//! The rigs of the bench, which are the shipped ones with legs.
 
 use moris_setup::{Error, Setup, load_rig};
 
@@ -9,7 +9,7 @@ pub struct BenchRig {
     pub name: &'static str,
 }
 
-/// Every rig, by stroke.
+/// Every rig with legs, by stroke.
 pub const RIGS: [BenchRig; 12] = {
     let mut rigs = [BenchRig { name: "" }; 12];
     let mut place = 0;
