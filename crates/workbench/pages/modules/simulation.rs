@@ -238,7 +238,7 @@ fn values_at(simulation: &Simulation, k: usize, axes: &[usize]) -> Vec<f64> {
         output.felt_angular_velocity.as_slice(),
         output.position.as_slice(),
         orientation.as_slice(),
-        &output.length,
+        &output.actuators(&simulation.parameters.rig)[0],
         &[output.tilt_roll, output.tilt_pitch, output.tilt_roll_rate, output.tilt_pitch_rate, input.lean],
         &[output.soft_limited, output.safety_active, output.actuator_limited].map(raised),
         &felt_on,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use moris_washout::platform::reach::{Axis, Range, single_axis_range, stroke_margin};
+use moris_washout::platform::reach::{Axis, Range, displaced, single_axis_range, stroke_margin};
 use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
 use moris_washout::{ParameterError, Parameters, Rig, check, warnings};
 
@@ -80,6 +80,9 @@ impl Capabilities {
         let rig = &self.parameters.rig;
         let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig)).map(|length| format!("{length:.3}"));
         let neutral = if neutral.iter().all(|length| *length == neutral[0]) { &neutral[..1] } else { &neutral };
+        if rig.has_cranks() {
+            return self.cranks();
+        }
         format!(
             "legs of {:.3} to {:.3} m, {} m at neutral; {} m/s, {} m/s²",
             rig.min_length,
@@ -87,6 +90,32 @@ impl Capabilities {
             neutral.join(", "),
             rig.velocity_limit,
             rig.acceleration_limit
+        )
+    }
+
+    /// The cranks' sizes and limits as lines, with the smallest transmission where the platform
+    /// can go along one axis.
+    fn cranks(&self) -> String {
+        let rig = &self.parameters.rig;
+        let geometry = Geometry::from(rig);
+        let degrees = |angle: f64| format!("{:.1}°", angle.to_degrees());
+        let at_neutral = geometry.transmission(&Pose::neutral(rig));
+        let ends = self.axes.iter().flat_map(|axis| [(axis.axis, axis.range.min), (axis.axis, axis.range.max)]);
+        let smallest =
+            ends.map(|(axis, end)| geometry.transmission(&displaced(rig, axis, end))).fold(at_neutral, f64::min);
+        let rates = [rig.velocity_limit, rig.acceleration_limit].map(|limit| limit / rig.crank_arm);
+        format!(
+            "cranks with arms of {:.4} m and rods of {:.4} m, from {} to {}; {:.3} rad/s, {:.3} rad/s²\n\
+             transmission {at_neutral:.3} at neutral, {smallest:.3} at the least end of an axis, limit {}; there an arm turns \
+             {:.1} times as fast as with a rod across it",
+            rig.crank_arm,
+            rig.crank_rod,
+            degrees(rig.crank_min_angle),
+            degrees(rig.crank_max_angle),
+            rates[0],
+            rates[1],
+            rig.crank_least_transmission,
+            1.0 / smallest,
         )
     }
 

@@ -128,11 +128,11 @@ struct Reach<'a> {
 
 impl Reach<'_> {
     fn stroke(&self) -> f64 {
-        self.rig.max_length - self.rig.min_length
+        self.rig.stroke_length()
     }
 
     fn level_length(&self, level: usize) -> f64 {
-        self.rig.min_length + self.stroke() * level as f64 / (LENGTH_LEVELS - 1) as f64
+        self.rig.stroke()[0] + self.stroke() * level as f64 / (LENGTH_LEVELS - 1) as f64
     }
 
     /// The pose with these lengths of the legs; none if it is not found.
@@ -142,14 +142,17 @@ impl Reach<'_> {
     }
 
     fn approach(&self, legs: [usize; 2], pose: &Pose) -> Approach {
+        // Cranks have rods from the ends of their arms.
+        let ends = self.geometry.rods(pose).base;
         let segment = |leg: usize| {
             let end = pose.position + pose.orientation.rotation * self.rig.platform[leg];
-            [self.rig.base[leg], end]
+            [ends.joint(leg), end]
         };
         let [a, b] = legs.map(segment);
         // A leg has its free parts at most up to its middle.
         let is_shared = |joints: &[Vector3<f64>; 6]| (joints[legs[0]] - joints[legs[1]]).norm() < SHARED_JOINT_DISTANCE;
-        let [at_base, at_platform] = [&self.rig.base, &self.rig.platform].map(is_shared);
+        let bases = array::from_fn(|leg| ends.joint(leg));
+        let [at_base, at_platform] = [&bases, &self.rig.platform].map(is_shared);
         let beyond = |[from, to]: [Vector3<f64>; 2]| {
             let free = (to - from) * (self.free / (to - from).norm().max(2.0 * self.free));
             [if at_base { from + free } else { from }, if at_platform { to - free } else { to }]
@@ -173,7 +176,8 @@ impl Reach<'_> {
             let moves = (0..12).filter_map(|index| {
                 let mut moved = lengths;
                 let signed = if index % 2 == 0 { step } else { -step };
-                moved[index / 2] = (moved[index / 2] + signed).clamp(self.rig.min_length, self.rig.max_length);
+                let [start, end] = self.rig.stroke();
+                moved[index / 2] = (moved[index / 2] + signed).clamp(start, end);
                 Some((moved, self.approach(legs, &self.pose(&moved, &best.pose)?)))
             });
             match moves.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance)) {

@@ -39,8 +39,8 @@ pub fn measures_with(simulation: &Simulation, references: Option<&mut References
         scale: [scale.x, scale.y],
         felt_rate: &(count, |k: usize| outputs[k].felt_angular_velocity.into()),
         platform: Platform {
-            legs: &(count, |k: usize| outputs[k].length),
-            stroke: [rig.min_length, rig.max_length],
+            legs: &(count, |k: usize| outputs[k].actuators(rig)[0]),
+            stroke: rig.stroke(),
             displacement: &(count, |k: usize| (outputs[k].position - neutral).into()),
             tilt_rate: &(count, |k: usize| [outputs[k].tilt_roll_rate, outputs[k].tilt_pitch_rate]),
             limited: &outputs.iter().enumerate().map(limited).collect::<Vec<_>>(),

@@ -19,7 +19,7 @@ const TABLE_ROW_HEIGHT: f64 = 26.0;
 const SVG_STYLE: &str = "text{font:13px system-ui,sans-serif;fill:#333}.title{font-size:20px;font-weight:600}.panel{font-size:14px;\
 font-weight:600}.frame{fill:none;stroke:#999}.safety{fill:none;stroke:#d95f02;stroke-width:1.5;stroke-dasharray:6 4}\
 .neutral{stroke:#111;stroke-width:1.5}.base{fill:#e9e9e9;stroke:#777}.platform{fill:#2171b5;fill-opacity:.25;stroke:#2171b5;\
-stroke-width:2}.leg{stroke:#555;stroke-width:4;stroke-linecap:round}.number{fill:#fff;stroke:#555}.arrow{stroke:#d95f02;\
+stroke-width:2}.leg{stroke:#555;stroke-width:4;stroke-linecap:round}.arm{stroke:#d95f02;stroke-width:6;stroke-linecap:round}.number{fill:#fff;stroke:#555}.arrow{stroke:#d95f02;\
 stroke-width:2}.torso{stroke:#1b9e77;stroke-width:4;stroke-linecap:round}.head{fill:#1b9e77}.singular{fill:#b2182b}\
 .close{stroke:#b2182b}.gap{stroke:#b2182b;stroke-width:2;stroke-dasharray:3 3}.point{fill:#b2182b}.collision{fill:#b2182b;font-weight:600}";
 

@@ -7,6 +7,8 @@
 
 use moris_washout::Rig;
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::Pose;
+use moris_washout::platform::reach::stroke_margin;
 
 use super::svg::Window;
 
@@ -41,7 +43,9 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     let mut text = String::new();
     for (index, (margin, colour)) in MARGINS.into_iter().enumerate() {
         let name = format!("s{}{}m{index}", plane.axes[0], plane.axes[1]);
-        if let Some(rings) = rings(rig, plane, neutral, margin) {
+        if rig.has_cranks() {
+            text += &cells(rig, plane, margin, &window, colour);
+        } else if let Some(rings) = rings(rig, plane, neutral, margin) {
             text += &shape(&name, &rings, &window, colour);
         }
     }
@@ -56,6 +60,28 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
         cy - 6.0
     );
     text + &window.axes(plane.names)
+}
+
+/// Cells across a section of a rig with cranks.
+const CELLS: u32 = 120;
+
+/// The section of a rig with cranks as cells, in which the actuators have this margin.
+fn cells(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: &str) -> String {
+    let [low, high] = window.corners();
+    let mut path = String::new();
+    let size = [0, 1].map(|k: usize| (high[k] - low[k]) / f64::from(CELLS));
+    for (i, j) in (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| (i, j))) {
+        let at = [low[0] + (f64::from(i) + 0.5) * size[0], low[1] + (f64::from(j) + 0.5) * size[1]];
+        let mut pose = Pose::neutral(rig);
+        (pose.position[plane.axes[0]], pose.position[plane.axes[1]]) =
+            (pose.position[plane.axes[0]] + at[0], pose.position[plane.axes[1]] + at[1]);
+        if stroke_margin(rig, &pose) >= margin {
+            let [x, y] = window.pixel([at[0] - 0.5 * size[0], at[1] + 0.5 * size[1]]);
+            let [width, height] = size.map(|size| size * window.scale());
+            path += &format!("M{x:.1} {y:.1}h{width:.1}v{height:.1}h-{width:.1}z");
+        }
+    }
+    format!(r#"<path d="{path}" fill="{colour}"/>"#)
 }
 
 /// A leg's ring in the plane: centre, inner and outer radius \[m\].

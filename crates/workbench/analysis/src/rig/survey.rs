@@ -32,7 +32,7 @@ impl Survey {
         parameters.check_ranges()?;
         Ok(Survey {
             name: file.name.clone(),
-            capabilities: Capabilities::of(&parameters, file.actuator.diameter)?,
+            capabilities: Capabilities::of(&parameters, file.diameter())?,
             workspace: Workspace::of(&parameters.rig, samples),
         })
     }

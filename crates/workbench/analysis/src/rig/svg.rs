@@ -26,6 +26,11 @@ impl Window {
         }
     }
 
+    /// The lower left and the upper right corner.
+    pub fn corners(&self) -> [[f64; 2]; 2] {
+        [self.low, self.high]
+    }
+
     /// Scale of both axes \[px/m\].
     pub fn scale(&self) -> f64 {
         room()[0] / (self.high[0] - self.low[0])

@@ -2,7 +2,7 @@
 
 use moris_washout::interface::Parameters;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::{LocationFrame, Pose};
+use moris_washout::platform::{Geometry, LocationFrame, Pose};
 
 use super::svg::Window;
 use moris_simulation::clearance::Approach;
@@ -49,7 +49,12 @@ pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) ->
         text += &line(&Vector3::zeros(), arrow, "arrow");
         text += &format!(r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{name}</text>"#, y + 4.0);
     }
-    for (leg, (from, to)) in rig.base.iter().zip(&platform).enumerate() {
+    let ends = Geometry::from(rig).rods(pose).base;
+    for (leg, (from, to)) in (0..6).map(|leg| ends.joint(leg)).zip(&platform).enumerate() {
+        let from = &from;
+        if rig.has_cranks() {
+            text += &line(&rig.base[leg], from, "arm");
+        }
         let is_close = closest.is_some_and(|approach| approach.legs.contains(&leg));
         text += &line(from, to, if is_close { "leg close" } else { "leg" });
     }

@@ -62,7 +62,7 @@ impl Workspace {
             .reduce(Coverage::nothing, Coverage::and);
         let size = (high - low).product();
         let neutral = Pose::neutral(rig).position;
-        let little = Vector3::repeat(0.1 * (rig.max_length - rig.min_length));
+        let little = Vector3::repeat(0.1 * rig.stroke_length());
         Workspace {
             level: Volume::of(found.level, samples, size),
             tilted: Volume::of(found.tilted, samples, size),
@@ -86,7 +86,7 @@ impl Volume {
 /// A box that contains every position of the level platform. The origin is never farther than a
 /// leg's longest length from the point where that leg's joints would coincide.
 fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
-    let reach = Vector3::repeat(rig.max_length);
+    let reach = Vector3::repeat(rig.farthest_joint());
     let meeting = (0..6).map(|i| rig.base[i] - rig.platform[i]);
     meeting.fold([-Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::INFINITY)], |[low, high], point| {
         [low.sup(&(point - reach)), high.inf(&(point + reach))]

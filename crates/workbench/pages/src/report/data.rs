@@ -68,7 +68,7 @@ impl From<&Parameters> for Rig {
             base: rig.base.map(Into::into),
             platform: rig.platform.map(Into::into),
             neutral_height: rig.neutral_height,
-            stroke: [rig.min_length, rig.max_length],
+            stroke: rig.stroke(),
             head_height: structure.head_height,
             torso_length: structure.torso_length,
         }

@@ -34,7 +34,7 @@ pub fn run(evaluated: &Evaluated, name: &str, thinning: &Thinning) -> Run {
         // A pose is that of one time.
         position: array::from_fn(|axis| thinning.at_times(|k| outputs[k].position[axis])),
         orientation: array::from_fn(|axis| thinning.at_times(|k| outputs[k].orientation.to_vector()[axis])),
-        legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].length[leg])),
+        legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].actuators(&parameters.rig)[0][leg])),
         tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
         tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
         lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },

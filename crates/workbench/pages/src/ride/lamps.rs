@@ -19,8 +19,8 @@ pub fn lit(washout: &Washout) -> [bool; NAMES.len()] {
         now.tilt_limited,
         now.soft_limited,
         now.safety_active,
-        now.stroke_margin < NEAR_END * (rig.max_length - rig.min_length),
-        any(&now.leg_velocity, rig.velocity_limit),
-        any(&rates.leg_velocity, rig.acceleration_limit),
+        now.stroke_margin < NEAR_END * rig.stroke_length(),
+        any(&now.actuators(rig)[1], rig.velocity_limit),
+        any(&rates.actuators(rig)[1], rig.acceleration_limit),
     ]
 }

@@ -38,7 +38,8 @@ pub enum Limit {
 
 /// Distance of the legs from either end of their stroke, the least \[m\].
 pub fn margin(lengths: &[f64; 6], rig: &Rig) -> f64 {
-    let of = |length: &f64| (length - rig.min_length).min(rig.max_length - length);
+    let [start, end] = rig.stroke();
+    let of = |length: &f64| (length - start).min(end - length);
     lengths.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
@@ -47,6 +48,7 @@ pub fn margin(lengths: &[f64; 6], rig: &Rig) -> f64 {
 ///
 /// Speed and acceleration are central differences over three samples.
 pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) -> Vec<Excess> {
+    let [start, end] = rig.stroke();
     let parts = (legs.len() - 1) / (outputs.len() - 1);
     let step = step / parts as f64;
     let mut exceeds = vec![false; legs.len()];
@@ -56,8 +58,8 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
         let rates = means(&lengths, step);
         for (k, (&length, [speed, acceleration])) in lengths.iter().zip(rates).enumerate() {
             let beyond = [
-                (Limit::Shortest, length, rig.min_length, rig.min_length - length - LENGTH_TOLERANCE),
-                (Limit::Longest, length, rig.max_length, length - rig.max_length - LENGTH_TOLERANCE),
+                (Limit::Shortest, length, start, start - length - LENGTH_TOLERANCE),
+                (Limit::Longest, length, end, length - end - LENGTH_TOLERANCE),
                 (
                     Limit::Speed,
                     speed.abs(),
@@ -85,6 +87,9 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
     for (k, output) in outputs.iter_mut().enumerate() {
         let at = k * parts;
         output.length = legs[at];
+        if rig.has_cranks() {
+            output.angle = legs[at].map(|arc| arc / rig.crank_arm);
+        }
         output.stroke_margin = margin(&legs[at], rig);
         let since = if k == 0 { 0 } else { at - parts + 1 };
         output.actuator_limited = exceeds[since..=at].iter().any(|exceeds| *exceeds);

@@ -70,6 +70,12 @@ pub fn check(
             }
         }
     }
+    if legs.is_some() && rig.has_cranks() {
+        return Err(ForeignError::Implausible {
+            argument: "legs",
+            reason: "the rig has cranks, whose lengths follow from the pose; give the pose in their place".to_owned(),
+        });
+    }
     if let Some(legs) = legs {
         let length = median(legs.iter().flatten().copied());
         if !(rig.min_length / MAX_SIZE_RATIO..rig.max_length * MAX_SIZE_RATIO).contains(&length) {
