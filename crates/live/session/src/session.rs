@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use moris_interface::{Group, Reader, slots_of};
+use moris_interface::{Group, Reader, refuse, slots_of};
 use moris_laps::Laps;
 use moris_washout::interface::{AngularVelocityFrame, Output};
 use moris_washout::motion::orientation::Orientation;
@@ -256,6 +256,15 @@ impl Session {
     /// The first parameter that cannot be used, and why.
     pub fn new(parameters: &Parameters, settings: &Settings) -> Result<Self, ParameterError> {
         let mut parameters = *parameters;
+        if parameters.rig.has_cranks() {
+            return refuse(
+                "crank.arm",
+                format!(
+                    "is {} m, but a live session commands lengths of legs; use the FMU, Rust or Python for a rig with cranks",
+                    parameters.rig.crank_arm
+                ),
+            );
+        }
         parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;
         let at_rest = Motion::at_rest();
         let washout = Washout::new(&parameters)?.starting_with(&at_rest.input(false));

@@ -199,3 +199,11 @@ fn the_settled_pose_of_a_platform_that_hangs_is_its_lowest() {
     assert!(commands.heave < -0.1, "{} m", commands.heave);
     assert!(commands.length.iter().all(|length| (length - 1.588).abs() < 1e-9), "{:?}", commands.length);
 }
+
+#[test]
+fn cranks_are_refused_because_a_session_commands_lengths() {
+    let mut parameters = Parameters::default();
+    parameters.rig.crank_arm = 0.2;
+    let refusal = Session::new(&parameters, &Settings::default()).unwrap_err();
+    assert!(refusal.variable == "crank.arm" && refusal.reason.contains("0.2 m"), "{refusal}");
+}
