@@ -2,7 +2,7 @@
 
 use moris::recording::Recording;
 use moris::simulate::Outcome;
-use moris_setup::{SETS, Setup};
+use moris_setup::Setup;
 use moris_simulation::channels::channels;
 use moris_simulation::drives::bench::{DRIVES, FRAME};
 use moris_simulation::preview::Previewer;
@@ -116,9 +116,8 @@ fn following_a_verdict_makes_what_it_names_better_and_nothing_else_worse() {
         ][..],
         &["paper-b", "lane-change"],
     );
-    let rigs = cases(&["hobby100", "hobby200", "narrow", "default", "flight091"][..], &["hobby200", "default"]);
-    let all: Vec<&str> = SETS.iter().map(|(name, _)| *name).collect();
-    let sets = cases(&all[..], &["default", "paper"]);
+    let rigs = cases(&["hobby100", "default", "flight091"][..], &["hobby200", "default"]);
+    let sets = cases(&["default", "classical", "robust"][..], &["default", "paper"]);
     let mut followed = 0;
     for drive in DRIVES.iter().filter(|drive| drives.contains(&drive.name)) {
         let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);
