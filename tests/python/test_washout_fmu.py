@@ -47,7 +47,7 @@ def test_the_command_compares_an_fmu_and_says_what_is_wrong(tmp_path):
     subprocess.run(["python3", ROOT / "examples" / "recording.py", tmp_path / "ride.csv"], check=True)
     simulate = ["simulate", tmp_path / "ride.csv", "--no-bound", "--strategy", "classical", "--report", tmp_path, "--washout"]
     done = moris(*simulate, FMU, "--map", written(tmp_path / "map.toml", "strategy = 1"))
-    assert done.returncode == 0 and "parameters MorisWashout:" in done.stdout, done.stderr
+    assert done.returncode == 0 and "motion MorisWashout:" in done.stdout, done.stderr
     ours, theirs = rows(tmp_path / "ride.outputs.csv"), rows(tmp_path / "ride.MorisWashout.outputs.csv")
     poses = [name for name in ours[0] if name.startswith(("platform.position", "platform.orientation"))]
     assert len(poses) == 6 and all(a[name] == b[name] for a, b in zip(ours, theirs) for name in poses)

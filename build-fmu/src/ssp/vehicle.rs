@@ -76,15 +76,14 @@ impl Vehicle {
         if !model.fmi_version.starts_with('2') || model.co_simulation.is_none() {
             return Err(refused("is not of FMI 2.0 for co-simulation, as SSP 1.0 needs; export it so".to_owned()));
         }
-        let of = |causality: &str| {
-            let is_such =
-                |variable: &&Variable| variable.causality.as_deref() == Some(causality) && variable.real.is_some();
-            model.variables.all.iter().filter(is_such).collect::<Vec<_>>()
-        };
-        let (inputs, outputs) = (of("input"), of("output"));
+        let is_real_output =
+            |variable: &&Variable| variable.causality.as_deref() == Some("output") && variable.real.is_some();
+        let outputs: Vec<&Variable> = model.variables.all.iter().filter(is_real_output).collect();
         let is_output = |name: &str| outputs.iter().any(|output| output.name == name);
         let (_, base) = MOTORCYCLE_SIMULATOR.flat[0];
-        let washout_inputs = washout_inputs(base);
+        let links = links(base);
+        let washout_inputs: Vec<&str> =
+            links.iter().filter(|(element, _)| *element == "washout").map(|(_, input)| *input).collect();
         let mut connections: Vec<(&str, &str)> = Vec::new();
         for pair in connected {
             let Some((output, input)) = pair.split_once('=').filter(|(output, _)| is_output(output)) else {
@@ -107,7 +106,7 @@ impl Vehicle {
         if let Some(open) = REQUIRED_INPUTS.iter().find(is_open) {
             return Err(refused(format!("has no output {open}; name its own with --connect OUTPUT={open}")));
         }
-        let description = description(base, &inputs, &outputs, &connections);
+        let description = description(base, &links, &outputs, &connections);
         let connections = connections.iter().map(|(output, input)| format!("{output} -> {input}")).collect();
         Ok(Vehicle { bytes, description, connections })
     }
@@ -122,58 +121,69 @@ fn model_description(file: &Path) -> Result<String, Error> {
     Ok(text)
 }
 
-/// Names of the washout's inputs that take the vehicle's motion.
-fn washout_inputs(base: &str) -> Vec<&str> {
-    base.lines()
-        .filter(|line| {
-            line.contains(&format!("startElement=\"{REPLACED}\"")) && line.contains("endElement=\"washout\"")
-        })
-        .filter_map(|line| line.split("endConnector=\"").nth(1)?.split('"').next())
-        .collect()
+/// Components and their inputs that take the vehicle's motion.
+fn links(base: &str) -> Vec<(&str, &str)> {
+    let of_vehicle = base.lines().filter(|line| line.contains(&format!("startElement=\"{REPLACED}\"")));
+    of_vehicle.filter_map(|line| Some((attribute(line, "endElement")?, attribute(line, "endConnector")?))).collect()
 }
 
-/// The system's description with the vehicle in the place of the motorcycle, and without the
-/// parameters that are made for a motorcycle.
-fn description(base: &str, inputs: &[&Variable], outputs: &[&Variable], connections: &[(&str, &str)]) -> String {
+/// The value of an attribute in a line of the system's description.
+fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
+    line.split_once(&format!(" {name}=\""))?.1.split('"').next()
+}
+
+/// The system's description with the vehicle in the place of the motorcycle, without the parameters
+/// that are made for a motorcycle, and without connectors of inputs that nothing is connected to:
+/// FMPy takes none.
+fn description(base: &str, links: &[(&str, &str)], outputs: &[&Variable], connections: &[(&str, &str)]) -> String {
     let (mut text, mut skipped) = (String::new(), None);
     let mut is_connected = false;
+    let is_open = |line: &str| {
+        attribute(line, "kind") == Some("input")
+            && attribute(line, "name").is_some_and(|name| {
+                links.iter().any(|(_, input)| *input == name) && connections.iter().all(|(_, input)| *input != name)
+            })
+    };
     for line in base.lines() {
         let trimmed = line.trim();
         if let Some(end) = skipped {
             skipped = (trimmed != end).then_some(end);
         } else if trimmed.starts_with(&format!("<ssd:Component name=\"{REPLACED}\"")) {
-            text += &component(inputs, outputs);
+            text += &component(outputs);
             skipped = Some("</ssd:Component>");
+        } else if is_open(trimmed) {
+            skipped = Some("</ssd:Connector>");
         } else if trimmed == "<ssd:ParameterBindings>" {
             skipped = Some("</ssd:ParameterBindings>");
         } else if !trimmed.contains(&format!("Element=\"{REPLACED}\"")) {
             text += &format!("{line}\n");
         } else if !std::mem::replace(&mut is_connected, true) {
             for (output, input) in connections {
-                let _ = writeln!(
-                    text,
-                    "      <ssd:Connection startElement=\"vehicle\" startConnector=\"{}\" endElement=\"washout\" \
-                     endConnector=\"{input}\"/>",
-                    escape(*output)
-                );
+                for (element, _) in links.iter().filter(|(_, other)| other == input) {
+                    let _ = writeln!(
+                        text,
+                        "      <ssd:Connection startElement=\"vehicle\" startConnector=\"{}\" endElement=\"{element}\" \
+                         endConnector=\"{input}\"/>",
+                        escape(*output)
+                    );
+                }
             }
         }
     }
     text
 }
 
-fn component(inputs: &[&Variable], outputs: &[&Variable]) -> String {
-    let connector = |variable: &&Variable, kind: &str| {
+fn component(outputs: &[&Variable]) -> String {
+    let connector = |variable: &&Variable| {
         let unit = variable.real.as_ref().and_then(|real| real.unit.as_deref());
         let unit = unit.map_or_else(String::new, |unit| format!(" unit=\"{}\"", escape(unit)));
         format!(
-            "          <ssd:Connector name=\"{}\" kind=\"{kind}\">\n            <ssc:Real{unit}/>\n          \
+            "          <ssd:Connector name=\"{}\" kind=\"output\">\n            <ssc:Real{unit}/>\n          \
              </ssd:Connector>\n",
             escape(variable.name.as_str())
         )
     };
-    let inputs = inputs.iter().map(|input| connector(input, "input"));
-    let connectors: String = inputs.chain(outputs.iter().map(|output| connector(output, "output"))).collect();
+    let connectors: String = outputs.iter().map(connector).collect();
     format!(
         "      <ssd:Component name=\"vehicle\" type=\"application/x-fmu-sharedlibrary\" source=\"{VEHICLE_FMU}\" \
          implementation=\"CoSimulation\">\n        <ssd:Connectors>\n{connectors}        </ssd:Connectors>\n        \
