@@ -163,7 +163,7 @@ fn engaging_and_disengaging_at_random_are_felt_without_a_jerk() {
                 toggles.push(toggles[toggles.len() - 1] + 0.05 + 6.0 * random.between(0.0, 1.0).powi(2));
             }
             let jerk = largest_jerk(&parameters, force, &toggles);
-            assert!(jerk < 11.0, "{set}, {force:?} m/s2, {toggles:?} s: {jerk} m/s3");
+            assert!(jerk < 12.0, "{set}, {force:?} m/s2, {toggles:?} s: {jerk} m/s3");
         }
     }
 }

@@ -133,8 +133,8 @@ fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
 }
 
 /// The system's description with the vehicle in the place of the motorcycle, without the parameters
-/// that are made for a motorcycle, and without connectors of inputs that nothing is connected to:
-/// FMPy takes none.
+/// that are made for a motorcycle. Inputs that nothing is connected to lose their connectors: FMPy
+/// takes none.
 fn description(base: &str, links: &[(&str, &str)], outputs: &[&Variable], connections: &[(&str, &str)]) -> String {
     let (mut text, mut skipped) = (String::new(), None);
     let mut is_connected = false;
