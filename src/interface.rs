@@ -445,10 +445,6 @@ interface! {
         "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] { 1e-3 ..= 100.0 } = 1.0, heading("Rig");
         /// Largest acceleration of an actuator; with cranks, of the arms' ends along their circle.
         "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] { 1e-3 ..= 1e4 } = 15.0, heading("Rig");
-        /// Joint of the actuator on the base, in the base frame.
-        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
-        /// Joint of the actuator on the platform, in the platform frame.
-        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
         /// Length of a crank's arm, from its axle at the base joint to the rod; 0 for a rig with legs.
         "crank.arm" crank_arm: f64 [M] { 0.0 ..= 100.0 } = 0.0;
         /// Length of a crank's rod, from the arm's end to the platform joint.
@@ -461,6 +457,10 @@ interface! {
         "crank.maxAngle" crank_max_angle: f64 [RAD] { -2.0 ..= 2.0 } = 1.0;
         /// Smallest transmission of a crank: the sine of the angle between rod and arm, in the arm's plane and with the rod's slant.
         "crank.leastTransmission" crank_least_transmission: f64 { 0.05 ..= 0.99 } = 0.3;
+        /// Joint of the actuator on the base, in the base frame.
+        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
+        /// Joint of the actuator on the platform, in the platform frame.
+        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
     }
 }
 
