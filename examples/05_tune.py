@@ -34,7 +34,7 @@ moris("simulate", recording, "--parameters", "default", "--compare", tuned)
 before = np.genfromtxt(DIRECTORY / "ride.outputs.csv", delimiter=",", names=True, deletechars="")
 after = np.genfromtxt(DIRECTORY / "ride.tuned.outputs.csv", delimiter=",", names=True, deletechars="")
 for name, value in tomllib.loads(tuned.read_text()).items():
-    print(f"{name} = {value:.3g}")
+    print(f"{name} = {value}" if isinstance(value, str) else f"{name} = {value:.3g}")
 draw("target/examples/05_tune.svg", "One recording with two parameter sets", before["time"], [
     (f"specific force,\n{name} [m/s²]", [
         ("desired", before[f"vehicle.specificForce.{axis}"], GREY),

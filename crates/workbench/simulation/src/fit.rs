@@ -84,7 +84,7 @@ impl Aims {
 const SAME_SHAPE: f64 = 0.02;
 
 /// The best of pairs of shape and size: of those with the best shape, but for
-/// [`SAME_SHAPE`], the largest.
+/// 0.02, the largest.
 pub fn best_of(qualities: &[[f64; 2]]) -> Option<usize> {
     let shape = qualities.iter().map(|[shape, _]| *shape).reduce(f64::max)?;
     let like_it = (0..qualities.len()).filter(|&k| qualities[k][0] >= shape - SAME_SHAPE);

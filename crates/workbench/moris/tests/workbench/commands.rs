@@ -560,8 +560,8 @@ fn the_page_of_a_long_recording_has_its_largest_size() {
     let thinned = page(&["adaptive", "optimal", "robust", "paper"]);
     let resolution = thinned.split("\"Curves\",\"").nth(1).unwrap().split(";").next().unwrap();
     let interval = resolution.strip_prefix("least and greatest value of every ").unwrap().strip_suffix(" ms").unwrap();
-    assert!((4.0..=8.5).contains(&interval.parse::<f64>().unwrap()), "as much as fits, not {interval} ms");
-    assert!(curves(&thinned).len() > 2_400_000, "as much as fits, not {} bytes", curves(&thinned).len());
+    assert!((4.0..=12.0).contains(&interval.parse::<f64>().unwrap()), "as much as fits, not {interval} ms");
+    assert!(curves(&thinned).len() > 2_000_000, "as much as fits, not {} bytes", curves(&thinned).len());
     // The simulation takes what the curves leave, where it is compiled.
     let only_shows = thinned.contains("\"simulator\":null");
     assert!(only_shows || thinned.len() > 3_900_000, "as much as fits, not {} bytes", curves(&thinned).len());
