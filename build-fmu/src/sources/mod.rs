@@ -49,6 +49,11 @@ const CODE_CHANGES: &[(&str, &str)] = &[
     // C's functions do with NaN what WebAssembly's do.
     ("= wasm_fabs(", "= fabs("),
     ("= wasm_sqrt(", "= sqrt("),
+    // Without a function of libm, which FMPy does not link. Larger numbers are whole.
+    (
+        "  return trunc(x);\n",
+        "  return x > -4503599627370496.0 && x < 4503599627370496.0 ? copysign((double)(long long)x, x) : x;\n",
+    ),
 ];
 
 impl Sources {
