@@ -23,7 +23,7 @@ MAX_FRAMES = 3000
 SETS = ["classical", "adaptive", "optimal", "robust", "default", "preview", "paper"]
 STEP = 0.001
 BUFFER_SIZES = {"classical": 24 << 10, "predictive": 288 << 10}
-MAX_FLASH = 300_000
+MAX_FLASH = 315_000
 MAX_SECONDS = 600
 """For a build or a run that hangs."""
 
@@ -111,7 +111,7 @@ def example(folder, strategy, parameters):
 
 
 @pytest.mark.parametrize(("strategy", "parameters"), [("classical", "classical"), ("predictive", "default")])
-def test_a_program_in_c_with_one_strategy_has_300_kb_of_code_and_constants(strategy, parameters, tmp_path):
+def test_a_program_in_c_with_one_strategy_has_at_most_315_kb_of_code_and_constants(strategy, parameters, tmp_path):
     program = example(tmp_path, strategy, parameters)
     printed = subprocess.run(["arm-none-eabi-size", program], capture_output=True, text=True, check=True).stdout
     text, data = map(int, printed.splitlines()[1].split()[:2])
