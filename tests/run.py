@@ -24,6 +24,8 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from pathlib import Path
 
+from installing import add_rust_targets, install_packages
+
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
 VENV = TARGET / "venv"
@@ -340,12 +342,10 @@ def main():
     took = []
     if options.install and "pages" in chosen:
         # Before the command is compiled: it holds the pages' modules.
-        run("rustup", "target", "add", WEBASSEMBLY)
+        add_rust_targets(WEBASSEMBLY)
     if options.install and options.all and "package" in chosen:
-        become_root = [] if os.geteuid() == 0 else ["sudo"]
-        run("rustup", "target", "add", *BOARD_TARGETS)
-        run(*become_root, "apt-get", "update", "-qq")
-        run(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *BOARD_TOOLS)
+        add_rust_targets(*BOARD_TARGETS)
+        install_packages(*BOARD_TOOLS)
     # Otherwise the tests change no toolchain.
     os.environ["RUSTUP_AUTO_INSTALL"] = "0"
     for together, run_together in GROUPS:

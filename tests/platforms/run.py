@@ -22,7 +22,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "importers"))
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "importers")]
+from installing import add_rust_targets, install_packages  # noqa: E402
 from ride import TOLERANCE, Ride  # noqa: E402
 
 WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "platforms"
@@ -126,10 +127,8 @@ def check_call(command):
 
 
 def install():
-    become_root = [] if os.geteuid() == 0 else ["sudo"]
-    check_call([*become_root, "apt-get", "update", "-qq"])
-    check_call([*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *APT])
-    check_call(["rustup", "target", "add", *RUSTUP])
+    install_packages(*APT)
+    add_rust_targets(*RUSTUP)
     if not (VENV / "bin" / "python").exists():
         venv.create(VENV, with_pip=True)
     check_call([VENV / "bin" / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP])

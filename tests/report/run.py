@@ -21,6 +21,9 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+from installing import install_packages  # noqa: E402
+
 WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "report"
 VENV = WORK / "venv"
 PYTHON = VENV / "bin" / "python"
@@ -39,9 +42,7 @@ def check_call(*command):
 def install():
     missing = [package for package in BROWSERS if not browser(package)]
     if missing:
-        become_root = [] if os.geteuid() == 0 else ["sudo"]
-        check_call(*become_root, "apt-get", "update", "-qq")
-        check_call(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *missing)
+        install_packages(*missing)
     if not PYTHON.exists():
         venv.create(VENV, with_pip=True)
     check_call(PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP)

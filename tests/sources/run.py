@@ -21,7 +21,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "importers"))
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "importers")]
+from installing import add_rust_targets, install_packages  # noqa: E402
 from ride import Ride  # noqa: E402
 
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
@@ -54,10 +55,8 @@ def run(*command, **options):
 
 
 def install():
-    become_root = [] if os.geteuid() == 0 else ["sudo"]
-    run(*become_root, "apt-get", "update", "-qq")
-    run(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *APT)
-    run("rustup", "target", "add", *RUSTUP)
+    install_packages(*APT)
+    add_rust_targets(*RUSTUP)
 
 
 def need(program, package):
