@@ -178,7 +178,7 @@ fn unusual_value(row: &Row, name: &str, value: f64) -> Option<String> {
 
 /// A value to four digits behind the point.
 fn round(value: f64) -> f64 {
-    format!("{value:.4}").parse().unwrap_or(value)
+    libm::round(1e4 * value) / 1e4
 }
 
 /// Doubts about the first input, in sentences: hosts that set every input to zero neither engage

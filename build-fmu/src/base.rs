@@ -1,6 +1,8 @@
 //! An FMU as the base of another with other start values: its libraries are taken as they are but
 //! for these values. Nothing is compiled.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use moris_fmi::{Overrides, SectionError, embedded};
@@ -14,8 +16,42 @@ use crate::{
     terminals,
 };
 
-/// Largest FMU as a base, packed or unpacked \[bytes\].
-const MAX_BASE_SIZE: u64 = 256_000_000;
+/// Largest FMU that is read, packed or unpacked \[bytes\].
+const MAX_FMU_SIZE: u64 = 256_000_000;
+
+/// Path of the description in an FMU.
+const MODEL_DESCRIPTION: &str = "modelDescription.xml";
+
+/// An FMU that others may have made, as it is and as its files.
+pub struct Unpacked {
+    /// The archive.
+    pub bytes: Vec<u8>,
+    /// Its files, by their paths.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Unpacked {
+    /// Reads an FMU up to a bound.
+    ///
+    /// # Errors
+    /// The file cannot be read, is too large, or is no archive.
+    pub fn open(file: &Path) -> Result<Self, Error> {
+        let bytes = moris_fmu_host::files::bytes(file, MAX_FMU_SIZE)
+            .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+        let files = unpack(&bytes, MAX_FMU_SIZE)
+            .map_err(|error| Error::Base { file: file.to_owned(), reason: format!("cannot be unpacked: {error}") })?;
+        Ok(Unpacked { bytes, files })
+    }
+
+    /// The text of the description.
+    ///
+    /// # Errors
+    /// There is none: the reason, as a part of a sentence.
+    pub fn model_description(&self) -> Result<Cow<'_, str>, String> {
+        let text = self.files.get(MODEL_DESCRIPTION).ok_or_else(|| format!("has no {MODEL_DESCRIPTION}"))?;
+        Ok(String::from_utf8_lossy(text))
+    }
+}
 
 /// A model's libraries, by platform, and the extras, without start values in
 /// place of the model's own.
@@ -46,16 +82,14 @@ impl Base {
     /// The file is no FMU of this program's models, of another version, damaged, or put
     /// together from several FMUs.
     pub fn open(file: &Path) -> Result<Self, Error> {
-        let bytes = moris_fmu_host::files::bytes(file, MAX_BASE_SIZE)
-            .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
-        Self::read(&bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })
+        let unpacked = Unpacked::open(file)?;
+        Self::of(&unpacked).map_err(|reason| Error::Base { file: file.to_owned(), reason })
     }
 
-    fn read(bytes: &[u8]) -> Result<Self, String> {
-        let files = unpack(bytes, MAX_BASE_SIZE).map_err(|error| format!("cannot be unpacked: {error}"))?;
-        let text = files.get("modelDescription.xml").ok_or("has no modelDescription.xml")?;
-        let root: Root = from_str(&String::from_utf8_lossy(text))
-            .map_err(|error| format!("has a modelDescription.xml that cannot be read: {error}"))?;
+    fn of(unpacked: &Unpacked) -> Result<Self, String> {
+        let files = &unpacked.files;
+        let root: Root = from_str(&unpacked.model_description()?)
+            .map_err(|error| format!("has a {MODEL_DESCRIPTION} that cannot be read: {error}"))?;
         let model = MODELS.iter().find(|model| model.name == root.model_name);
         let model =
             model.ok_or_else(|| format!("is of the model {}, which this program does not know", root.model_name))?;
@@ -74,7 +108,7 @@ impl Base {
             Some((platform, files.get(&path)?.clone()))
         };
         let libraries: Vec<(Platform, Vec<u8>)> = Platform::ALL.iter().filter_map(library).collect();
-        let sources = Sources::of_files(&files);
+        let sources = Sources::of_files(files);
         let start = |what: &str, overrides: Result<Overrides, SectionError>| {
             let overrides = overrides.map_err(|error| match error {
                 SectionError::Missing => format!("has {what} without a place for start values"),

@@ -126,8 +126,9 @@ impl System {
     ) -> Result<Built, Error> {
         let contents = self.texts(form);
         let starts = self.starts()?;
-        let name = format!("{}{}", self.name, if form == Form::Flat { ".flat" } else { "" });
-        Self::pack(contents, &COMPONENTS, &starts, platforms, &output.join(format!("{name}.ssp")), report)
+        let ending = if form == Form::Flat { "flat.ssp" } else { "ssp" };
+        let file = output.join(format!("{}.{ending}", self.name));
+        Self::pack(contents, &COMPONENTS, &starts, platforms, &file, report)
     }
 
     /// Builds `OwnVehicle.ssp`: a vehicle's FMU, the washout and the platform with their start

@@ -1,8 +1,6 @@
 //! A package with a vehicle's FMU of one's own in the place of the motorcycle.
 
 use std::fmt::Write;
-use std::fs::{self, File};
-use std::io::Read;
 use std::path::Path;
 
 use quick_xml::de::from_str;
@@ -11,9 +9,10 @@ use serde::Deserialize;
 
 use super::MOTORCYCLE_SIMULATOR;
 use crate::Error;
+use crate::base::Unpacked;
 
 /// Name of the component that is replaced, as it stands in the system's description.
-const REPLACED: &str = "motorcycle";
+const REPLACED_COMPONENT: &str = "motorcycle";
 /// Path of the vehicle's FMU in the package.
 pub const VEHICLE_FMU: &str = "resources/Vehicle.fmu";
 /// Inputs of the washout without which nothing is felt.
@@ -70,9 +69,9 @@ impl Vehicle {
     /// force without an output.
     pub fn open(file: &Path, connected: &[String]) -> Result<Self, Error> {
         let refused = |reason: String| Error::Base { file: file.to_owned(), reason };
-        let bytes = fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
-        let model: Model =
-            from_str(&model_description(file)?).map_err(|error| refused(format!("is no FMU: {error}")))?;
+        let unpacked = Unpacked::open(file)?;
+        let text = unpacked.model_description().map_err(refused)?;
+        let model: Model = from_str(&text).map_err(|error| refused(format!("is no FMU: {error}")))?;
         if !model.fmi_version.starts_with('2') || model.co_simulation.is_none() {
             return Err(refused("is not of FMI 2.0 for co-simulation, as SSP 1.0 needs; export it so".to_owned()));
         }
@@ -108,22 +107,13 @@ impl Vehicle {
         }
         let description = description(base, &links, &outputs, &connections);
         let connections = connections.iter().map(|(output, input)| format!("{output} -> {input}")).collect();
-        Ok(Vehicle { bytes, description, connections })
+        Ok(Vehicle { bytes: unpacked.bytes, description, connections })
     }
-}
-
-fn model_description(file: &Path) -> Result<String, Error> {
-    let opened = File::open(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
-    let mut archive = zip::ZipArchive::new(opened)?;
-    let mut text = String::new();
-    let read = archive.by_name("modelDescription.xml")?.read_to_string(&mut text);
-    read.map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
-    Ok(text)
 }
 
 /// Components and their inputs that take the vehicle's motion.
 fn links(base: &str) -> Vec<(&str, &str)> {
-    let of_vehicle = base.lines().filter(|line| line.contains(&format!("startElement=\"{REPLACED}\"")));
+    let of_vehicle = base.lines().filter(|line| line.contains(&format!("startElement=\"{REPLACED_COMPONENT}\"")));
     of_vehicle.filter_map(|line| Some((attribute(line, "endElement")?, attribute(line, "endConnector")?))).collect()
 }
 
@@ -148,14 +138,14 @@ fn description(base: &str, links: &[(&str, &str)], outputs: &[&Variable], connec
         let trimmed = line.trim();
         if let Some(end) = skipped {
             skipped = (trimmed != end).then_some(end);
-        } else if trimmed.starts_with(&format!("<ssd:Component name=\"{REPLACED}\"")) {
+        } else if trimmed.starts_with(&format!("<ssd:Component name=\"{REPLACED_COMPONENT}\"")) {
             text += &component(outputs);
             skipped = Some("</ssd:Component>");
         } else if is_open(trimmed) {
             skipped = Some("</ssd:Connector>");
         } else if trimmed == "<ssd:ParameterBindings>" {
             skipped = Some("</ssd:ParameterBindings>");
-        } else if !trimmed.contains(&format!("Element=\"{REPLACED}\"")) {
+        } else if !trimmed.contains(&format!("Element=\"{REPLACED_COMPONENT}\"")) {
             text += &format!("{line}\n");
         } else if !std::mem::replace(&mut is_connected, true) {
             for (output, input) in connections {

@@ -30,11 +30,6 @@ pub fn close_memory() {
     ARENA.end.store(ARENA.start.load(Relaxed), Relaxed);
 }
 
-/// Bytes that are still free.
-pub fn free_bytes() -> usize {
-    ARENA.end.load(Relaxed) - ARENA.start.load(Relaxed)
-}
-
 // SAFETY: each allocation is a part of the piece of its own, aligned as asked.
 unsafe impl GlobalAlloc for Arena {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {

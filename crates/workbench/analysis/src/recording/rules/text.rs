@@ -21,7 +21,7 @@ impl From<f64> for Value {
     }
 }
 
-/// What a message is made of is a part.
+/// Types that become a part of a message.
 macro_rules! parts {
     ($($kind:ty)*) => { $(
         impl From<$kind> for Value {
