@@ -28,13 +28,6 @@ impl AxisBound {
     }
 }
 
-/// An axis on which less than this is desired has no bound worth computing: RMS \[m/s2\].
-const WORTH_BOUNDING: f64 = 0.01;
-
-/// More intervals than this take too long, and a longer recording gets longer ones: its bound is a
-/// little lower, and as valid.
-const MOST_INTERVALS: f64 = 10_000.0;
-
 /// The bounds of surge, sway and heave, computed beside each other; none where nothing
 /// is desired on an axis.
 ///
@@ -44,6 +37,9 @@ const MOST_INTERVALS: f64 = 10_000.0;
 /// # Errors
 /// The recording is too short for a bound, or the solver fails.
 pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundError> {
+    // More intervals than this take too long, and a longer recording gets longer ones: its bound is
+    // a little lower, and as valid.
+    const MOST_INTERVALS: f64 = 10_000.0;
     let duration = simulation.step * simulation.inputs.len() as f64;
     bounds_at(simulation, INTERVAL.max(duration / MOST_INTERVALS))
 }
@@ -54,6 +50,8 @@ pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundE
 /// # Errors
 /// As [`bounds`].
 pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<AxisBound>>, BoundError> {
+    // An axis on which less than this is desired has no bound worth computing: RMS [m/s2].
+    const WORTH_BOUNDING: f64 = 0.01;
     let on_axis = |axis: usize| {
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let desired: Vec<f64> = simulation.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();

@@ -11,9 +11,6 @@ use moris_simulation::preview::Previewer;
 use crate::error::{About, Result, ensure};
 use crate::recording::Recording;
 
-/// Largest file \[bytes\]. A full memory has less than 4 MB.
-const MAX_FILE_SIZE: u64 = 16_000_000;
-
 /// The road that recordings learn: each one its own, or all of them one that is kept in a file.
 pub struct Kept<'a> {
     file: Option<&'a Path>,
@@ -55,6 +52,8 @@ impl<'a> Kept<'a> {
 /// The file cannot be read, or is none of a learned road. Its folder is missing, or takes no files:
 /// the road would be lost at the end of a ride.
 pub fn load(file: &Path) -> Result<Laps> {
+    // Largest file [bytes]. A full memory has less than 4 MB.
+    const MAX_FILE_SIZE: u64 = 16_000_000;
     if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
     }

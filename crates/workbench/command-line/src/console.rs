@@ -11,8 +11,6 @@ use std::time::{Duration, Instant};
 
 /// Lines that wait at most; further ones are lost.
 const MAX_WAITING_LINES: usize = 4096;
-/// Time in which the last lines must be written.
-const LAST_LINES_TIME: Duration = Duration::from_millis(500);
 
 enum Line {
     Text(String),
@@ -36,6 +34,8 @@ pub fn flush() {
 
 /// Waits until the lines are written. False if their reader does not read.
 fn wait_for(lines: &SyncSender<Line>) -> bool {
+    // Time in which the last lines must be written.
+    const LAST_LINES_TIME: Duration = Duration::from_millis(500);
     let (mark, written) = sync_channel(1);
     let end = Instant::now() + LAST_LINES_TIME;
     while lines.try_send(Line::Mark(mark.clone())).is_err() {

@@ -26,19 +26,15 @@ pub struct SetupOptions {
     pub strategy: Option<StrategyKind>,
 }
 
-/// Numbers of the strategies, as the FMU has them.
-const STRATEGY_NUMBERS: [&str; 5] = ["1", "2", "3", "4", "5"];
-
 /// The washout's strategies, by name or number.
 pub fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
+    // Numbers of the strategies, as the FMU has them.
+    const STRATEGY_NUMBERS: [&str; 5] = ["1", "2", "3", "4", "5"];
     let numbered = || StrategyKind::ALL.iter().copied().zip(STRATEGY_NUMBERS);
     let given = move |given: String| numbered().find(|(strategy, number)| [strategy.name(), number].contains(&&*given));
     PossibleValuesParser::new(numbered().map(|(strategy, number)| PossibleValue::new(strategy.name()).alias(number)))
         .map(move |name| given(name).map_or(StrategyKind::Predictive, |(strategy, _)| strategy))
 }
-
-/// The parameter that is on in what drives at once.
-const AUTOMATIC_SCALE: &str = "scale.automatic";
 
 impl SetupOptions {
     /// As [`SetupOptions::load`], with the automatic scale on unless a file says otherwise: nobody
@@ -47,6 +43,8 @@ impl SetupOptions {
     /// # Errors
     /// As [`Setup::load`].
     pub fn load_to_drive(&self) -> Result<Setup, Error> {
+        // The parameter that is on in what drives at once.
+        const AUTOMATIC_SCALE: &str = "scale.automatic";
         let mut setup = self.load_with_notes()?;
         for set in &self.parameters {
             if load_set(set, Parameters::ROWS)?.iter().any(|(name, _)| name == AUTOMATIC_SCALE) {

@@ -6,11 +6,6 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Time between the lines of a log.
-const LOG_EVERY: Duration = Duration::from_secs(2);
-/// Time between two updates of the bar.
-const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
-
 /// Progress of one recording through its phases.
 pub struct Progress {
     name: String,
@@ -30,6 +25,8 @@ impl Progress {
     /// # Errors
     /// No error is possible, because the bar's template is fixed.
     pub fn new(name: &str, phase: &'static str) -> Result<Self> {
+        // Time between two updates of the bar.
+        const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg} {wide_bar} {percent:>3} %")?);
         let is_logged = !stderr().is_terminal();
@@ -55,6 +52,8 @@ impl Progress {
 
     /// Advances the bar by a step.
     pub fn step(&mut self) {
+        // Time between the lines of a log.
+        const LOG_EVERY: Duration = Duration::from_secs(2);
         if !self.is_logged {
             return self.bar.inc(1);
         }

@@ -13,10 +13,6 @@ use moris_simulation::{Evaluated, Finding, Manoeuvre, Replay, Simulation, Weight
 use moris_washout::{Input, Parameters, presets};
 use serde_json::json;
 
-const GRAVITY: f64 = 9.80665;
-/// Text that would run a script, end an element, or break out of a string if it were not escaped.
-const HOSTILE: &str = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \"&lt;' {{data}} \u{2028} ?";
-
 fn main() {
     let Some(directory) = std::env::args_os().nth(1) else {
         eprintln!("error: say into which directory: pages DIRECTORY");
@@ -90,6 +86,9 @@ fn finding(weight: Weight, text: &str) -> Finding {
 }
 
 fn hostile() -> Report {
+    // Text that would run a script, end an element, or break out of a string if it were not
+    // escaped.
+    const HOSTILE: &str = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \"&lt;' {{data}} \u{2028} ?";
     let mut run = simulated(HOSTILE, &Parameters::default(), 5.0, 0.01);
     run.measures.push(Row {
         subject: HOSTILE.into(),
@@ -140,6 +139,7 @@ fn rise(t: f64, start: f64, duration: f64) -> f64 {
 
 /// Accelerate, bends and bumps, and an abrupt stop at 40 s.
 fn input(t: f64) -> Input {
+    const GRAVITY: f64 = 9.80665;
     let surge = 2.2 * (rise(t, 1.0, 3.0) - rise(t, 10.0, 3.0));
     let brake = if t < 40.0 { -3.5 * rise(t, 32.0, 4.0) } else { 0.0 };
     let bends = rise(t, 14.0, 2.0) - rise(t, 28.0, 2.0);

@@ -19,9 +19,6 @@ use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
 use serde_json::{Value, json};
 
-const INPUT_SLOTS: usize = slot_count(Input::ROWS);
-const PARAMETER_SLOTS: usize = slot_count(Parameters::ROWS);
-
 /// A recording, as the page knows it.
 struct Recorded {
     manoeuvre: Manoeuvre,
@@ -44,6 +41,8 @@ thread_local! {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn record() -> usize {
+    const INPUT_SLOTS: usize = slot_count(Input::ROWS);
+    const PARAMETER_SLOTS: usize = slot_count(Parameters::ROWS);
     let recorded = with_numbers(|numbers| {
         let (head, samples) = numbers.split_at(4 + PARAMETER_SLOTS);
         let input = |slots| Input::read(&mut Reader::new(slots));

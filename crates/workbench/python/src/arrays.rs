@@ -8,9 +8,6 @@ use pyo3::prelude::*;
 use crate::error;
 use crate::setup::Given;
 
-/// Steps of time that differ by less than this count as equal \[fraction of a step\].
-const STEP_TOLERANCE: f64 = 1e-6;
-
 /// The times of samples.
 pub enum Time {
     /// At equal steps \[s\].
@@ -22,6 +19,8 @@ pub enum Time {
 impl Time {
     /// The times of an array that increases from sample to sample.
     fn of(py: Python, times: &[f64]) -> PyResult<Self> {
+        // Steps of time that differ by less than this count as equal [fraction of a step].
+        const STEP_TOLERANCE: f64 = 1e-6;
         let refused = |message: String| error::recording(py, message);
         if times.len() < 2 {
             return Err(refused(format!("time has {} samples; at least 2 are needed", times.len())));

@@ -26,9 +26,6 @@ use crate::setup::{self, Given};
 use crate::washout::parameter_dict;
 use crate::words::argument;
 
-/// Time between two checks of progress and signals.
-const POLL_INTERVAL: Duration = Duration::from_millis(50);
-
 /// Result of a tuning: parameters, sets tried, summary, the first line, is it worse, was it
 /// interrupted, and for each recording its name and errors before, tuned and unseen.
 type Tuned<'py> = (Bound<'py, PyDict>, String, String, bool, bool, Vec<(String, f64, Option<f64>, Option<f64>)>);
@@ -124,6 +121,8 @@ impl PyTuning {
         evaluate: Option<Py<PyAny>>,
         parallel: usize,
     ) -> PyResult<Tuned<'py>> {
+        // Time between two checks of progress and signals.
+        const POLL_INTERVAL: Duration = Duration::from_millis(50);
         let interrupted = Arc::new(AtomicBool::new(false));
         let progress: Mutex<Option<Progress>> = Mutex::new(None);
         let failure: Mutex<Option<PyErr>> = Mutex::new(None);

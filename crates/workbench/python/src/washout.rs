@@ -16,9 +16,6 @@ use crate::setup::Given;
 use crate::variables::Variables;
 use crate::{error, setup};
 
-/// Medians of the specific force below this contain no gravity \[m/s2\]: a recording's, too.
-const NO_GRAVITY: f64 = 3.0;
-
 /// The washout filter on its platform: from the motion of a vehicle's rider to the
 /// motion of a platform.
 ///
@@ -261,6 +258,8 @@ impl PyWashout {
     /// Refuses the specific force of a vehicle in free fall, unless it is an acceleration by the
     /// parameters.
     fn check_gravity(&self, py: Python, samples: &[Input]) -> PyResult<()> {
+        // Medians of the specific force below this contain no gravity [m/s2]: a recording's, too.
+        const NO_GRAVITY: f64 = 3.0;
         if self.washout.parameters().conditioning.gravity_removal == GravityRemoval::None {
             return Ok(());
         }

@@ -10,10 +10,9 @@ use std::time::Instant;
 use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Parameters, Washout};
 
-/// Runs; the least time of them is that without interruptions by other programs.
-const RUNS: usize = 200;
-
 fn main() {
+    // Runs; the least time of them is that without interruptions by other programs.
+    const RUNS: usize = 200;
     let steps = std::env::args_os().nth(1).and_then(|steps| steps.to_str()?.parse().ok()).unwrap_or(5_000);
     let sample = |k: usize| {
         let time = 0.001 * k as f64;

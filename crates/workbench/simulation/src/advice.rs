@@ -13,8 +13,6 @@ use crate::preview::Previewer;
 use crate::verdict::Fault;
 use crate::{Evaluated, Manoeuvre, Replay, Simulation, capitalised, measures};
 
-/// Preview that is tried \[s\].
-const TRIED_PREVIEW: f64 = 1.0;
 /// Rates of tilt that are tried: one that riders may notice, and one that is hardly perceived
 /// \[rad/s\].
 pub const FASTER_TILT: f64 = 6.0_f64.to_radians();
@@ -23,8 +21,6 @@ const SLOWER_TILT: f64 = 2.0_f64.to_radians();
 /// \[rad/s\].
 const SMOOTH_CUTOFF: f64 = 12.0;
 const SOFT_PACE: f64 = 5.0;
-/// Factors on the rates or on heave that are tried, the largest first.
-const SMALLER_PARTS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.15, 0.0];
 /// Factor from one scale that is tried to the next, how many are tried, fewer where none is right
 /// in proportion, and the least scale.
 const SCALE_STEP: f64 = 0.85;
@@ -34,11 +30,6 @@ const MIN_SCALE: f64 = 0.03;
 /// Longest part of a manoeuvre that the search for a scale goes through \[s\]: each scale is a
 /// simulation. What it finds is simulated on the whole.
 const MAX_SEARCHED: f64 = 120.0;
-/// Largest severity of the fault, relative to what it was, that counts as better: where the fault
-/// is gone with it, and where it is not.
-const BETTER_SEVERITY_RATIOS: [f64; 2] = [0.95, 0.8];
-/// Largest growth of another fault that is there already.
-const NO_WORSE: f64 = 1.05;
 
 /// Changes to a set of parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -267,6 +258,8 @@ impl<'a> Advisor<'a> {
 
     /// The changes that are tried, simplest first.
     pub fn candidates(&self) -> Vec<Candidate> {
+        // Preview that is tried [s].
+        const TRIED_PREVIEW: f64 = 1.0;
         let Parameters { structure, tilt, conditioning, soft_limit, automatic_scale, .. } = &self.parameters;
         let is_predictive = structure.strategy == StrategyKind::Predictive;
         let none = Changes::NONE;
@@ -303,6 +296,8 @@ impl<'a> Advisor<'a> {
     /// # Errors
     /// The parameters cannot be used.
     pub fn best(&self, Candidate(changes, searched): Candidate) -> Result<Option<Alternative>, ParameterError> {
+        // Factors on the rates or on heave that are tried, the largest first.
+        const SMALLER_PARTS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.15, 0.0];
         let with = |place: usize, factor: f64| Changes {
             factors: from_fn(|k| if k == place { factor } else { changes.factors[k] }),
             ..changes
@@ -371,6 +366,11 @@ impl<'a> Advisor<'a> {
 
     /// True where an alternative has clearly less of the fault, and no more of any other.
     fn is_better(&self, alternative: &Alternative) -> bool {
+        // Largest severity of the fault, relative to what it was, that counts as better: where the
+        // fault is gone with it, and where it is not.
+        const BETTER_SEVERITY_RATIOS: [f64; 2] = [0.95, 0.8];
+        // Largest growth of another fault that is there already.
+        const NO_WORSE: f64 = 1.05;
         let others = alternative.severities.iter().filter(|(fault, _)| *fault != self.fault);
         let is_no_worse =
             |(fault, after): &(Fault, f64)| *after < f64::max(1.0, NO_WORSE * severity(&self.before, *fault));

@@ -52,13 +52,12 @@ impl ChannelFigures {
     }
 }
 
-/// Fraction of the time in which a tilt may turn faster than is perceived, and how much faster: the
-/// start value of tilt.rateLimit is the threshold of roll, rounded up.
-const MAX_PERCEIVED_TILT: f64 = 0.05;
-const PERCEIVED_EXCESS: f64 = 1e-3;
-
 /// RMS error of roll or pitch rate without the rotation of tilt coordination \[rad/s\].
 fn error_without_tilt(simulation: &Simulation, axis: Axis) -> Option<f64> {
+    // Fraction of the time in which a tilt may turn faster than is perceived, and how much faster:
+    // the start value of tilt.rateLimit is the threshold of roll, rounded up.
+    const MAX_PERCEIVED_TILT: f64 = 0.05;
+    const PERCEIVED_EXCESS: f64 = 1e-3;
     let place = [Axis::Roll, Axis::Pitch].iter().position(|other| *other == axis)?;
     let outputs = &simulation.outputs;
     let tilt = |sample: usize| [outputs[sample].tilt_roll_rate, outputs[sample].tilt_pitch_rate][place];

@@ -17,8 +17,6 @@ use moris_washout::platform::{Geometry, Pose, forward_kinematics, jacobian};
 
 /// Lengths tried for each leg, evenly from the shortest to the longest.
 const LENGTH_LEVELS: usize = 4;
-/// Step at which the search for the smallest distance ends, as a fraction of the stroke.
-const MIN_SEARCH_STEP: f64 = 1e-3;
 
 /// Two legs where they are closest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,14 +30,6 @@ pub struct Approach {
     /// Pose of the platform.
     pub pose: Pose,
 }
-
-/// Diameter of a leg of which none is given \[m\]: thinner than actuators of this size are.
-const ASSUMED_DIAMETER: f64 = 0.05;
-
-/// Two joints closer than this are one that two legs share \[m\].
-const SHARED_JOINT_DISTANCE: f64 = 1e-3;
-/// Part of a leg next to a shared joint that may be within the other leg \[diameters\].
-const SHARED_JOINT_CLEARANCE: f64 = 3.0;
 
 /// Least distances between the legs.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +47,8 @@ pub struct Clearance {
 impl Clearance {
     /// Clearance of a rig with legs of this diameter \[m\].
     pub fn of(rig: &Rig, diameter: Option<f64>) -> Self {
+        // Diameter of a leg of which none is given [m]: thinner than actuators of this size are.
+        const ASSUMED_DIAMETER: f64 = 0.05;
         let is_given = diameter.is_some();
         let diameter = diameter.unwrap_or(ASSUMED_DIAMETER);
         Clearance { approaches: approaches(rig, diameter), diameter, is_given, is_opposite: is_opposite(rig) }
@@ -98,6 +90,8 @@ impl fmt::Display for Clearance {
 
 /// The closest approach of each pair of legs of this diameter \[m\], the closest pair first.
 pub fn approaches(rig: &Rig, diameter: f64) -> Vec<Approach> {
+    // Part of a leg next to a shared joint that may be within the other leg [diameters].
+    const SHARED_JOINT_CLEARANCE: f64 = 3.0;
     let geometry = Geometry::from(rig);
     let neutral = Pose::neutral(rig);
     let sign = jacobian(&geometry, &neutral).determinant().signum();
@@ -142,6 +136,8 @@ impl Reach<'_> {
     }
 
     fn approach(&self, legs: [usize; 2], pose: &Pose) -> Approach {
+        // Two joints closer than this are one that two legs share [m].
+        const SHARED_JOINT_DISTANCE: f64 = 1e-3;
         // Cranks have rods from the ends of their arms.
         let ends = self.geometry.rods(pose).base;
         let segment = |leg: usize| {
@@ -163,6 +159,8 @@ impl Reach<'_> {
 
     /// The smallest distance, from the grid's closest pose on, leg length by leg length.
     fn closest(&self, legs: [usize; 2], grid: &[([f64; 6], Pose)]) -> Approach {
+        // Step at which the search for the smallest distance ends, as a fraction of the stroke.
+        const MIN_SEARCH_STEP: f64 = 1e-3;
         let mut best = self.approach(legs, &self.neutral);
         let mut lengths = moris_washout::platform::leg_lengths(self.geometry, &self.neutral);
         for (candidate, pose) in grid {

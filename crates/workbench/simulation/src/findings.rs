@@ -16,9 +16,6 @@ use crate::verdict::percent;
 use crate::{Evaluated, Simulation, capitalised};
 use crate::{Finding, Limits, TiltLimit, Weight};
 
-/// Least RMS of the desired motion that counts as desired, of forces \[m/s2\]
-/// and of rates \[rad/s\].
-const MIN_DESIRED_RMS: [f64; 2] = [0.05, 1.0_f64.to_radians()];
 /// Relative error up to which a channel counts as reproduced well.
 const FAITHFUL_ERROR: f64 = 0.25;
 /// Relative error above which a channel is worse than on a platform at rest, whose own is 1: a
@@ -27,29 +24,11 @@ const WORSE_THAN_REST: f64 = 1.05;
 /// Fractions of the time with false cues that are worth a sentence, and a warning.
 const FALSE_CUES: f64 = 0.05;
 const MANY_FALSE_CUES: f64 = 0.1;
-/// Least fraction of the time with limited tilt that is worth a sentence.
-const LEAST_TILT_LIMITED: f64 = 0.005;
 
-/// Least excesses of the felt force that are worth a sentence: well above what is felt at all, and
-/// well below what hurts \[m/s2\].
-const LEAST_SHAKE: f64 = 0.1;
-const LEAST_JOLT: f64 = 1.0;
-const LEAST_PEAK: f64 = 1.0;
-
-/// Least share of sick people that is worth a sentence \[%\], and the share by which the platform
-/// may exceed the vehicle without a warning.
-const LEAST_SICK: f64 = 1.0;
-const SICKNESS_RATIO: f64 = 2.0;
-
-/// Largest fraction of the time with soft limits at which a recording fits the rig.
-const MAX_SOFT_LIMITED_FRACTION: f64 = 0.01;
 /// Fraction of the time from which inverted cues are a warning, and the least correlation of a cue
 /// that is right in time and proportion.
 pub(crate) const INVERTED: f64 = 0.02;
 pub(crate) const RIGHT_SHAPE: f64 = 0.85;
-/// The cost of soft limits.
-const GIVEN_UP: &str =
-    "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
 
 pub(crate) const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 
@@ -87,6 +66,9 @@ fn finding(weight: Weight, text: String) -> Finding {
 
 /// Fit of the recording to the rig: active limits, their durations and times.
 fn fits(outcome: &Evaluated) -> Finding {
+    // The cost of soft limits.
+    const GIVEN_UP: &str =
+        "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
     let effort = &outcome.measures.effort;
     let simulation = &outcome.simulation;
     let hard: Vec<String> = [
@@ -132,6 +114,8 @@ pub fn fits_the_rig(measures: &Measures) -> bool {
 
 /// True if soft limits, which keep these from acting, were hardly ever active, either.
 pub(crate) fn fits_freely(measures: &Measures) -> bool {
+    // Largest fraction of the time with soft limits at which a recording fits the rig.
+    const MAX_SOFT_LIMITED_FRACTION: f64 = 0.01;
     fits_the_rig(measures) && measures.effort.limited.soft <= MAX_SOFT_LIMITED_FRACTION
 }
 
@@ -162,6 +146,10 @@ fn soft_limited_time(simulation: &Simulation) -> Option<String> {
 
 /// Motion sickness in the vehicle and on the platform.
 fn sickness(measures: &Measures) -> Option<Finding> {
+    // Least share of sick people that is worth a sentence [%], and the share by which the platform
+    // may exceed the vehicle without a warning.
+    const LEAST_SICK: f64 = 1.0;
+    const SICKNESS_RATIO: f64 = 2.0;
     let [vehicle, platform] = measures.rider.sick;
     let weight = if platform > vehicle + SICKNESS_RATIO { Weight::Warning } else { Weight::Note };
     (vehicle.max(platform) >= LEAST_SICK).then(|| {
@@ -177,6 +165,11 @@ fn sickness(measures: &Measures) -> Option<Finding> {
 
 /// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.
 fn comfort(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
+    // Least excesses of the felt force that are worth a sentence: well above what is felt at all,
+    // and well below what hurts [m/s2].
+    const LEAST_SHAKE: f64 = 0.1;
+    const LEAST_JOLT: f64 = 1.0;
+    const LEAST_PEAK: f64 = 1.0;
     let Some(Comfort { shake, jolt, peak }) = outcome.measures.comfort[axis] else { return Vec::new() };
     let name = AXES[axis].to_lowercase();
     let sentences = [
@@ -232,6 +225,8 @@ fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
 
 /// Time in which limits of tilt coordination acted, limit by limit.
 fn tilt(outcome: &Evaluated) -> Option<Finding> {
+    // Least fraction of the time with limited tilt that is worth a sentence.
+    const LEAST_TILT_LIMITED: f64 = 0.005;
     let fraction = outcome.measures.effort.limited.tilt;
     if fraction < LEAST_TILT_LIMITED {
         return None;
@@ -287,6 +282,9 @@ impl ChannelFigures {
     }
 
     fn least_desired(&self) -> f64 {
+        // Least RMS of the desired motion that counts as desired, of forces [m/s2] and of rates
+        // [rad/s].
+        const MIN_DESIRED_RMS: [f64; 2] = [0.05, 1.0_f64.to_radians()];
         MIN_DESIRED_RMS[usize::from(self.axis.is_rotation())]
     }
 

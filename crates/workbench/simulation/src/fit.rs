@@ -12,21 +12,10 @@ use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::preview::Previewer;
 
-/// Internal step of the search with the predictive strategy, whose plan has longer steps; with the
-/// adaptive one, whose gains follow at every step; with the others \[s\].
-const SEARCH_STEPS: [f64; 3] = [0.01, 0.002, 0.005];
 /// Factor on a scale that misses the aims by the set's own internal step, and
 /// how often it is tried.
 pub const SMALLER: f64 = 0.94;
 pub const TRIALS: usize = 6;
-/// Factors that are tried first, the largest first.
-const FIRST_FACTORS: [f64; 13] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
-/// Bisections between two of them.
-const BISECTION_COUNT: usize = 3;
-/// Factors on the break frequencies of the classical strategy.
-const BREAK_FACTORS: [f64; 7] = [1.0, 4.0, 2.5, 1.6, 0.6, 0.35, 0.15];
-/// Factors on heave, the largest first.
-const HEAVE_FACTORS: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
 
 /// Bounds of the errors that a scale has to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,12 +69,11 @@ impl Aims {
     }
 }
 
-/// Differences of shape up to this do not decide: the size does.
-const SAME_SHAPE: f64 = 0.02;
-
 /// The best of pairs of shape and size: of those with the best shape, but for
 /// 0.02, the largest.
 pub fn best_of(qualities: &[[f64; 2]]) -> Option<usize> {
+    // Differences of shape up to this do not decide: the size does.
+    const SAME_SHAPE: f64 = 0.02;
     let shape = qualities.iter().map(|[shape, _]| *shape).reduce(f64::max)?;
     let like_it = (0..qualities.len()).filter(|&k| qualities[k][0] >= shape - SAME_SHAPE);
     like_it.reduce(|best, next| if qualities[next][1] > qualities[best][1] { next } else { best })
@@ -176,6 +164,8 @@ impl<'a> Search<'a> {
     /// # Errors
     /// The parameters cannot be used.
     pub fn fit(&self, parameters: &Parameters) -> Result<Fit, ParameterError> {
+        // Factors on the break frequencies of the classical strategy.
+        const BREAK_FACTORS: [f64; 7] = [1.0, 4.0, 2.5, 1.6, 0.6, 0.35, 0.15];
         let is_classical = parameters.structure.strategy == StrategyKind::Classical;
         let breaks: &[f64] = if is_classical { &BREAK_FACTORS } else { &BREAK_FACTORS[..1] };
         let curves = breaks.iter().map(|&breaks| self.curve(parameters, breaks)).collect::<Result<Vec<_>, _>>()?;
@@ -236,6 +226,10 @@ impl<'a> Search<'a> {
     /// Candidates from the largest scale to the first that reaches the aims, with bisections
     /// between it and the one before; all of the grid where none reaches them.
     fn curve(&self, parameters: &Parameters, breaks: f64) -> Result<Vec<Candidate>, ParameterError> {
+        // Factors that are tried first, the largest first.
+        const FIRST_FACTORS: [f64; 13] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
+        // Bisections between two of them.
+        const BISECTION_COUNT: usize = 3;
         let at = |scale: f64| self.candidate(parameters, Factors { scale, breaks, heave: 1.0 });
         let mut curve = Vec::new();
         let mut above = None;
@@ -268,6 +262,8 @@ impl<'a> Search<'a> {
 
     /// The largest factor on heave with at most the aims' error; 1 where none has.
     fn heave(&self, parameters: &Parameters, factors: Factors) -> Result<f64, ParameterError> {
+        // Factors on heave, the largest first.
+        const HEAVE_FACTORS: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
         let Some(desired) = &self.heave else { return Ok(1.0) };
         let mean_square = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
         let asked = mean_square(&mut desired.iter().copied());
@@ -310,6 +306,9 @@ impl<'a> Search<'a> {
 
 /// The parameters with the internal step of the search.
 fn quick(parameters: &Parameters) -> Parameters {
+    // Internal step of the search with the predictive strategy, whose plan has longer steps; with
+    // the adaptive one, whose gains follow at every step; with the others [s].
+    const SEARCH_STEPS: [f64; 3] = [0.01, 0.002, 0.005];
     let mut quick = *parameters;
     let step = &mut quick.structure.max_step;
     *step = step.max(match parameters.structure.strategy {

@@ -42,9 +42,6 @@ use nalgebra::Vector3;
 
 use crate::Manoeuvre;
 
-/// Tolerance of the ratio of two steps against a whole number.
-const STEP_RATIO_TOLERANCE: f64 = 1e-6;
-
 /// Communication steps with which a manoeuvre is replayed. Between its samples it is linear.
 #[derive(Clone, Copy, Debug)]
 pub struct Replay<'a> {
@@ -66,6 +63,8 @@ impl<'a> Replay<'a> {
     /// Steps of this length \[s\], with the inputs' slopes or without. None if neither of the step
     /// and the time between samples is a multiple of the other.
     pub fn in_steps(manoeuvre: &'a Manoeuvre, step: f64, slopes: bool) -> Option<Self> {
+        // Tolerance of the ratio of two steps against a whole number.
+        const STEP_RATIO_TOLERANCE: f64 = 1e-6;
         let whole = |ratio: f64| {
             let count = ratio.round();
             (count >= 1.0 && (ratio - count).abs() <= STEP_RATIO_TOLERANCE * count).then_some(count as usize)

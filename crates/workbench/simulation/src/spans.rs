@@ -4,9 +4,6 @@ use moris_washout::Output;
 
 use crate::Simulation;
 
-/// Spans closer to each other than this are one \[s\].
-const MAX_JOINED_GAP: f64 = 0.1;
-
 /// The spans of a simulation in which a flag was set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spans {
@@ -20,6 +17,8 @@ impl Spans {
     /// The spans in which `is_active` holds of the outputs. Each output tells of the step before
     /// it.
     pub fn of(simulation: &Simulation, is_active: impl Fn(&Output) -> bool) -> Self {
+        // Spans closer to each other than this are one [s].
+        const MAX_JOINED_GAP: f64 = 0.1;
         let step = simulation.step;
         let mut spans: Vec<[f64; 2]> = Vec::new();
         let mut count = 0;

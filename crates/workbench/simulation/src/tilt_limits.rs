@@ -33,16 +33,13 @@ impl TiltLimit {
 /// Flags of roll and pitch for each of [`TiltLimit::ALL`].
 pub type TiltFlags = [[Vec<bool>; 3]; 2];
 
-/// An angle or rate counts as at its limit from this fraction of it on.
-const REACHED_FRACTION: f64 = 0.98;
-/// The same of the acceleration between two samples, of which the limit may act on a part only.
-const REACHED_ACCELERATION: f64 = 0.9;
-/// An acceleration limit that acts in one direction for a shorter time only smooths noise \[s\].
-const MIN_SUSTAINED_TIME: f64 = 0.1;
-
 /// The limits that act, from samples of the tilt of roll and pitch \[rad\] and its rates \[rad/s\].
 /// `lags` is true where the tilt lagged behind its target in the step before the sample.
 pub fn tilt_limits(times: &[f64], lags: &[bool], tilt: [&[f64]; 2], rate: [&[f64]; 2], limits: &Limits) -> TiltFlags {
+    // An angle or rate counts as at its limit from this fraction of it on.
+    const REACHED_FRACTION: f64 = 0.98;
+    // The same of the acceleration between two samples, of which the limit may act on a part only.
+    const REACHED_ACCELERATION: f64 = 0.9;
     [0, 1].map(|axis| {
         let is_accelerated = sustained(times, rate[axis], REACHED_ACCELERATION * limits.tilt_acceleration);
         let acting = |k: usize| {
@@ -65,6 +62,8 @@ pub fn tilt_limits(times: &[f64], lags: &[bool], tilt: [&[f64]; 2], rate: [&[f64
 /// Samples before which the rate has changed by at least `least` \[rad/s2\] in
 /// one direction for long.
 fn sustained(times: &[f64], rate: &[f64], least: f64) -> Vec<bool> {
+    // An acceleration limit that acts in one direction for a shorter time only smooths noise [s].
+    const MIN_SUSTAINED_TIME: f64 = 0.1;
     let sign = |k: usize| {
         let acceleration = (rate[k] - rate[k - 1]) / (times[k] - times[k - 1]);
         if least > 0.0 && acceleration.abs() >= least { acceleration.signum() } else { 0.0 }

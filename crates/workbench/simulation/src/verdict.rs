@@ -12,10 +12,6 @@ use crate::{Finding, Weight};
 /// Jolt and shake from which they are the verdict \[m/s2\].
 const MAX_SMOOTH_JOLT: f64 = 1.0;
 const MAX_SMOOTH_SHAKE: f64 = 0.1;
-/// Remedy where a foreign motion seems to be read wrongly.
-const READ_WRONGLY: &str = " A unit, a sign or an axis of the felt motion may be wrong; the findings name it.";
-/// Sentence where alternatives were simulated, and none is better.
-const NOTHING_BETTER: &str = " No other scale, strategy, preview or tilt that was simulated is better.";
 
 /// Subjects of a verdict, in order of importance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +60,10 @@ impl Evaluated<'_> {
 
     /// The verdict: the most important fault with the size that is left, and what to change.
     pub fn verdict(&self) -> Finding {
+        // Remedy where a foreign motion seems to be read wrongly.
+        const READ_WRONGLY: &str = " A unit, a sign or an axis of the felt motion may be wrong; the findings name it.";
+        // Sentence where alternatives were simulated, and none is better.
+        const NOTHING_BETTER: &str = " No other scale, strategy, preview or tilt that was simulated is better.";
         let size = self.size_clause();
         let soft = if fits_freely(self.measures) { "" } else { " Soft limits take a part of the cues." };
         let Some(fault) = self.fault() else {

@@ -22,9 +22,6 @@ use crate::recording::felt::FeltTable;
 use crate::recording::{Recording, source};
 use crate::washout_fmu::WashoutFmu;
 
-/// Interval of the bound's controls \[s\].
-const BOUND_INTERVAL: f64 = 0.05;
-
 /// Scale of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
@@ -64,9 +61,6 @@ pub struct Row {
     /// Remarks on another washout's motion, such as on its units or rate.
     pub remarks: Vec<String>,
 }
-
-/// Measures whose least is [`Row::best`].
-const ERROR_MEASURES: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
 
 impl Row {
     /// A measure by its name.
@@ -135,6 +129,10 @@ impl Foreign {
 /// # Errors
 /// A set cannot be used on the rig, or a motion cannot be judged.
 pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign: &[Foreign]) -> Result<Vec<Row>> {
+    // Interval of the bound's controls [s].
+    const BOUND_INTERVAL: f64 = 0.05;
+    // Measures whose least is `Row::best`.
+    const ERROR_MEASURES: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
     let of = || format!("{} on {}", drive.name, rig.name);
     let setup = rig.setup().about(of)?;
     let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);

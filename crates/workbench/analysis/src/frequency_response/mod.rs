@@ -15,9 +15,6 @@ use rayon::prelude::*;
 
 use platform::NominalPlatform;
 
-/// Amplitude of the small signals as a fraction of the test's: far from every limit.
-const SMALL_SIGNAL_FRACTION: f64 = 1e-3;
-
 /// Responses on all channels at all frequencies, channel by channel in the order of the
 /// frequencies.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,11 +25,10 @@ pub struct Measured {
     pub small: Vec<Response>,
 }
 
-/// Largest distance of a frequency from the test's that it is meant to be, as a fraction.
-const SAME_FREQUENCY: f64 = 0.02;
-
 /// True for two frequencies that are meant to be the same.
 fn is_same_frequency(one: f64, other: f64) -> bool {
+    // Largest distance of a frequency from the test's that it is meant to be, as a fraction.
+    const SAME_FREQUENCY: f64 = 0.02;
     (one - other).abs() <= SAME_FREQUENCY * other
 }
 
@@ -49,6 +45,8 @@ impl Measured {
         on_platform: bool,
         progress: impl Fn() + Sync,
     ) -> Result<Self, ParameterError> {
+        // Amplitude of the small signals as a fraction of the test's: far from every limit.
+        const SMALL_SIGNAL_FRACTION: f64 = 1e-3;
         let tests: Vec<(Channel, f64)> =
             Channel::ALL.iter().flat_map(|&channel| frequencies().map(|frequency| (channel, frequency))).collect();
         let at_rest = Washout::new(parameters)?;

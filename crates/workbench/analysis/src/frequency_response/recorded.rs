@@ -13,9 +13,6 @@ use crate::message::Message;
 use crate::recording::felt::{FORCE, FeltTable, RATE};
 use crate::recording::{Conventions, Recording, RecordingError};
 
-/// Largest part of the input beside its sine, as a fraction of the sine: more is another frequency.
-const MAX_IMPURITY: f64 = 0.1;
-
 impl Measured {
     /// The responses in recordings, one of each test. Each has the vehicle's motion as any
     /// recording has it. Its columns `rider.specificForce.x` to `.z` and `rider.angularVelocity.x`
@@ -52,6 +49,9 @@ fn of_file(file: &Path) -> Result<Response, RecordingError> {
 
 /// The response that the later half of a test shows.
 fn of_series(desired: &[[f64; CHANNELS]], felt: &[[f64; CHANNELS]], step: f64) -> Result<Response, String> {
+    // Largest part of the input beside its sine, as a fraction of the sine: more is another
+    // frequency.
+    const MAX_IMPURITY: f64 = 0.1;
     let count = desired.len().min(felt.len());
     let half = count / 2;
     let whole_periods = |frequency: f64| (half as f64 * step * frequency / TAU + 1e-9).floor();

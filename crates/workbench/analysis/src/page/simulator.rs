@@ -8,9 +8,6 @@ use moris_washout::interface::Rig;
 use crate::outcome::Outcome;
 use crate::recording::Recording;
 
-/// More samples do not fit into a page.
-const MOST_SAMPLES: usize = 250_000;
-
 /// True if pages can simulate.
 pub fn is_compiled() -> bool {
     !MODULE.is_empty()
@@ -19,6 +16,8 @@ pub fn is_compiled() -> bool {
 /// The simulator of a recording from the parameters of an outcome; none if it was not compiled.
 /// `command` is what stands before the name of a parameter file.
 pub fn of(recording: &Recording, outcome: &Outcome, command: &str) -> Option<Simulator> {
+    // More samples do not fit into a page.
+    const MOST_SAMPLES: usize = 250_000;
     if !is_compiled() {
         return None;
     }

@@ -5,21 +5,20 @@ use moris_washout::Input;
 
 use crate::recording::Recording;
 
-/// Time over which forces and rates are averaged \[s\].
-const AVERAGING_TIME: f64 = 0.5;
-/// Yaw rate from which on the vehicle is in a bend \[rad/s\].
-const MIN_BEND_YAW_RATE: f64 = 0.05;
-/// Lateral force of bends by their yaw rate, which is the speed of a vehicle that does not lean
-/// \[m/s\], and its correlation with the yaw rate. A leaning rider feels no lateral force.
-const LEAST_SPEED: f64 = 3.0;
-const LEAST_CORRELATION: f64 = 0.7;
-
 /// A car if the lateral force of bends goes with the yaw rate, else a motorcycle.
 pub fn vehicle(recording: &Recording) -> Vehicle {
     if turns_flat(recording.inputs(), recording.step()) { Vehicle::Car } else { Vehicle::Motorcycle }
 }
 
 fn turns_flat(inputs: &[Input], step: f64) -> bool {
+    // Time over which forces and rates are averaged [s].
+    const AVERAGING_TIME: f64 = 0.5;
+    // Yaw rate from which on the vehicle is in a bend [rad/s].
+    const MIN_BEND_YAW_RATE: f64 = 0.05;
+    // Lateral force of bends by their yaw rate, which is the speed of a vehicle that does not lean
+    // [m/s], and its correlation with the yaw rate. A leaning rider feels no lateral force.
+    const LEAST_SPEED: f64 = 3.0;
+    const LEAST_CORRELATION: f64 = 0.7;
     let block = ((AVERAGING_TIME / step).round() as usize).max(1);
     let mean = |block: &[Input], value: fn(&Input) -> f64| block.iter().map(value).sum::<f64>() / block.len() as f64;
     let bends = inputs

@@ -7,9 +7,6 @@ use moris_interface::shown;
 
 use crate::message::{Message, Words};
 
-/// Longest text of a file that a message quotes \[characters\].
-const LONGEST_QUOTE: usize = 40;
-
 /// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
@@ -52,6 +49,8 @@ impl RecordingError {
 
 /// Text of a file for a message: shortened, and without control characters.
 pub fn quoted(text: &str) -> String {
+    // Longest text of a file that a message quotes [characters].
+    const LONGEST_QUOTE: usize = 40;
     let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     let mut quoted: String = text.chars().take(LONGEST_QUOTE).map(visible).collect();
     if text.chars().nth(LONGEST_QUOTE).is_some() {

@@ -9,12 +9,6 @@ use serde::{Deserialize, Serialize};
 use super::columns::Quantity;
 use super::table::Table;
 
-/// Half axes of the earth along the equator and to the poles \[m\] (WGS 84).
-const EARTH: [f64; 2] = [6_378_137.0, 6_356_752.314_245];
-
-/// A position that is repeated for longer is that of a vehicle at rest, or of no receiver \[s\].
-const LONGEST_HOLD: f64 = 2.0;
-
 /// Position and speed at each sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Road {
@@ -28,6 +22,9 @@ impl Road {
     /// The road of a table; none if it has no position. Latitude and longitude become metres in the
     /// tangent plane of the first sample, x to the east and y to the north.
     pub fn of(table: &Table) -> Option<Self> {
+        // A position that is repeated for longer is that of a vehicle at rest, or of no receiver
+        // [s].
+        const LONGEST_HOLD: f64 = 2.0;
         let pair = |of: fn(usize) -> Quantity| -> Option<Vec<[f64; 2]>> {
             let [one, other] = [0, 1].map(|axis| table.columns.get(&of(axis)));
             Some(one?.iter().zip(other?).map(|(one, other)| [*one, *other]).collect())
@@ -84,6 +81,8 @@ fn go_on(positions: &mut [[f64; 2]], most: usize) {
 
 /// Places by latitude and longitude \[rad\], in metres to the east and to the north of the first.
 fn in_tangent_plane(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    // Half axes of the earth along the equator and to the poles [m] (WGS 84).
+    const EARTH: [f64; 2] = [6_378_137.0, 6_356_752.314_245];
     let Some([latitude, longitude]) = places.first().copied() else { return Vec::new() };
     let [equator, pole] = EARTH;
     let (sin, cos) = latitude.sin_cos();

@@ -4,11 +4,6 @@ use std::ops::Range;
 
 pub use moris_simulation::measures::statistics::median;
 
-/// Correlation above which two signals count as correlated.
-const MIN_CORRELATION: f64 = 0.7;
-/// Time constant of the smoothing before turns are detected \[s\].
-const SMOOTHING_TIME: f64 = 0.5;
-
 /// The values from the least to the greatest.
 pub fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
@@ -61,6 +56,8 @@ pub fn integral(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
 
 /// A signal without its mean, after a first-order low-pass.
 pub fn smooth(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
+    // Time constant of the smoothing before turns are detected [s].
+    const SMOOTHING_TIME: f64 = 0.5;
     let alpha = step / (SMOOTHING_TIME + step);
     let mut values = centred(values);
     let mut state = 0.0;
@@ -85,6 +82,8 @@ pub struct Relation {
 impl Relation {
     /// Slope of the second signal over the first; none where they are not correlated.
     pub fn slope(&self) -> Option<f64> {
+        // Correlation above which two signals count as correlated.
+        const MIN_CORRELATION: f64 = 0.7;
         (self.correlation.abs() > MIN_CORRELATION).then_some(self.slope)
     }
 

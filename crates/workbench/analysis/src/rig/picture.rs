@@ -9,13 +9,6 @@ use super::svg::{PANEL, escaped};
 use super::view::view;
 use moris_simulation::clearance::Approach;
 
-/// Room above the panels and below them \[px\].
-const HEADER_HEIGHT: f64 = 64.0;
-const FOOTER_HEIGHT: f64 = 44.0;
-
-/// Height of a row of the table of closest approaches \[px\].
-const TABLE_ROW_HEIGHT: f64 = 26.0;
-
 const SVG_STYLE: &str = "text{font:13px system-ui,sans-serif;fill:#333}.title{font-size:20px;font-weight:600}.panel{font-size:14px;\
 font-weight:600}.frame{fill:none;stroke:#999}.safety{fill:none;stroke:#d95f02;stroke-width:1.5;stroke-dasharray:6 4}\
 .neutral{stroke:#111;stroke-width:1.5}.base{fill:#e9e9e9;stroke:#777}.platform{fill:#2171b5;fill-opacity:.25;stroke:#2171b5;\
@@ -25,6 +18,9 @@ stroke-width:2}.torso{stroke:#1b9e77;stroke-width:4;stroke-linecap:round}.head{f
 
 /// The picture as SVG.
 pub fn svg(survey: &Survey) -> String {
+    // Room above the panels and below them [px].
+    const HEADER_HEIGHT: f64 = 64.0;
+    const FOOTER_HEIGHT: f64 = 44.0;
     let parameters = &survey.capabilities.parameters;
     let (width, height) = (2.0 * PANEL[0], HEADER_HEIGHT + 3.0 * PANEL[1] + FOOTER_HEIGHT);
     let mut text = format!(
@@ -56,6 +52,8 @@ pub fn svg(survey: &Survey) -> String {
 
 /// Table of the closest approach of each pair of legs.
 fn distances(survey: &Survey) -> String {
+    // Height of a row of the table of closest approaches [px].
+    const TABLE_ROW_HEIGHT: f64 = 26.0;
     let at = |column: usize, row: usize| [120.0 + 64.0 * column as f64, 80.0 + TABLE_ROW_HEIGHT * row as f64];
     let cell = |[x, y]: [f64; 2], class: &str, text: &str| {
         format!(r#"<text x="{x}" y="{y}" text-anchor="middle" class="{class}">{text}</text>"#)

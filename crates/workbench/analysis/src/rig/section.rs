@@ -62,11 +62,10 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     text + &window.axes(plane.names)
 }
 
-/// Cells across a section of a rig with cranks.
-const CELLS: u32 = 120;
-
 /// The section of a rig with cranks as cells, in which the actuators have this margin.
 fn cells(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: &str) -> String {
+    // Cells across a section of a rig with cranks.
+    const CELLS: u32 = 120;
     let [low, high] = window.corners();
     let mut path = String::new();
     let size = [0, 1].map(|k: usize| (high[k] - low[k]) / f64::from(CELLS));

@@ -7,18 +7,13 @@ use moris_washout::platform::{Geometry, LocationFrame, Pose};
 use super::svg::Window;
 use moris_simulation::clearance::Approach;
 
-/// Where it is seen from: turned about the vertical, then from above \[rad\].
-const VIEW_AZIMUTH: f64 = 0.6;
-const VIEW_ELEVATION: f64 = 0.35;
-
-/// Radius of the head \[m\].
-const HEAD_RADIUS: f64 = 0.12;
-/// Length of the arrows along the base's axes, as a fraction of its radius.
-const ARROW_LENGTH_FRACTION: f64 = 0.4;
-
 /// The base, the platform in this pose, the six legs with their numbers, the rider's head, and the
 /// axes of the base. The two closest legs have a colour of their own.
 pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) -> String {
+    // Radius of the head [m].
+    const HEAD_RADIUS: f64 = 0.12;
+    // Length of the arrows along the base's axes, as a fraction of its radius.
+    const ARROW_LENGTH_FRACTION: f64 = 0.4;
     let rig = &parameters.rig;
     let in_base = |point: &Vector3<f64>| pose.position + pose.orientation.rotation * point;
     let platform = rig.platform.map(|joint| in_base(&joint));
@@ -81,6 +76,9 @@ pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) ->
 
 /// Across and up in the picture, for someone who looks from afar.
 fn projected(point: &Vector3<f64>) -> [f64; 2] {
+    // Where it is seen from: turned about the vertical, then from above [rad].
+    const VIEW_AZIMUTH: f64 = 0.6;
+    const VIEW_ELEVATION: f64 = 0.35;
     let (sin, cos) = VIEW_AZIMUTH.sin_cos();
     let (nearer, across) = (cos * point.x - sin * point.y, sin * point.x + cos * point.y);
     [across, VIEW_ELEVATION.cos() * point.z - VIEW_ELEVATION.sin() * nearer]

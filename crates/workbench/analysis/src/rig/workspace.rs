@@ -15,13 +15,9 @@ use crate::random::unit;
 
 /// The tilt for which the workspace is measured beside the level one \[rad\].
 pub const TILT: f64 = 10.0 * TAU / 360.0;
-/// Number of directions in which the platform is tilted.
-const TILT_DIRECTIONS: u32 = 8;
 /// Number of points in a block. Each block has its own stream of random numbers, so that the points
 /// are the same on any number of cores.
 const POINTS_PER_BLOCK: u32 = 10_000;
-/// Seed of the streams.
-const STREAM_SEED: u64 = 1;
 
 /// Workspace of the platform's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +114,8 @@ impl Coverage {
 }
 
 fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Coverage {
+    // Seed of the streams.
+    const STREAM_SEED: u64 = 1;
     let mut random = ChaCha8Rng::seed_from_u64(STREAM_SEED);
     random.set_stream(u64::from(block));
     let geometry = Geometry::from(rig);
@@ -140,6 +138,8 @@ fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Covera
 
 /// The platform tilted by [`TILT`] in each direction.
 fn tilts() -> impl Iterator<Item = Orientation> {
+    // Number of directions in which the platform is tilted.
+    const TILT_DIRECTIONS: u32 = 8;
     (0..TILT_DIRECTIONS).map(|k| {
         let (sin, cos) = (TAU * f64::from(k) / f64::from(TILT_DIRECTIONS)).sin_cos();
         Orientation::new(RollPitchYaw::new(TILT * cos, TILT * sin, 0.0))

@@ -89,11 +89,6 @@ impl Aim {
     }
 }
 
-/// Weights of what is felt wrong, of what is felt too small, and of the sensed error; 1 together.
-const WEIGHTS_OF_SHAPE: [f64; 3] = [0.5, 0.25, 0.25];
-/// Weight of the inverted fraction of the time beside the shape.
-const WEIGHT_OF_INVERTED: f64 = 2.0;
-
 /// A recording that parameters are judged on.
 #[derive(Clone, Debug)]
 pub struct Objective {
@@ -308,6 +303,11 @@ impl Objective {
 
     /// The error of a recording with this shape and this sensed error.
     fn error(&self, shape: &Shape, sensed: f64) -> f64 {
+        // Weights of what is felt wrong, of what is felt too small, and of the sensed error; 1
+        // together.
+        const WEIGHTS_OF_SHAPE: [f64; 3] = [0.5, 0.25, 0.25];
+        // Weight of the inverted fraction of the time beside the shape.
+        const WEIGHT_OF_INVERTED: f64 = 2.0;
         let axes = || (0..2).filter_map(|k| Some((self.weights[k], shape.axes[k]?))).filter(|axis| axis.0 > 0.0);
         let whole: f64 = axes().map(|(weight, _)| weight).sum();
         if self.aim == Aim::Error || whole == 0.0 {

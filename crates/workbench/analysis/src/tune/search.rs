@@ -32,26 +32,6 @@ pub fn evaluate_here(objectives: &[&Objective], parameters: &Parameters) -> Resu
     objectives.par_iter().map(|objective| Ok(objective.coarse_cost(parameters)?)).collect()
 }
 
-/// Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
-const FIRST_STEP: f64 = 0.4;
-/// The search ends when a generation's costs differ by less than this.
-const COST_TOLERANCE: f64 = 1e-5;
-/// Penalty for limits that are active all the time; errors are about 1. The penalty is proportional
-/// to the square root of the fraction of the time: a thousandth costs 0.06.
-const PENALTY_OF_LIMITS: f64 = 2.0;
-/// Additional penalty if limits are active at any time.
-const PENALTY_OF_ANY: f64 = 0.05;
-/// Penalty for shake, jolt or peak beyond their bounds by a factor of e, in addition.
-const PENALTY_OF_DISCOMFORT: f64 = 0.5;
-/// Penalty for a point outside the space's box by a factor of e in one parameter.
-const PENALTY_OF_OUTSIDE: f64 = 0.1;
-/// Penalty for a distance from the start by a factor of e in every parameter. Of two equally
-/// good sets, the one nearer to the start is chosen. A parameter without effect on the
-/// recordings keeps its value.
-const PENALTY_OF_DISTANCE: f64 = 2e-3;
-/// Number of best sets that are kept.
-const KEPT_SETS: usize = 10;
-
 /// A parameter set that kept all constraints on every recording.
 #[derive(Clone, Debug)]
 pub struct Candidate {
@@ -88,6 +68,10 @@ pub fn search(
     budget: Budget,
     mut progress: impl FnMut(usize, Option<&Candidate>) -> bool,
 ) -> Result<Searched, TuneError> {
+    // Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
+    const FIRST_STEP: f64 = 0.4;
+    // The search ends when a generation's costs differ by less than this.
+    const COST_TOLERANCE: f64 = 1e-5;
     if space.dimension() == 0 {
         return Err(TuneError::NothingToTune(message![
             "the groups given with ",
@@ -127,16 +111,6 @@ pub fn search(
     }
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &DVector::zeros(space.dimension()))) })
 }
-
-/// Factors tried on each channel before the search, relative to the start. The cost has
-/// several local minima, mainly along the break frequencies, and the search ends in the one
-/// nearest to its start.
-const TRIED_FREQUENCY_FACTORS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
-const TRIED_SCALE_FACTORS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
-/// Factors on the scales of surge, sway and all rates together, which are tried before, and with
-/// each of them on the break frequencies of surge and sway.
-const JOINT_SCALES: [f64; 7] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1];
-const JOINT_FREQUENCIES: [f64; 4] = [1.0, 0.5, 0.25, 2.0];
 
 /// Start of a search.
 struct Beginning {
@@ -183,6 +157,15 @@ fn scan(
     space: &Space,
     continues: &mut dyn FnMut(Option<&Candidate>) -> bool,
 ) -> (Beginning, bool) {
+    // Factors tried on each channel before the search, relative to the start. The cost has several
+    // local minima, mainly along the break frequencies, and the search ends in the one nearest to
+    // its start.
+    const TRIED_FREQUENCY_FACTORS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
+    const TRIED_SCALE_FACTORS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+    // Factors on the scales of surge, sway and all rates together, which are tried before, and with
+    // each of them on the break frequencies of surge and sway.
+    const JOINT_SCALES: [f64; 7] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.1];
+    const JOINT_FREQUENCIES: [f64; 4] = [1.0, 0.5, 0.25, 2.0];
     let found = Mutex::new(Best::default());
     let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point, &found);
     let mut best = start_within_limits(recordings, space);
@@ -224,12 +207,11 @@ fn different(points: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     different
 }
 
-/// Factor between successive trials, and their number: down to about a hundredth.
-const SCALE_STEP: f64 = 0.8;
-const MAX_TRIES: i32 = 21;
-
 /// The start. If constraints are violated there, all scales are reduced until none is.
 fn start_within_limits(recordings: &Recordings, space: &Space) -> DVector<f64> {
+    // Factor between successive trials, and their number: down to about a hundredth.
+    const SCALE_STEP: f64 = 0.8;
+    const MAX_TRIES: i32 = 21;
     let mut tries = (0..MAX_TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
     let keeps = |point: &DVector<f64>| {
         recordings.objective(&space.parameters(point)).is_some_and(|(_, penalty)| penalty == 0.0)
@@ -242,11 +224,10 @@ fn at(space: &Space, point: &DVector<f64>) -> Parameters {
     space.parameters(&space.clamped(point).0)
 }
 
-/// Largest increase of the error for which one parameter is reset to its initial value.
-const WORTH_TIDYING: f64 = 2e-4;
-
 /// The set with every parameter reset to its initial value that hardly affects these recordings.
 fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidate {
+    // Largest increase of the error for which one parameter is reset to its initial value.
+    const WORTH_TIDYING: f64 = 2e-4;
     let mut tidied = found.clone();
     for k in 0..found.point.len() {
         let mut point = tidied.point.clone();
@@ -259,11 +240,6 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidat
     }
     tidied
 }
-
-/// Weight of the worst recording's error beside the mean's.
-const WEIGHT_OF_THE_WORST: f64 = 0.5;
-/// Penalty on a recording's error above that with the parameters that the search starts from.
-const PENALTY_OF_WORSENING: f64 = 4.0;
 
 /// The recordings and their errors at the start of the search.
 struct Recordings<'a> {
@@ -286,6 +262,18 @@ impl<'a> Recordings<'a> {
     /// penalty on each recording that gets worse. A set that improves one recording at another's
     /// expense is unlikely to improve an unknown recording.
     fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
+        // Penalty for limits that are active all the time; errors are about 1. The penalty is
+        // proportional to the square root of the fraction of the time: a thousandth costs 0.06.
+        const PENALTY_OF_LIMITS: f64 = 2.0;
+        // Additional penalty if limits are active at any time.
+        const PENALTY_OF_ANY: f64 = 0.05;
+        // Penalty for shake, jolt or peak beyond their bounds by a factor of e, in addition.
+        const PENALTY_OF_DISCOMFORT: f64 = 0.5;
+        // Weight of the worst recording's error beside the mean's.
+        const WEIGHT_OF_THE_WORST: f64 = 0.5;
+        // Penalty on a recording's error above that with the parameters that the search starts
+        // from.
+        const PENALTY_OF_WORSENING: f64 = 4.0;
         let costs = (self.evaluate)(self.objectives, parameters).ok()?;
         let mean = |of: fn(&Cost) -> f64| costs.iter().map(of).sum::<f64>() / costs.len() as f64;
         let worst = costs.iter().map(|cost| cost.error).fold(0.0, f64::max);
@@ -302,6 +290,12 @@ impl<'a> Recordings<'a> {
 
 /// Cost of a point; feasible points are kept if among the best.
 fn penalized_cost(recordings: &Recordings, space: &Space, point: &DVector<f64>, best: &Mutex<Best>) -> f64 {
+    // Penalty for a point outside the space's box by a factor of e in one parameter.
+    const PENALTY_OF_OUTSIDE: f64 = 0.1;
+    // Penalty for a distance from the start by a factor of e in every parameter. Of two equally
+    // good sets, the one nearer to the start is chosen. A parameter without effect on the
+    // recordings keeps its value.
+    const PENALTY_OF_DISTANCE: f64 = 2e-3;
     let (inside, outside) = space.clamped(point);
     let parameters = space.parameters(&inside);
     // All parameters in the box can be used. If some cannot, their cost is the largest.
@@ -321,6 +315,8 @@ struct Best(Vec<Candidate>);
 
 impl Best {
     fn add(&mut self, found: Candidate) {
+        // Number of best sets that are kept.
+        const KEPT_SETS: usize = 10;
         let before = |other: &Candidate| {
             let by_cost = other.cost.total_cmp(&found.cost);
             let by_point = || other.point.partial_cmp(&found.point);

@@ -12,10 +12,6 @@ use super::tuner::{Tuner, WORST_RATIO, full_cost, full_costs, with_scales_times,
 /// tuned on, in logarithms.
 const TRIED_FRACTIONS: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
 
-/// Largest fraction of a recording's time in which limits may be active if the result is
-/// the initial parameters.
-const MAX_LIMITED_FRACTION: f64 = 0.01;
-
 /// Result of a tuning.
 pub struct Tested {
     /// The tuned parameters.
@@ -29,11 +25,6 @@ pub struct Tested {
 /// Costs of a recording that was left out, at each of the [`TRIED_FRACTIONS`]. `None` where the
 /// limits are not kept on the other recordings.
 type Trials = [Option<Cost>; TRIED_FRACTIONS.len()];
-
-/// Factor by which the scales are reduced at a time, and largest number of times, where limits are
-/// active at a fraction of the distance.
-const SCALE_STEP: f64 = 0.93;
-const MAX_TRIES: i32 = 8;
 
 /// Tunes on all recordings and, for each fold, on the recordings outside it. The result has the
 /// fraction that is best for the recordings left out. Without folds the fraction is 1.
@@ -116,6 +107,9 @@ fn as_far_as_serves(
     pairs: &[(Cost, Trials)],
     best: Setup,
 ) -> Result<(Setup, f64), TuneError> {
+    // Largest fraction of a recording's time in which limits may be active if the result is the
+    // initial parameters.
+    const MAX_LIMITED_FRACTION: f64 = 0.01;
     for index in serving(pairs) {
         let Some(setup) = within_limits(tuner, objectives, &best, TRIED_FRACTIONS[index])? else { continue };
         if worst_ratio(before, &full_costs(objectives, &setup)?) <= WORST_RATIO {
@@ -153,6 +147,10 @@ fn within_limits(
     best: &Setup,
     fraction: f64,
 ) -> Result<Option<Setup>, TuneError> {
+    // Factor by which the scales are reduced at a time, and largest number of times, where limits
+    // are active at a fraction of the distance.
+    const SCALE_STEP: f64 = 0.93;
+    const MAX_TRIES: i32 = 8;
     if fraction == 1.0 {
         return Ok(Some(best.clone()));
     }

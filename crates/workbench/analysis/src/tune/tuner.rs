@@ -142,6 +142,12 @@ impl Tuner<'_> {
     /// - sets between the best and the initial one, and the initial one;
     /// - the best set with its scales reduced step by step.
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
+        // Fractions of the distance from the start to the best set at which other sets are tried.
+        const BACKTRACK_FRACTIONS: [f64; 3] = [0.75, 0.5, 0.25];
+        // Factor by which the scales are reduced at a time, and largest number of times: down to a
+        // fifth.
+        const SCALE_STEP: f64 = 0.95;
+        const MAX_TRIES: i32 = 32;
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
         let tries = if self.space.has_scales() { MAX_TRIES } else { 0 };
         let scaled = (1..=tries).map(move |k| with_scales_times(&best, SCALE_STEP.powi(k)));
@@ -184,13 +190,6 @@ pub fn with_scales_times(parameters: &Parameters, factor: f64) -> Parameters {
     parameters.conditioning.rate_scale *= factor;
     parameters
 }
-
-/// Fractions of the distance from the start to the best set at which other sets are tried.
-const BACKTRACK_FRACTIONS: [f64; 3] = [0.75, 0.5, 0.25];
-
-/// Factor by which the scales are reduced at a time, and largest number of times: down to a fifth.
-const SCALE_STEP: f64 = 0.95;
-const MAX_TRIES: i32 = 32;
 
 /// Largest ratio of a recording's error to the error before at which it does not count as worse.
 pub const WORST_RATIO: f64 = 1.05;

@@ -16,9 +16,6 @@ use crate::recording::conventions::Gravity;
 use crate::recording::felt::Kind;
 use crate::recording::units::Dimension;
 
-/// Shortest and longest step \[s\].
-const STEP_RANGE: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
-
 /// The map of a washout FMU's variables, as its file has it.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -69,11 +66,10 @@ fn one() -> f64 {
     1.0
 }
 
-/// Keys of the quantities that a washout takes.
-const INPUT_KEYS: &[&str] = &["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"];
-
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        // Keys of the quantities that a washout takes.
+        const INPUT_KEYS: &[&str] = &["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed", "lean"];
         let key = String::deserialize(deserializer)?;
         let known = Quantity::of_key(&key).ok().filter(|quantity| INPUT_KEYS.contains(&quantity.key()));
         known.ok_or_else(|| D::Error::unknown_variant(&key, INPUT_KEYS))
@@ -103,6 +99,8 @@ impl Map {
     }
 
     fn check(&self) -> Result<()> {
+        // Shortest and longest step [s].
+        const STEP_RANGE: std::ops::RangeInclusive<f64> = 1e-4..=0.5;
         if let Some(step) = self.step {
             ensure!(STEP_RANGE.contains(&step), "step is {step}, but must be from 0.0001 to 0.5 s");
         }

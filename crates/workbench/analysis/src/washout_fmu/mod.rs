@@ -21,10 +21,6 @@ use map::{MappedOutput, MappedVariable};
 
 /// Tolerance of the ratio of two steps against a whole number.
 const STEP_RATIO_TOLERANCE: f64 = 1e-6;
-/// Motion that is none: what the outputs of poses and legs change by \[m, rad\].
-const STANDSTILL_TOLERANCE: f64 = 1e-9;
-/// Names of variables that a message lists.
-const MAX_LISTED_NAMES: usize = 12;
 
 /// A washout's FMU and its map.
 #[derive(Clone, Debug)]
@@ -204,6 +200,8 @@ fn unit(running: &Running, variable: &MappedVariable, kind: Kind, causality: Cau
 
 /// The FMU's variables of a role, as a message lists them.
 fn listed(running: &Running, causality: Causality) -> String {
+    // Names of variables that a message lists.
+    const MAX_LISTED_NAMES: usize = 12;
     let names = running.names(causality);
     let role = if causality == Causality::Input { "inputs" } else { "outputs" };
     let more = if names.len() > MAX_LISTED_NAMES {
@@ -237,6 +235,8 @@ fn slope(from: f64, to: f64, step: f64) -> f64 {
 
 /// A sentence on poses and legs that do not change.
 fn still(columns: &[(String, Vec<f64>)]) -> Option<String> {
+    // Motion that is none: what the outputs of poses and legs change by [m, rad].
+    const STANDSTILL_TOLERANCE: f64 = 1e-9;
     let moves =
         |(_, values): &(String, Vec<f64>)| values.iter().any(|value| (value - values[0]).abs() > STANDSTILL_TOLERANCE);
     let is_still = !columns.iter().filter(|(title, _)| title != "time").any(moves);

@@ -15,6 +15,8 @@ use crate::text_table::{TextTable, or_undefined};
 /// # Errors
 /// The file cannot be written.
 pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
+    // Names of the columns of `Row::best`.
+    const BEST_COLUMNS: [&str; 3] = ["best x [m/s2]", "best y [m/s2]", "best z [m/s2]"];
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         let heads = ["bench", "drive", "rig", "washout", "scale", "factor", "fits"];
@@ -119,6 +121,8 @@ impl Figure {
 
 /// The means of rows, whose error is this one. Only the rows' own has more than errors.
 fn line(group: &[&Row], error: Figure) -> Vec<String> {
+    // Least desired force, or bound, with which a ratio means anything [m/s2].
+    const MIN_DIVISOR: f64 = 0.03;
     let is_own = error == Figure::Own;
     let factors = group.iter().filter_map(|row| match row.scale {
         Scale::Fit { factor, .. } | Scale::Automatic { factor } => Some(factor),
@@ -153,12 +157,6 @@ fn line(group: &[&Row], error: Figure) -> Vec<String> {
         own(percent(mean_of_any(one("limited [%]")))),
     ]
 }
-
-/// Names of the columns of [`Row::best`].
-const BEST_COLUMNS: [&str; 3] = ["best x [m/s2]", "best y [m/s2]", "best z [m/s2]"];
-
-/// Least desired force, or bound, with which a ratio means anything \[m/s2\].
-const MIN_DIVISOR: f64 = 0.03;
 
 fn geometric_mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     mean_of_any(values.map(|value| value.max(1e-9).ln())).map(f64::exp)

@@ -138,10 +138,6 @@ fn all_strategies(options: &Options) -> Result<Vec<Strategy>> {
     kinds.iter().map(load).collect()
 }
 
-/// Explanation of the figures in a parameter file.
-const FIGURES_EXPLAINED: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
-    inverted the largest fraction of the time with the wrong sign, size that of the vehicle's force.";
-
 /// Writes the winner's parameters for each recording, those for all, and the picture; returns the
 /// files in this order.
 fn write_files(
@@ -151,6 +147,9 @@ fn write_files(
     common: Option<&Common>,
     strategies: &[Strategy],
 ) -> Result<Vec<PathBuf>> {
+    // Explanation of the figures in a parameter file.
+    const FIGURES_EXPLAINED: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
+        inverted the largest fraction of the time with the wrong sign, size that of the vehicle's force.";
     fs::create_dir_all(directory).with_context(|| format!("cannot make {}", directory.display()))?;
     let mut files = Vec::new();
     let mut write = |name: String, text: String| {

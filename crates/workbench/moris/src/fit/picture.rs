@@ -15,11 +15,6 @@ const CURVE_COLOURS: [RGBColor; 6] = [
     RGBColor(107, 107, 107),
 ];
 const FONT_FAMILY: &str = "sans-serif";
-/// Size of a panel, and height of the legend \[px\].
-const PANEL_SIZE: (u32, u32) = (420, 320);
-const LEGEND_HEIGHT: u32 = 40;
-/// Panels beside each other.
-const PANELS_PER_ROW: usize = 2;
 
 /// A panel for each recording: the least shape of surge and sway over the size, a curve for each
 /// strategy. A dot is at the fit, a larger one at the winner's.
@@ -27,6 +22,11 @@ const PANELS_PER_ROW: usize = 2;
 /// # Errors
 /// The text cannot be drawn.
 pub fn svg(fitted: &[Fitted], strategies: &[Strategy]) -> Result<String> {
+    // Size of a panel, and height of the legend [px].
+    const PANEL_SIZE: (u32, u32) = (420, 320);
+    const LEGEND_HEIGHT: u32 = 40;
+    // Panels beside each other.
+    const PANELS_PER_ROW: usize = 2;
     let rows = fitted.len().div_ceil(PANELS_PER_ROW);
     let size = (PANELS_PER_ROW as u32 * PANEL_SIZE.0, rows as u32 * PANEL_SIZE.1 + LEGEND_HEIGHT);
     let mut text = String::new();

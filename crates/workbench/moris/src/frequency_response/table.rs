@@ -14,9 +14,6 @@ pub use moris_analysis::frequency_response::limits::{modulus, phase};
 use super::Measured;
 use crate::text_table::TextTable;
 
-/// A smaller modulus is rounding.
-const NEGLIGIBLE_MODULUS: f64 = 1e-9;
-
 /// Writes every response from every channel to every channel.
 ///
 /// # Errors
@@ -39,6 +36,8 @@ pub fn write(file: &Path, measured: &Measured) -> Result<()> {
 
 /// The fields with their names.
 fn record(signal: &str, response: &Response, output: Channel) -> [(&'static str, String); 16] {
+    // A smaller modulus is rounding.
+    const NEGLIGIBLE_MODULUS: f64 = 1e-9;
     let input = response.input;
     // What is not felt has neither phase nor distortion.
     let felt = modulus(response, output) > NEGLIGIBLE_MODULUS;

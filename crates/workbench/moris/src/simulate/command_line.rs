@@ -6,9 +6,6 @@ use clap::{Args, Command};
 
 use super::Options;
 
-/// Options about parameters, which the file takes the place of.
-const OF_PARAMETERS: [&str; 6] = ["--parameters", "--strategy", "--compare", "--against", "--preview", "--learn"];
-
 /// This program's command line for one recording, with `--parameters` at its end for another file.
 pub fn with_other_parameters(recording: &Path) -> String {
     // The program and its subcommand come first.
@@ -17,6 +14,8 @@ pub fn with_other_parameters(recording: &Path) -> String {
 }
 
 fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
+    // Options about parameters, which the file takes the place of.
+    const OF_PARAMETERS: [&str; 6] = ["--parameters", "--strategy", "--compare", "--against", "--preview", "--learn"];
     let command = Options::augment_args(Command::new("simulate"));
     let is_flag = |name: &str| {
         let option = command.get_arguments().find(|option| option.get_long() == name.strip_prefix("--"));

@@ -236,12 +236,11 @@ impl Case {
     }
 }
 
-/// Value of `--compare` that means every other strategy.
-const ALL_STRATEGIES: &str = "strategies";
-
 /// The parameters, the ones to compare, again those of the predictive strategy with the preview,
 /// and the motions of other washouts.
 fn cases(options: &Options) -> Result<Vec<Case>> {
+    // Value of `--compare` that means every other strategy.
+    const ALL_STRATEGIES: &str = "strategies";
     let first = options.setup.load()?;
     let named = |file: &Path| Setup { parameters_name: source::name(file), ..first.clone() };
     let fmu = options.washout.as_ref().zip(options.map.as_ref());

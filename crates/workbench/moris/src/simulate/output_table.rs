@@ -8,9 +8,6 @@ use moris_washout::{Input, Output};
 
 use super::Simulation;
 
-/// Digits after the point: micrometres, and no more than a sensor has.
-const OUTPUT_DECIMALS: usize = 6;
-
 /// Writes every input and output at every sample, in columns named as the FMU's variables;
 /// booleans are 0 and 1.
 ///
@@ -33,5 +30,7 @@ pub fn write(file: &Path, simulation: &Simulation) -> Result<()> {
 }
 
 fn written(value: f64) -> String {
+    // Digits after the point: micrometres, and no more than a sensor has.
+    const OUTPUT_DECIMALS: usize = 6;
     if value == value.trunc() { format!("{value:.0}") } else { format!("{value:.OUTPUT_DECIMALS$}") }
 }

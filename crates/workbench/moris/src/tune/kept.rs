@@ -16,9 +16,6 @@ use moris_washout::Parameters;
 use super::tuner::{BestSoFar, SoFar};
 use moris_command_line::console;
 
-/// Exit status after a second Ctrl-C.
-const INTERRUPTED_STATUS: i32 = 130;
-
 /// The tuning in progress.
 #[derive(Debug, Default)]
 pub struct Kept(Mutex<Option<Current>>);
@@ -96,6 +93,8 @@ impl Current {
 /// # Errors
 /// The signal cannot be had.
 pub fn listen(kept: Arc<Kept>) -> Result<Arc<AtomicBool>> {
+    // Exit status after a second Ctrl-C.
+    const INTERRUPTED_STATUS: i32 = 130;
     let interrupted = Arc::new(AtomicBool::new(false));
     let pressed = Arc::clone(&interrupted);
     let handler = move || {

@@ -32,9 +32,6 @@ use summary::{OfStrategy, RecordingResult, Verdict};
 use tested::{Tested, tune_tested};
 use tuner::Tuner;
 
-/// Time between the lines of progress in a log \[s\].
-const PROGRESS_INTERVAL: u64 = 10;
-
 /// Runs the command.
 ///
 /// # Errors
@@ -113,6 +110,8 @@ impl Tuning {
         kept: &Kept,
         interrupted: &Arc<AtomicBool>,
     ) -> Result<Tuning> {
+        // Time between the lines of progress in a log [s].
+        const PROGRESS_INTERVAL: u64 = 10;
         let before = options.setup(strategy).load()?;
         let mut all = objectives(options, &options.recordings, &before)?;
         let count = all.len();

@@ -21,16 +21,6 @@ struct Series {
     deflated: String,
 }
 
-/// The power of the quantum of times: a nanosecond, or more where times are longer than some days.
-const OF_TIMES: i32 = -30;
-/// Powers between the quantum and the largest time, with which all differences are whole numbers
-/// in a script.
-const OF_LONG_TIMES: i32 = 49;
-/// Powers between the quantum and the largest value of a series: six digits.
-const RESOLUTION_BITS: i32 = 21;
-/// Values below this power of two count as zero.
-const MIN_EXPONENT: i32 = -1000;
-
 impl Series {
     /// A series with a quantum of this power.
     fn of(values: &[f64], power: i32) -> Self {
@@ -47,6 +37,8 @@ impl Series {
 
     /// A series for display.
     fn looked_at(values: &[f64]) -> Self {
+        // Powers between the quantum and the largest value of a series: six digits.
+        const RESOLUTION_BITS: i32 = 21;
         let largest = largest(values);
         if values.iter().all(|value| value.is_finite()) {
             Series::of(values, power_of(largest) - RESOLUTION_BITS)
@@ -63,6 +55,8 @@ fn largest(values: &[f64]) -> f64 {
 
 /// The power of two that is at least this.
 fn power_of(value: f64) -> i32 {
+    // Values below this power of two count as zero.
+    const MIN_EXPONENT: i32 = -1000;
     (value.log2().ceil() as i32).max(MIN_EXPONENT)
 }
 
@@ -104,6 +98,12 @@ pub fn curves<S: Serializer>(series: &[Vec<f64>], serializer: S) -> Result<S::Ok
 /// # Errors
 /// The serializer's.
 pub fn times<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    // The power of the quantum of times: a nanosecond, or more where times are longer than some
+    // days.
+    const OF_TIMES: i32 = -30;
+    // Powers between the quantum and the largest time, with which all differences are whole numbers
+    // in a script.
+    const OF_LONG_TIMES: i32 = 49;
     let power = OF_TIMES.max(power_of(largest(values)) - OF_LONG_TIMES);
     (!values.is_empty()).then(|| Series::of(values, power)).serialize(serializer)
 }

@@ -27,12 +27,6 @@ pub enum Kind {
     Actuator,
 }
 
-/// Stretches closer to each other than this are one \[s\].
-const MERGE_GAP: f64 = 0.1;
-
-/// A limit counts as reached at this fraction of it.
-const REACHED_FRACTION: f64 = 0.98;
-
 /// A quantity's largest fraction of its limit, and the limit in words.
 #[derive(Clone)]
 struct Utilisation {
@@ -88,6 +82,8 @@ fn tilt_events(run: &Run) -> Vec<Event> {
 
 /// First and last index of each stretch of raised flags. A flag speaks of the step before it.
 fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usize)> {
+    // Stretches closer to each other than this are one [s].
+    const MERGE_GAP: f64 = 0.1;
     let mut stretches: Vec<(usize, usize)> = Vec::new();
     for (index, _) in flags.iter().enumerate().filter(|(_, raised)| **raised) {
         let start = index.saturating_sub(1);
@@ -188,6 +184,8 @@ fn of_actuators(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
 
 /// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
 fn reason(kinds: [Vec<Utilisation>; 3]) -> String {
+    // A limit counts as reached at this fraction of it.
+    const REACHED_FRACTION: f64 = 0.98;
     for utilisations in &kinds {
         let reached: Vec<&Utilisation> = utilisations.iter().filter(|one| one.fraction >= REACHED_FRACTION).collect();
         if !reached.is_empty() {

@@ -22,10 +22,6 @@ const ALARM_SCRIPT: &str = include_str!("../../page/shared/alarm.js");
 /// The source of scripts for a page with a WebAssembly.
 pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
-/// The modules that a report and its worker begin with.
-const ENTRY_MODULE: &str = "report/main.js";
-const WORKER_MODULE: &str = "report/worker.js";
-
 /// Differences between the heads of pages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Head<'a> {
@@ -75,6 +71,9 @@ struct Page<'a> {
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(report: &Report) -> String {
+    // The modules that a report and its worker begin with.
+    const ENTRY_MODULE: &str = "report/main.js";
+    const WORKER_MODULE: &str = "report/worker.js";
     let page = Page {
         report,
         events: report.runs.iter().map(|run| events(run, &report.rig)).collect(),

@@ -3,11 +3,6 @@
 use moris_motorcycle::path::follower::Follower;
 use serde::Serialize;
 
-/// Distance between two points of the centre \[m\].
-pub const SPACING: f64 = 2.0;
-/// Parts in which the heading between two points is integrated.
-const HEADING_SUBDIVISIONS: usize = 8;
-
 /// Position and heading in the plane, in m and rad, positive to the left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanePose {
@@ -58,6 +53,10 @@ pub struct Circuit {
 impl Circuit {
     /// The course of a rider on a path.
     pub fn new(follower: &Follower) -> Circuit {
+        // Distance between two points of the centre [m].
+        const SPACING: f64 = 2.0;
+        // Parts in which the heading between two points is integrated.
+        const HEADING_SUBDIVISIONS: usize = 8;
         let table = follower.table();
         let length = table.length();
         let count = (length / SPACING).round() as usize;

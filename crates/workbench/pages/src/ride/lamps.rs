@@ -2,16 +2,15 @@
 
 use moris_washout::Washout;
 
-/// Fraction of a leg's stroke next to its ends, and fractions of its largest speed and
-/// acceleration, from which on a lamp lights.
-const NEAR_END: f64 = 0.05;
-const NEAR_LIMIT: f64 = 0.9;
-
 /// Names of the lamps.
 pub const NAMES: [&str; 6] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
 
 /// The lamps that are lit now.
 pub fn lit(washout: &Washout) -> [bool; NAMES.len()] {
+    // Fraction of a leg's stroke next to its ends, and fractions of its largest speed and
+    // acceleration, from which on a lamp lights.
+    const NEAR_END: f64 = 0.05;
+    const NEAR_LIMIT: f64 = 0.9;
     let (now, rates) = (washout.output(), washout.output_derivative());
     let rig = &washout.parameters().rig;
     let any = |values: &[f64; 6], limit: f64| values.iter().any(|value| value.abs() > NEAR_LIMIT * limit);

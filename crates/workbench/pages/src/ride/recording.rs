@@ -9,8 +9,6 @@ use serde::Serialize;
 
 /// Steps of the ride to a sample.
 pub const DIVISIONS: usize = 10;
-/// Longest recording \[samples\]: 20 minutes.
-const MAX_SAMPLES: usize = 120_000;
 
 /// Inputs of the washout, and the motion that the rider felt.
 #[derive(Clone, Debug)]
@@ -44,6 +42,8 @@ impl Recording {
 
     /// Adds a step of the ride.
     pub fn push(&mut self, input: &Input, felt: [f64; 2]) {
+        // Longest recording [samples]: 20 minutes.
+        const MAX_SAMPLES: usize = 120_000;
         if self.inputs.len() == MAX_SAMPLES {
             return;
         }

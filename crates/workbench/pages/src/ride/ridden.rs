@@ -23,9 +23,6 @@ pub struct RiderCommand {
     pub is_helped: bool,
 }
 
-/// Speed above which a motorcycle off the road turns \[m/s\].
-const MIN_TURNING_SPEED: f64 = 0.05;
-
 /// A motorcycle on the lap.
 #[derive(Clone, Debug)]
 pub struct Ridden {
@@ -64,6 +61,8 @@ impl Ridden {
 
     /// Advances by [`STEP`].
     pub fn step(&mut self, command: &RiderCommand) {
+        // Speed above which a motorcycle off the road turns [m/s].
+        const MIN_TURNING_SPEED: f64 = 0.05;
         let RiderCommand { throttle, brake, stick, is_helped } = *command;
         let lean = rider::lean(stick, is_helped, &self.motorcycle);
         let [throttle, brake] = rider::pedals([throttle, brake], is_helped && !self.has_ended(), &self.motorcycle);

@@ -3,25 +3,17 @@
 use moris_motorcycle::path::follower::Follower;
 use moris_motorcycle::{Model, Motorcycle, Output};
 
-/// Commanded lean of a stick at its end: alone, and beside the help \[rad\].
-const STICK_LEAN: f64 = 0.65;
-const LEAN_BESIDE_HELP: f64 = 0.3;
 /// Time by which the help looks ahead: about that in which the rider's lean follows \[s\].
 const LOOK_AHEAD_TIME: f64 = 0.5;
-/// Natural frequency with which the help returns to the middle of the road \[rad/s\].
-const RETURN_FREQUENCY: f64 = 0.8;
-/// Throttle for each m/s below the advised speed, and brake for each above it, at which the help
-/// holds the speed \[s/m\].
-const THROTTLE_GAIN: f64 = 0.3;
-const BRAKE_GAIN: f64 = 0.25;
-/// Most of the brake that the help pulls.
-const MOST_BRAKE: f64 = 0.7;
 
 /// The commanded lean for a stick from -1 to 1, to the right \[rad\].
 ///
 /// The help is the lean of the bend ahead, and a critically damped return to the middle. Of a
 /// motorcycle that leans by φ, the deviation to the left has the second derivative -g φ.
 pub fn lean(stick: f64, is_helped: bool, motorcycle: &Motorcycle) -> f64 {
+    // Commanded lean of a stick at its end: alone, and beside the help [rad].
+    const STICK_LEAN: f64 = 0.65;
+    const LEAN_BESIDE_HELP: f64 = 0.3;
     match motorcycle.follower() {
         Some(follower) if is_helped => {
             LEAN_BESIDE_HELP * stick + help(&motorcycle.output(), follower, motorcycle.parameters().run.gravity)
@@ -33,6 +25,12 @@ pub fn lean(stick: f64, is_helped: bool, motorcycle: &Motorcycle) -> f64 {
 /// Throttle and brake of a player. The help closes the throttle at the advised speed, here and
 /// where the motorcycle will soon be, and brakes above it.
 pub fn pedals([throttle, brake]: [f64; 2], is_helped: bool, motorcycle: &Motorcycle) -> [f64; 2] {
+    // Throttle for each m/s below the advised speed, and brake for each above it, at which the help
+    // holds the speed [s/m].
+    const THROTTLE_GAIN: f64 = 0.3;
+    const BRAKE_GAIN: f64 = 0.25;
+    // Most of the brake that the help pulls.
+    const MOST_BRAKE: f64 = 0.7;
     let Some(follower) = motorcycle.follower().filter(|_| is_helped) else { return [throttle, brake] };
     let now = motorcycle.output();
     let advised = [0.0, LOOK_AHEAD_TIME].map(|time| follower.planned_speed(now.path_distance + time * now.speed));
@@ -41,6 +39,8 @@ pub fn pedals([throttle, brake]: [f64; 2], is_helped: bool, motorcycle: &Motorcy
 }
 
 fn help(now: &Output, follower: &Follower, gravity: f64) -> f64 {
+    // Natural frequency with which the help returns to the middle of the road [rad/s].
+    const RETURN_FREQUENCY: f64 = 0.8;
     let curvature = follower.table().curvature_at(now.path_distance + LOOK_AHEAD_TIME * now.speed);
     let sideways = now.speed * now.path_heading.sin();
     let back = RETURN_FREQUENCY * RETURN_FREQUENCY * now.path_deviation + 2.0 * RETURN_FREQUENCY * sideways;

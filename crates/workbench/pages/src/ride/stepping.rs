@@ -16,12 +16,6 @@ pub const STEP: f64 = 0.001;
 /// Half of the road's width \[m\].
 pub const HALF_WIDTH: f64 = 4.0;
 
-/// The platform counts as neutral within these distances and speeds, in m, rad and s.
-const NEUTRAL_TOLERANCE: f64 = 2e-3;
-const STANDSTILL_TOLERANCE: f64 = 5e-3;
-/// Longest time to wait for the platform at neutral \[s\].
-const NEUTRAL_TIMEOUT: f64 = 20.0;
-
 /// Where a ride is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -234,6 +228,8 @@ impl Ride {
 
     /// Puts the next washout in place at neutral. It fades in, or begins with a ride at rest.
     fn exchange_washout(&mut self) {
+        // Longest time to wait for the platform at neutral [s].
+        const NEUTRAL_TIMEOUT: f64 = 20.0;
         let at_rest = matches!(self.stage, Stage::Ready | Stage::Returning);
         let has_faded = self.washout.engagement() == 0.0 || self.stage == Stage::Ready;
         if self.next.is_none() || !(has_faded && self.is_neutral() || self.disengaged > NEUTRAL_TIMEOUT) {
@@ -248,6 +244,9 @@ impl Ride {
     }
 
     fn is_neutral(&self) -> bool {
+        // The platform counts as neutral within these distances and speeds, in m, rad and s.
+        const NEUTRAL_TOLERANCE: f64 = 2e-3;
+        const STANDSTILL_TOLERANCE: f64 = 5e-3;
         let now = self.washout.output();
         let height = self.parameters.rig.neutral_height;
         let moved = [now.position.x, now.position.y, now.position.z - height];

@@ -94,6 +94,8 @@ fn run_a_brisk(t: f64) -> Motion {
 }
 
 fn run_b(t: f64) -> Motion {
+    // Constant speed of run b [m/s].
+    const SPEED_IN_THE_WAKE: f64 = 25.0;
     /// Waves as amplitude, frequency \[Hz\], phase \[rad\].
     const AX: &[Wave] = &[(0.60, 0.35, 0.0), (0.35, 1.1, 0.7), (0.15, 2.0, 1.9)];
     const AY: &[Wave] = &[(0.80, 0.5, 0.4), (0.40, 1.3, 2.1), (0.20, 2.0, 0.3)];
@@ -136,9 +138,6 @@ fn straight(t: f64, along: &[Change]) -> Motion {
     let speed = changes_integral(along, t).max(0.0);
     Motion { acceleration: [changes(along, t), 0.0, 0.0], speed, ..Motion::default() }
 }
-
-/// Constant speed of run b \[m/s\].
-const SPEED_IN_THE_WAKE: f64 = 25.0;
 
 /// Amplitude, frequency \[Hz\], phase \[rad\].
 type Wave = (f64, f64, f64);

@@ -8,10 +8,6 @@ use crate::Evaluated;
 use crate::spans::Spans;
 use crate::{Finding, Weight};
 
-/// Measures that need the washout itself: what of a tilt is coordination, and which of its own
-/// limits acted.
-const OF_THE_WASHOUT: [&str; 4] = ["largest tilt rate", "tilt limited", "soft limits active", "safety units active"];
-
 impl Foreign {
     /// Fit to the rig, and what was given.
     pub(crate) fn findings(&self, outcome: &Evaluated, is_good: bool) -> Vec<Finding> {
@@ -51,6 +47,10 @@ impl Foreign {
 
     /// The rows without values that are not known.
     pub(crate) fn known(&self, row: Row) -> Row {
+        // Measures that need the washout itself: what of a tilt is coordination, and which of its
+        // own limits acted.
+        const OF_THE_WASHOUT: [&str; 4] =
+            ["largest tilt rate", "tilt limited", "soft limits active", "safety units active"];
         let is_of_rates = row.subject.contains("angular velocity");
         let is_of_platform = row.subject == "platform";
         let is_unknown =

@@ -4,10 +4,6 @@ use moris_washout::{Output, Rig};
 
 use super::differences::means;
 
-/// Excesses up to these count as none: of a length \[m\], and relative of speed and acceleration.
-const LENGTH_TOLERANCE: f64 = 1e-6;
-const LIMIT_TOLERANCE: f64 = 1e-3;
-
 /// The greatest excess of one of the actuators' limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
@@ -48,6 +44,9 @@ pub fn margin(lengths: &[f64; 6], rig: &Rig) -> f64 {
 ///
 /// Speed and acceleration are central differences over three samples.
 pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) -> Vec<Excess> {
+    // Excesses up to these count as none: of a length [m], and relative of speed and acceleration.
+    const LENGTH_TOLERANCE: f64 = 1e-6;
+    const LIMIT_TOLERANCE: f64 = 1e-3;
     let [start, end] = rig.stroke();
     let parts = (legs.len() - 1) / (outputs.len() - 1);
     let step = step / parts as f64;

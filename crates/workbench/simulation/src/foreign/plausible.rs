@@ -8,36 +8,6 @@ use super::ForeignError;
 use super::differences::rounding_error;
 use crate::Simulation;
 
-/// Largest pitch, roll or yaw that a platform on six legs can have \[rad\].
-const LARGEST_ANGLE: f64 = 1.6;
-/// Lengths and heights beyond this multiple of the rig's cannot be meant.
-const MAX_SIZE_RATIO: f64 = 5.0;
-/// Ranges of a ratio to gravity: near it, and in units of it.
-const GRAVITY_RATIO_RANGE: std::ops::Range<f64> = 0.7..1.3;
-/// Magnitude of z without gravity's reaction \[m/s2\].
-const WITHOUT_GRAVITY: f64 = 0.5;
-/// Correlation below which a sign is suspected, and above which a size is.
-const OPPOSED_CORRELATION: f64 = -0.5;
-const ALIKE_CORRELATION: f64 = 0.9;
-/// Relative tolerance of a size that is suspected to be in another unit.
-const SIZE_TOLERANCE: f64 = 0.15;
-/// The axis that no tilt coordination turns about.
-const YAW_AXIS: usize = 2;
-/// RMS of a signal that is enough for a suspicion, of forces \[m/s2\] and of rates \[rad/s\].
-const MIN_SUSPECTED_RMS: [f64; 2] = [0.05, 0.01];
-/// RMS of the difference of given forces from those of the poses that is worth a sentence, as a
-/// fraction of the latter, and at least \[m/s2\].
-const MIN_DIFFERENCE_FRACTION: f64 = 0.1;
-const LEAST_DIFFERENT: f64 = 0.1;
-/// Error by rounding, as a multiple of its RMS, that is no difference.
-const MOST_ROUNDING: f64 = 3.0;
-/// Difference of legs from those of the poses that is worth a sentence \[m\].
-const DIFFERENT_LEGS: f64 = 1e-3;
-/// Error by rounding that is worth a sentence \[m/s2\].
-const LEAST_ROUNDING: f64 = 0.02;
-/// Decimals that are looked for in poses.
-const POSE_DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
-
 /// Checks that poses and legs can be meant on this rig.
 ///
 /// # Errors
@@ -47,6 +17,10 @@ pub fn check(
     legs: &Option<Vec<[f64; 6]>>,
     parameters: &Parameters,
 ) -> Result<(), ForeignError> {
+    // Largest pitch, roll or yaw that a platform on six legs can have [rad].
+    const LARGEST_ANGLE: f64 = 1.6;
+    // Lengths and heights beyond this multiple of the rig's cannot be meant.
+    const MAX_SIZE_RATIO: f64 = 5.0;
     let rig = &parameters.rig;
     if let Some(pose) = pose {
         let refused = |reason: String| Err(ForeignError::Implausible { argument: "pose", reason });
@@ -95,6 +69,8 @@ pub fn check(
 /// Decimals of poses, and the RMS error of force that their rounding causes \[m/s2\]; none where
 /// they are not rounded.
 fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> {
+    // Decimals that are looked for in poses.
+    const POSE_DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
     let is_multiple = |value: f64, decimals: i32| {
         let scaled = value * 10f64.powi(decimals);
         (scaled - scaled.round()).abs() < 1e-4
@@ -108,6 +84,8 @@ fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> 
 
 /// The error of forces that rounded poses cause, where it is worth a sentence.
 pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<String> {
+    // Error by rounding that is worth a sentence [m/s2].
+    const LEAST_ROUNDING: f64 = 0.02;
     let (decimals, error) = rounded(poses, samples, step)?;
     let rate = ((poses.len() - 1) / (samples - 1)) as f64 / step;
     (error >= LEAST_ROUNDING).then(|| {
@@ -120,6 +98,8 @@ pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<String>
 
 /// Legs that are not those of the poses.
 pub fn other_legs(legs: &[[f64; 6]], of_poses: &[[f64; 6]]) -> Option<String> {
+    // Difference of legs from those of the poses that is worth a sentence [m].
+    const DIFFERENT_LEGS: f64 = 1e-3;
     let pairs = legs.iter().flatten().zip(of_poses.iter().flatten());
     let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     (legs.len() == of_poses.len() && difference > DIFFERENT_LEGS).then(|| {
@@ -138,6 +118,12 @@ pub fn contradiction(
     samples: usize,
     step: f64,
 ) -> Option<String> {
+    // RMS of the difference of given forces from those of the poses that is worth a sentence, as a
+    // fraction of the latter, and at least [m/s2].
+    const MIN_DIFFERENCE_FRACTION: f64 = 0.1;
+    const LEAST_DIFFERENT: f64 = 0.1;
+    // Error by rounding, as a multiple of its RMS, that is no difference.
+    const MOST_ROUNDING: f64 = 3.0;
     let parts = |series: &[[f64; 3]]| (series.len() - 1) / (samples - 1);
     let rest = [0.0, 0.0, STANDARD_GRAVITY];
     let [mut difference, mut size] = [0.0; 2];
@@ -160,6 +146,15 @@ pub fn contradiction(
 
 /// Suspicions about units and signs of what is felt, against what is desired.
 pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
+    // Correlation below which a sign is suspected, and above which a size is.
+    const OPPOSED_CORRELATION: f64 = -0.5;
+    const ALIKE_CORRELATION: f64 = 0.9;
+    // Relative tolerance of a size that is suspected to be in another unit.
+    const SIZE_TOLERANCE: f64 = 0.15;
+    // The axis that no tilt coordination turns about.
+    const YAW_AXIS: usize = 2;
+    // RMS of a signal that is enough for a suspicion, of forces [m/s2] and of rates [rad/s].
+    const MIN_SUSPECTED_RMS: [f64; 2] = [0.05, 0.01];
     let gravity = simulation.parameters.structure.gravity;
     let scale = &simulation.parameters.conditioning.force_scale;
     let vertical = median(simulation.outputs.iter().map(|output| output.felt_specific_force.z));
@@ -214,6 +209,10 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
 
 /// A wrong vertical force \[m/s2\] at the median.
 fn of_vertical(vertical: f64, gravity: f64) -> Option<String> {
+    // Ranges of a ratio to gravity: near it, and in units of it.
+    const GRAVITY_RATIO_RANGE: std::ops::Range<f64> = 0.7..1.3;
+    // Magnitude of z without gravity's reaction [m/s2].
+    const WITHOUT_GRAVITY: f64 = 0.5;
     let rest = format!("a rider at rest feels (0, 0, {gravity:.2})");
     if GRAVITY_RATIO_RANGE.contains(&(vertical / gravity)) {
         None

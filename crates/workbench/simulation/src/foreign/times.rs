@@ -2,11 +2,6 @@
 
 use super::ForeignError;
 
-/// Tolerance of a time, as a fraction of the recording's step.
-const TIME_TOLERANCE: f64 = 1e-3;
-/// Excess of times over a whole number of parts of a step that counts as rounding.
-const COUNT_ROUNDING: f64 = 1e-6;
-
 /// A series at a recording's samples, from `times` of its own, and a sentence if it was
 /// interpolated. Times that are those of the samples, or divide its steps into whole parts, keep
 /// their values. Others are interpolated linearly.
@@ -24,6 +19,10 @@ pub fn on_samples<const N: usize>(
     step: f64,
     samples: usize,
 ) -> Result<(Vec<[f64; N]>, Option<String>), ForeignError> {
+    // Tolerance of a time, as a fraction of the recording's step.
+    const TIME_TOLERANCE: f64 = 1e-3;
+    // Excess of times over a whole number of parts of a step that counts as rounding.
+    const COUNT_ROUNDING: f64 = 1e-6;
     let refused = |reason: String| ForeignError::Implausible { argument, reason };
     if times.len() < 2 || times.len() != values.len() {
         return Err(refused(format!(

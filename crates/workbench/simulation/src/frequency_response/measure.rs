@@ -27,16 +27,9 @@ pub struct Response {
     pub settled: bool,
 }
 
-/// Longest time between samples \[s\].
-const LONGEST_STEP: f64 = 0.001;
-/// A block of whole periods is at least so long \[s\].
-const SHORTEST_BLOCK: f64 = 10.0;
 /// After so long it is not waited for any more, but for at least [`FEWEST_BLOCKS`] \[s\].
 const LONGEST_WAIT: f64 = 300.0;
 const FEWEST_BLOCKS: usize = 4;
-/// No further block is needed when the last two differ in what is felt by less than this fraction
-/// of the input, 1 °/s counting as much as 1 m/s2.
-const BLOCK_AGREEMENT: f64 = 1e-4;
 /// A filter at its limits need not repeat itself from period to period. Up to this fraction of the
 /// input that is no matter.
 pub const SETTLED: f64 = 1e-2;
@@ -73,6 +66,11 @@ pub fn response_on(
     amplitude: f64,
     gravity_turns: bool,
 ) -> Response {
+    // A block of whole periods is at least so long [s].
+    const SHORTEST_BLOCK: f64 = 10.0;
+    // No further block is needed when the last two differ in what is felt by less than this
+    // fraction of the input, 1 °/s counting as much as 1 m/s2.
+    const BLOCK_AGREEMENT: f64 = 1e-4;
     let period = TAU / frequency;
     let periods = (SHORTEST_BLOCK / period).ceil();
     let fade = periods * period;
@@ -107,6 +105,8 @@ struct SteadyStateRun<'a, M> {
 
 impl<'a, M: Machine> SteadyStateRun<'a, M> {
     fn new(machine: M, at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
+        // Longest time between samples [s].
+        const LONGEST_STEP: f64 = 0.001;
         let block = periods * TAU / sine.frequency;
         let samples = (block / LONGEST_STEP).ceil();
         let washout = at_rest.clone().starting_with(&sine.input(0.0));

@@ -12,10 +12,6 @@ use super::statistics::{CONSTANT, correlation, mean};
 const LONGEST_DELAY: f64 = 2.0;
 /// Least correlation at the best shift for one signal to count as the other one delayed.
 const SAME_SIGNAL: f64 = 0.9;
-/// Accuracy of the correlations from the Fourier transform.
-const CORRELATION_ACCURACY: f64 = 1e-9;
-/// Fraction of both signals' energy that must be in an overlap for that accuracy.
-const LEAST_ENERGY: f64 = 1e-6;
 
 /// Time by which `felt` is later than `desired` \[s\]: the shift at which they correlate best,
 /// found between the samples by a parabola through the best shift and its neighbours. The
@@ -25,6 +21,8 @@ const LEAST_ENERGY: f64 = 1e-6;
 /// `None` where the best shift is not within two seconds or half the signals' length. Such signals
 /// have no common delay.
 pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
+    // Accuracy of the correlations from the Fourier transform.
+    const CORRELATION_ACCURACY: f64 = 1e-9;
     let longest = ((LONGEST_DELAY / step).round() as usize).min(desired.len() / 2);
     let approximate = correlations(desired, felt, longest)?;
     let exact = |index: usize| correlation_at(desired, felt, index as i64 - longest as i64);
@@ -46,6 +44,8 @@ pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
 /// The correlations at all shifts from `-longest` to `longest` samples. `None` where
 /// an overlap is constant.
 fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64>> {
+    // Fraction of both signals' energy that must be in an overlap for that accuracy.
+    const LEAST_ENERGY: f64 = 1e-6;
     // The means are removed, so that the products and the errors of their sums are small.
     let centred = |values: &[f64]| {
         let mean = mean(values);

@@ -6,12 +6,6 @@
 //! maximum of the rating goes with what a driver says of a manoeuvre. The time constant is not
 //! published. [`incongruence`] takes 3 s, and 1 and 6 s for the range. Only ratios mean something.
 
-/// Weights of the longitudinal and the lateral mismatch.
-const MISMATCH_WEIGHTS: [f64; 2] = [0.34, 0.66];
-
-/// Time constants of the rating \[s\]: the usual one first.
-const TIME_CONSTANTS: [f64; 3] = [3.0, 1.0, 6.0];
-
 /// The largest rating relative to that of a platform at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Incongruence {
@@ -24,6 +18,8 @@ pub struct Incongruence {
 /// Incongruence of the felt and the desired specific force \[m/s2\], sampled every `step` seconds.
 /// `None` where nothing is desired along x and y.
 pub fn incongruence(desired: &[[f64; 3]], felt: &[[f64; 3]], step: f64) -> Option<Incongruence> {
+    // Time constants of the rating [s]: the usual one first.
+    const TIME_CONSTANTS: [f64; 3] = [3.0, 1.0, 6.0];
     let rest = [0.0; 3];
     let ratio = |time_constant: f64| {
         let largest = |felt: &mut dyn Iterator<Item = &[f64; 3]>| {
@@ -42,6 +38,8 @@ pub fn incongruence(desired: &[[f64; 3]], felt: &[[f64; 3]], step: f64) -> Optio
 }
 
 fn mismatch(desired: &[f64; 3], felt: &[f64; 3]) -> f64 {
+    // Weights of the longitudinal and the lateral mismatch.
+    const MISMATCH_WEIGHTS: [f64; 2] = [0.34, 0.66];
     (0..2).map(|k| MISMATCH_WEIGHTS[k] * (felt[k] - desired[k]).abs()).sum()
 }
 

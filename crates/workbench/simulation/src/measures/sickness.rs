@@ -28,23 +28,6 @@ const KW: f64 = 0.1;
 const KWC: f64 = 10.0;
 const KVC: f64 = 5.0;
 const KAC: f64 = 0.5;
-/// Time constants of the canals \[s\].
-const CANAL_TIME_CONSTANTS: [f64; 2] = [7.0, 190.0];
-/// Time constant of the sensed vertical \[s\].
-const VERTICAL_TIME_CONSTANT: f64 = 2.0;
-/// Conflict at which H is one half \[m/s2\].
-const HALF_CONFLICT: f64 = 0.5;
-/// Gravity in the model \[m/s2\].
-const MODEL_GRAVITY: f64 = 9.81;
-/// Largest share of people \[%\], and the time constant of its growth \[s\].
-const MAX_SICK_SHARE: f64 = 85.0;
-const SICKNESS_GROWTH_TIME: f64 = 720.0;
-
-/// Time for which [`share_sick`] has the ride repeated \[s\].
-pub const EXPOSURE: f64 = 1800.0;
-
-/// Longest step of the integration \[s\]; samples within it count as their mean.
-const LONGEST_STEP: f64 = 0.05;
 
 /// Share of people who are sick after half an hour of such motion \[%\].
 ///
@@ -52,11 +35,16 @@ const LONGEST_STEP: f64 = 0.05;
 /// angular velocity \[rad/s\], `step` the time between samples \[s\]. The motion begins at rest and
 /// upright.
 pub fn share_sick(force: &[[f64; 3]], rate: &[[f64; 3]], step: f64) -> f64 {
+    // Time for which `share_sick` has the ride repeated [s].
+    const EXPOSURE: f64 = 1800.0;
     share_after(EXPOSURE, mean_conflict(force, rate, step))
 }
 
 /// The response of M after this time to a constant H.
 fn share_after(time: f64, conflict: f64) -> f64 {
+    // Largest share of people [%], and the time constant of its growth [s].
+    const MAX_SICK_SHARE: f64 = 85.0;
+    const SICKNESS_GROWTH_TIME: f64 = 720.0;
     let times = time / SICKNESS_GROWTH_TIME;
     MAX_SICK_SHARE * conflict * (1.0 - (1.0 + times) * (-times).exp())
 }
@@ -81,12 +69,18 @@ fn mean_conflict(force: &[[f64; 3]], rate: &[[f64; 3]], step: f64) -> f64 {
 type State = SMatrix<f64, 3, 7>;
 
 fn at_rest() -> State {
+    // Gravity in the model [m/s2].
+    const MODEL_GRAVITY: f64 = 9.81;
     let (up, none) = (Vector3::z() * MODEL_GRAVITY, Vector3::zeros());
     State::from_columns(&[none, none, up, up, none, up / KVC, up])
 }
 
 /// The state's derivative in a motion of the head.
 fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
+    // Time constants of the canals [s].
+    const CANAL_TIME_CONSTANTS: [f64; 2] = [7.0, 190.0];
+    // Time constant of the sensed vertical [s].
+    const VERTICAL_TIME_CONSTANT: f64 = 2.0;
     let [x, x_rate, sensed, expected, correction, vertical_correction, gravity] =
         std::array::from_fn(|k| state.column(k).into_owned());
     let canals = x_rate * (1.0 / CANAL_TIME_CONSTANTS[0] + 1.0 / CANAL_TIME_CONSTANTS[1])
@@ -108,6 +102,8 @@ fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
 
 /// Hill function H of the conflict between sensed and expected vertical.
 fn conflict(state: &State) -> f64 {
+    // Conflict at which H is one half [m/s2].
+    const HALF_CONFLICT: f64 = 0.5;
     let square = (state.column(2) - state.column(3)).norm_squared() / (HALF_CONFLICT * HALF_CONFLICT);
     square / (1.0 + square)
 }
@@ -141,6 +137,8 @@ pub fn dose(force: &[[f64; 3]], step: f64) -> f64 {
 
 /// Means over blocks of samples, and a block's length \[s\].
 fn means(series: &[[f64; 3]], step: f64) -> (Vec<Vector3<f64>>, f64) {
+    // Longest step of the integration [s]; samples within it count as their mean.
+    const LONGEST_STEP: f64 = 0.05;
     let count = (LONGEST_STEP / step).floor().max(1.0) as usize;
     let mean = |block: &[[f64; 3]]| block.iter().copied().map(Vector3::from).sum::<Vector3<f64>>() / block.len() as f64;
     (series.chunks(count).map(mean).collect(), count as f64 * step)

@@ -7,9 +7,6 @@ use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Conventions, Format, Missing};
 use crate::recording::message::quoted;
 
-/// Most columns that a message lists.
-const MOST_LISTED: usize = 30;
-
 impl Header {
     /// True if all required columns exist.
     pub fn has_needed_columns(&self, conventions: &Conventions) -> bool {
@@ -104,6 +101,8 @@ impl Header {
 
     /// The columns that there are.
     fn listed(&self) -> String {
+        // Most columns that a message lists.
+        const MOST_LISTED: usize = 30;
         let mut listed: Vec<String> = (0..self.width()).take(MOST_LISTED).map(|place| self.shown(place)).collect();
         if self.width() > MOST_LISTED {
             listed.push(format!("{} more", self.width() - MOST_LISTED));

@@ -2,9 +2,6 @@
 
 use super::units::any_spelled;
 
-/// Brackets around units.
-const OPENING: [char; 4] = ['[', '(', '{', '<'];
-
 /// The name of a column, and the unit in brackets behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Title {
@@ -33,6 +30,8 @@ impl Title {
     /// several brackets, the first with a known unit counts, otherwise the last. The mark of a
     /// comment before the name is no part of it.
     pub fn new(full: &str) -> Self {
+        // Brackets around units.
+        const OPENING: [char; 4] = ['[', '(', '{', '<'];
         let full = full.trim();
         let begin = full.chars().next().map_or(0, char::len_utf8);
         // Braces may be part of a name, as in `A_{Xpilot}`.

@@ -5,10 +5,9 @@ use crate::recording::dialects::{DIALECTS, Foreign};
 /// Part of a file in which a zero byte shows that it is no text \[bytes\].
 pub const HEAD: usize = 4096;
 
-const ZIP: &[u8] = b"PK\x03\x04";
-
 /// The remedy for a file that its first bytes show not to be CSV.
 pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
+    const ZIP: &[u8] = b"PK\x03\x04";
     let head = &bytes[..bytes.len().min(HEAD)];
     let contains = |part: &[u8]| head.windows(part.len()).any(|window| window == part);
     let text = head.trim_ascii_start();

@@ -3,14 +3,6 @@
 use crate::message::{Message, given, message};
 use crate::recording::message::quoted;
 
-/// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
-const LARGEST: f64 = 1e30;
-
-/// Words for a value that is missing, in lower case; an empty field is missing, too.
-const MISSING: &str = "na n/a n.a. #n/a #na <na> nan -nan +nan nan(ind) -nan(ind) 1.#ind -1.#ind 1.#qnan -1.#qnan \
-    1.#nan nat null (null) <null> #null! \\n none nil missing invalid unavailable #value! \
-    #div/0! #num!";
-
 /// Parses numbers that all have the same decimal mark, and the same sign between thousands.
 #[derive(Default)]
 pub struct Numbers {
@@ -58,6 +50,8 @@ impl Numbers {
     /// # Errors
     /// The reason why it is none.
     pub fn parse(&mut self, field: Option<&str>) -> Result<f64, Message> {
+        // Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
+        const LARGEST: f64 = 1e30;
         let text = field.ok_or("is missing: the line has too few fields")?.trim();
         // Nearly all numbers are plain.
         let plain = text.parse::<f64>().ok().filter(|_| self.group.is_none() && self.mark != Some(','));
@@ -128,6 +122,10 @@ fn remedy() -> Message {
 
 /// True for a field that holds nothing: empty, a word for a missing value, or signs such as - or ?.
 pub fn is_empty(field: Option<&str>) -> bool {
+    // Words for a value that is missing, in lower case; an empty field is missing, too.
+    const MISSING: &str = "na n/a n.a. #n/a #na <na> nan -nan +nan nan(ind) -nan(ind) 1.#ind -1.#ind 1.#qnan -1.#qnan \
+        1.#nan nat null (null) <null> #null! \\n none nil missing invalid unavailable #value! \
+        #div/0! #num!";
     field.is_none_or(|field| {
         let field = field.trim();
         MISSING.split_whitespace().any(|word| field.eq_ignore_ascii_case(word))

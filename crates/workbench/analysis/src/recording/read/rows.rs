@@ -12,9 +12,6 @@ use crate::message::{Message, given, message};
 use crate::recording::conventions::{Conventions, EmptyFields};
 use crate::recording::message::{RecordingError, quoted};
 
-/// Lines that show how numbers are written.
-const SHOWN: usize = 5000;
-
 /// Numbers, a line a sample.
 pub struct Samples {
     /// Times that are written out are in seconds.
@@ -112,6 +109,8 @@ impl Sheet {
     /// The way in which the first lines of columns are written. Between commas, a comma is no part
     /// of a number without quotation marks.
     fn numbers(&self, places: &[usize]) -> Numbers {
+        // Lines that show how numbers are written.
+        const SHOWN: usize = 5000;
         if self.delimiter == b',' && !self.body.contains('"') {
             return Numbers::default();
         }

@@ -3,13 +3,13 @@
 //! - `ax:0.1,ay:0.2` and `ax=0.1 ay=0.2`, as serial plotters read it.
 //! - `12:30:00.250 -> 0.1,0.2`, as the Arduino IDE saves it. The clock is the column `clock`.
 
-/// Lines that show the form.
-const SHOWN: usize = 5;
 /// Mark behind the clock.
 const ARROW: &str = " -> ";
 
 /// The text as CSV with the same lines; none where it has none of these forms.
 pub fn as_csv(text: &str) -> Option<String> {
+    // Lines that show the form.
+    const SHOWN: usize = 5;
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     if lines.clone().take(SHOWN).all(|line| line.contains(ARROW)) && lines.next()?.contains(':') {
         return Some(behind_clock(text));

@@ -5,11 +5,6 @@ use std::path::{Path, PathBuf};
 
 use crate::recording::message::RecordingError;
 
-/// The argument that stands for standard input.
-const STANDARD_INPUT: &str = "-";
-/// Files of one recording are joined by this sign.
-const JOIN: char = '+';
-
 /// The files of a recording: the file itself, those whose names are joined by +, or the CSV files
 /// of a directory in the order of their names.
 ///
@@ -24,6 +19,8 @@ pub fn files(file: &Path) -> Result<Vec<PathBuf>, RecordingError> {
 
 /// The parts of a name that joins files; none if it is that of a file.
 fn joined(file: &Path) -> Option<Vec<PathBuf>> {
+    // Files of one recording are joined by this sign.
+    const JOIN: char = '+';
     let text = file.to_str()?;
     (text.contains(JOIN) && !file.exists()).then(|| text.split(JOIN).map(PathBuf::from).collect())
 }
@@ -73,5 +70,7 @@ pub fn shown(file: &Path) -> PathBuf {
 
 /// True for the argument that stands for standard input.
 pub fn is_standard_input(file: &Path) -> bool {
+    // The argument that stands for standard input.
+    const STANDARD_INPUT: &str = "-";
     file.as_os_str() == STANDARD_INPUT
 }

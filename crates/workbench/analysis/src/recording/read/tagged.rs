@@ -8,9 +8,6 @@
 use crate::recording::columns::Header;
 use crate::recording::conventions::Conventions;
 
-/// Most lines in which kinds are described.
-const MOST_LINES: usize = 2000;
-
 /// A kind of lines.
 struct Kind<'a> {
     tag: &'a str,
@@ -20,6 +17,8 @@ struct Kind<'a> {
 /// The text as CSV of the kind that has the columns of a recording, or of the one with most lines;
 /// none if it is no such log.
 pub fn as_csv(text: &str, conventions: &Conventions) -> Option<String> {
+    // Most lines in which kinds are described.
+    const MOST_LINES: usize = 2000;
     let kinds: Vec<Kind> = text.lines().take(MOST_LINES).filter_map(kind).collect();
     let rows = |kind: &Kind| text.lines().filter(|line| fields(line, kind.tag).is_some()).count();
     let has_columns = |kind: &&Kind| Header::new(kind.names.split(',')).has_needed_columns(conventions);

@@ -15,8 +15,6 @@ const LARGEST: u64 = 400_000_000;
 const TOO_LARGE: &str = "is larger than 400 MB; cut it into parts";
 /// First bytes of a file that is compressed with gzip.
 const GZIP: &[u8] = &[0x1f, 0x8b];
-/// Bytes that are read at a time.
-const PART: u64 = 1 << 20;
 
 /// Bytes, or the reason why they are no text.
 type Bytes = Result<Vec<u8>, &'static str>;
@@ -67,6 +65,8 @@ pub fn text(file: &Path) -> Result<Text, RecordingError> {
 /// Reads to the end, or to the first zero byte of what is text before it. So a source
 /// without an end fails.
 fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Bytes> {
+    // Bytes that are read at a time.
+    const PART: u64 = 1 << 20;
     let mut bytes = Vec::new();
     source.by_ref().take(foreign::HEAD as u64).read_to_end(&mut bytes)?;
     // A packed file is judged by what is in it.

@@ -10,9 +10,6 @@ use jiff::{SignedDuration, Timestamp};
 
 use crate::recording::message::quoted;
 
-/// Most words and numbers of a date beside its time of day.
-const MOST_WORDS: usize = 8;
-
 /// True where a field is a date and time or a time of day, and no number.
 pub fn is_written_out(field: &str) -> bool {
     parse(field).is_ok()
@@ -113,6 +110,8 @@ fn time_of_day(text: &str) -> Option<f64> {
 
 /// True for words and numbers that may stand beside a time of day: a date, a time zone.
 fn is_date(text: &str) -> bool {
+    // Most words and numbers of a date beside its time of day.
+    const MOST_WORDS: usize = 8;
     let is_joint = |c: char| c.is_whitespace() || "/.,-+:_()T".contains(c);
     let words: Vec<&str> = text.split(is_joint).filter(|word| !word.is_empty()).collect();
     let is_word = |word: &&str| {

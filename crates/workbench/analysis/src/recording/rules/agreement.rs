@@ -34,42 +34,15 @@ const MIN_MISSED_RATE: f64 = 0.02;
 /// Ratio of two signals that should be equal, up to which they are taken as equal: slopes and bias
 /// change the force.
 const EQUAL_RATIO: f64 = 1.5;
-/// Ratios of two signals that are the same, of either sign.
-const SAME_RATIOS: [f64; 2] = [0.67, 1.5];
 /// Largest relative distance from another unit's ratio that shows this unit.
 const UNIT_TOLERANCE: f64 = 0.2;
-/// Largest logarithm of a ratio over that of a unit of rates.
-const RATE_UNIT_TOLERANCE: f64 = 0.4;
 /// Ratio above which no slope or bias changes the speed, but the scale of time is wrong.
 const MIN_TIME_SCALE: f64 = 5.0;
-/// Ratio above which the scale of time is wrong where the speed fits the yaw rate in bends, and the
-/// relative distance of this fit.
-const MIN_TIME_SCALE_IN_BENDS: f64 = 1.8;
-const BENDS_TOLERANCE: f64 = 0.1;
 /// Ratio below which a sign is wrong. Two-wheelers have a small lateral force of either sign.
 const OPPOSITE_RATIO: f64 = -0.5;
-/// Speed of bends below which a sign is wrong \[m/s\].
-const BACKWARD_SPEED: f64 = -3.0;
-/// Fraction of what others show, below which a channel holds noise alone.
-const NOISE_FRACTION: f64 = 0.1;
-/// Least lateral force of bends, as a root mean square \[m/s2\], that one which is measured must go
-/// with, and the correlation below which it does not.
-const MIN_MISSED_BEND_FORCE: f64 = 0.5;
-const UNRELATED_CORRELATION: f64 = 0.3;
 /// Difference that another reading of a channel leaves, as a part of what the given one does, from
 /// which it is the right one.
 const CLEAR_FRACTION: f64 = 0.3;
-/// Least change of speed by the force that a constant speed contradicts, as a root mean square
-/// \[m/s\].
-const MIN_DRIVEN_CHANGE: f64 = 1.0;
-/// Roll of a vehicle that leans into bends, as a root mean square \[rad\].
-const LEANING_ROLL: f64 = 0.1;
-/// Ratios of the vertical force in bends and that of a vehicle which leans into them.
-const BALANCED_RATIOS: [f64; 2] = [0.5, 2.0];
-/// Least delay that is warned of, of either sign \[s\].
-const MIN_DELAY: f64 = 0.2;
-/// Largest fraction of the unexplained variance that is left without the delay.
-const MAX_UNEXPLAINED_FRACTION: f64 = 0.2;
 
 /// The parts w, x, y and z of a quaternion as another convention has them.
 type Reading = fn([f64; 4]) -> [f64; 4];
@@ -80,11 +53,15 @@ fn is_equal(ratio: f64) -> bool {
 }
 
 fn is_same(ratio: Option<f64>) -> bool {
+    // Ratios of two signals that are the same, of either sign.
+    const SAME_RATIOS: [f64; 2] = [0.67, 1.5];
     ratio.is_some_and(|ratio| (SAME_RATIOS[0]..SAME_RATIOS[1]).contains(&ratio.abs()))
 }
 
 /// True for a signal that is small beside the one that it should be, and does not go with it.
 fn is_noise(found: &[f64], needed: &[f64]) -> bool {
+    // Fraction of what others show, below which a channel holds noise alone.
+    const NOISE_FRACTION: f64 = 0.1;
     let relation = relation(needed, found);
     relation.sizes[1] < NOISE_FRACTION * relation.sizes[0] && relation.slope().is_none()
 }
@@ -165,6 +142,10 @@ impl Channels<'_> {
 
     /// True for a vehicle that leans into bends, which has no lateral force.
     fn leans(&self) -> bool {
+        // Roll of a vehicle that leans into bends, as a root mean square [rad].
+        const LEANING_ROLL: f64 = 0.1;
+        // Ratios of the vertical force in bends and that of a vehicle which leans into them.
+        const BALANCED_RATIOS: [f64; 2] = [0.5, 2.0];
         let rolls = || root_mean_square(&centred(self.angle(0))) > LEANING_ROLL;
         let expected = self.smoothed(|(input, speed)| (speed * input.angular_velocity.z).hypot(STANDARD_GRAVITY));
         let vertical = self.smoothed(|(input, _)| input.specific_force.z);
@@ -404,6 +385,10 @@ pub fn missing_force(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// A vehicle that does not lean and drives bends without a lateral force.
 pub fn missing_lateral_force(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Least lateral force of bends, as a root mean square [m/s2], that one which is measured must
+    // go with, and the correlation below which it does not.
+    const MIN_MISSED_BEND_FORCE: f64 = 0.5;
+    const UNRELATED_CORRELATION: f64 = 0.3;
     let found = relation(&channels.turning(), &channels.lateral());
     if !channels.has_speed() || found.sizes[0] < MIN_BEND_FORCE || channels.leans() {
         return None;
@@ -420,6 +405,9 @@ pub fn missing_lateral_force(channels: &Channels, _: Quantity) -> Option<Message
 
 /// A constant speed that the force along x would change.
 pub fn missing_speed(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Least change of speed by the force that a constant speed contradicts, as a root mean square
+    // [m/s].
+    const MIN_DRIVEN_CHANGE: f64 = 1.0;
     let is_missing = channels.is_constant(Quantity::Speed)
         && root_mean_square(&channels.driven(channels.force(0))) >= MIN_DRIVEN_CHANGE;
     is_missing.then(|| channels.unmeasured(Quantity::Speed, "the force along x changes it"))
@@ -504,6 +492,10 @@ fn time_scale(conventions: &Conventions, scale: f64) -> Message {
 
 /// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
 fn cause(channels: &Channels, surge: f64, sway: Option<f64>) -> Option<Cause> {
+    // Ratio above which the scale of time is wrong where the speed fits the yaw rate in bends, and
+    // the relative distance of this fit.
+    const MIN_TIME_SCALE_IN_BENDS: f64 = 1.8;
+    const BENDS_TOLERANCE: f64 = 0.1;
     let Channels { table, conventions, .. } = channels;
     let near = |a: f64, b: f64| (a / b).ln().abs();
     // In bends a wrong unit of speed or force has the opposite effect, and that of time none.
@@ -587,6 +579,8 @@ pub fn reversing(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// Bends of a vehicle without a measured speed, at one that is negative.
 pub fn backward_bends(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Speed of bends below which a sign is wrong [m/s].
+    const BACKWARD_SPEED: f64 = -3.0;
     if channels.has(Quantity::Speed) || channels.conventions.mounting.is_some() {
         return None;
     }
@@ -597,6 +591,8 @@ pub fn backward_bends(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// A unit of the rates that explains the ratio of what they should be and what they are.
 fn rates_in_other_unit(channels: &Channels, ratio: f64, fact: Message) -> Option<Message> {
+    // Largest logarithm of a ratio over that of a unit of rates.
+    const RATE_UNIT_TOLERANCE: f64 = 0.4;
     let given = channels.table.unit(Quantity::Rate(2)).0;
     let distance = |unit: &Unit| (ratio * given.in_si / unit.in_si).ln().abs();
     let others = Dimension::Rate.units().filter(|other| *other != given);
@@ -660,6 +656,10 @@ pub fn delayed_angle(channels: &Channels, angle: Quantity) -> Option<Message> {
 /// The delay of a signal behind the one that is expected, where it explains most of their
 /// difference \[s\].
 fn clear_delay(expected: &[f64], found: &[f64], least: f64, step: f64) -> Option<f64> {
+    // Least delay that is warned of, of either sign [s].
+    const MIN_DELAY: f64 = 0.2;
+    // Largest fraction of the unexplained variance that is left without the delay.
+    const MAX_UNEXPLAINED_FRACTION: f64 = 0.2;
     if root_mean_square(found) < least {
         return None;
     }

@@ -15,8 +15,6 @@ const CHANGE_TIME: f64 = 2.0;
 pub const MIN_SPEED_CHANGE: f64 = 0.3;
 /// Least lateral force of bends that is compared, as a root mean square \[m/s2\].
 pub const MIN_BEND_FORCE: f64 = 0.3;
-/// Speed below which a vehicle stands \[m/s\].
-const STANDING_SPEED: f64 = 0.3;
 /// Speed above which bends need a yaw rate \[m/s\].
 pub const BEND_SPEED: f64 = 3.0;
 
@@ -63,6 +61,8 @@ impl<'a> Channels<'a> {
     /// Between two stops the vehicle reverses where the force along x is against the changes of the
     /// speed, while both go together between others.
     fn sign_speeds(&mut self) {
+        // Speed below which a vehicle stands [m/s].
+        const STANDING_SPEED: f64 = 0.3;
         if self.speeds.iter().any(|speed| *speed < -STANDING_SPEED) {
             return;
         }

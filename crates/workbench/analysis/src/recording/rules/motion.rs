@@ -11,17 +11,10 @@ use crate::message::Message;
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Gravity, Quantity};
 
-/// Angular velocity that few heads exceed for a hundredth of a recording \[rad/s\].
-const BRISK_RATE: f64 = 2.5;
-/// Mean acceleration above which the sensor or the road is taken as tilted \[m/s2\].
-const MIN_BIAS: f64 = 0.3;
-/// Largest force along x and y below which accelerations of vehicles may be in g \[m/s2\].
-const WEAK_FORCE: f64 = 1.5;
-/// Cue at the first sample above which the recording begins with a jolt \[m/s2\].
-const MIN_JOLT: f64 = 1.0;
-
 /// A lasting force along x or y, and what may be its cause.
 pub fn bias(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    // Mean acceleration above which the sensor or the road is taken as tilted [m/s2].
+    const MIN_BIAS: f64 = 0.3;
     let inputs = channels.inputs;
     let mean_of = |value: &dyn Fn(&Input) -> f64| inputs.iter().map(value).sum::<f64>() / inputs.len() as f64;
     let is_along_x = quantity == Quantity::Force(0);
@@ -45,6 +38,8 @@ pub fn bias(channels: &Channels, quantity: Quantity) -> Option<Message> {
 
 /// Accelerations that may be in g: without gravity and speed nothing tells their unit.
 pub fn force_unit(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Largest force along x and y below which accelerations of vehicles may be in g [m/s2].
+    const WEAK_FORCE: f64 = 1.5;
     let (unit, source) = channels.table.unit(Quantity::Force(0));
     let is_unknown = source == UnitSource::Default && !channels.has(Quantity::Speed);
     let force = channels.inputs.iter().map(|input| input.specific_force.xy().norm()).fold(0.0, f64::max);
@@ -54,6 +49,8 @@ pub fn force_unit(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// Rates that may be in another unit than the one that is taken.
 pub fn fast_rates(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Angular velocity that few heads exceed for a hundredth of a recording [rad/s].
+    const BRISK_RATE: f64 = 2.5;
     let (unit, source) = channels.table.unit(Quantity::Rate(0));
     let fast = usual_maximum(channels.inputs);
     let is_open = source == UnitSource::Default && fast > BRISK_RATE;
@@ -62,6 +59,8 @@ pub fn fast_rates(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// A beginning in motion.
 pub fn jolt(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Cue at the first sample above which the recording begins with a jolt [m/s2].
+    const MIN_JOLT: f64 = 1.0;
     let cue = channels.inputs[0].specific_force - Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     (cue.amax() > MIN_JOLT).then(|| text!["jolt", x = cue.x, y = cue.y, z = cue.z])
 }

@@ -23,41 +23,20 @@ use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{AngleUnit, Axes, Gravity, Quantity, RateUnit, Unit};
 use crate::recording::signal::{extremes, integral, median, relation, root_mean_square, smooth, sorted};
 
-/// Roll or pitch that no vehicle exceeds \[rad\].
-const STEEPEST_ANGLE: f64 = 3.2;
 /// Roll, pitch or lean that vehicles reach only where their rates show it \[rad\].
 const STEEP_ANGLE: f64 = FRAC_PI_2 + 0.1;
-/// Ratios of an angle's derivative and a rate that show degrees.
-const DEGREE_RATIOS: [f64; 2] = [30.0, 110.0];
-/// Spread of a derivative that hardly varies, as a part of it.
-const STEADY_SPREAD: f64 = 0.2;
 /// Least derivative and rate that are compared, as root mean squares \[rad/s\].
 const MIN_COMPARED_RATE: f64 = 0.005;
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors are biased
 /// and tilted.
 const GRAVITY_TOLERANCE: f64 = 3.0;
-/// Cosine of the angle to the vertical below which a vehicle is upside down.
-const UPSIDE_DOWN: f64 = -0.5;
-/// Relative distance from standard gravity of rates in m/s2, and the largest force beside them in
-/// the file's unit. A circle at as many degrees a second has a lateral force.
-const EXCHANGED_GRAVITY_TOLERANCE: f64 = 0.05;
-const MAX_EXCHANGED_FORCE: f64 = 0.5;
-/// Size of gravity from which it may be in counts \[1\].
-const MIN_COUNTS: f64 = 60.0;
-/// Angular velocity that no head exceeds for a hundredth of a recording \[rad/s\].
-const FASTEST_RATE: f64 = 10.0;
 /// Time over which the drift of an integrated rate is removed \[s\].
 const DRIFT_TIME: f64 = 10.0;
-/// Swing of roll or pitch, drift removed, that no vehicle exceeds \[rad\]: a
-/// motorcycle goes from -1 to 1.
-const WIDEST_SWING: f64 = 3.5;
-/// Least lateral specific force of a turn, as a standard deviation \[m/s2\].
-const MIN_TURN_FORCE: f64 = 0.3;
-/// Radius below which no vehicle turns \[m\]; in deg/s for rad/s, a radius of 1 km reads as 0.3 m.
-const TIGHTEST_RADIUS: f64 = 1.0;
 
 /// Roll or pitch that no vehicle reaches.
 pub fn angle_range(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Roll or pitch that no vehicle exceeds [rad].
+    const STEEPEST_ANGLE: f64 = 3.2;
     let size = |input: &Input| input.orientation.roll.abs().max(input.orientation.pitch.abs());
     let steepest = channels.inputs.iter().map(size).fold(0.0, f64::max);
     if steepest <= STEEPEST_ANGLE {
@@ -90,6 +69,8 @@ pub fn angle_unit(channels: &Channels, quantity: Quantity) -> Option<Message> {
 }
 
 fn evidence_of_degrees(channels: &Channels, axis: usize, name: &str) -> Option<Message> {
+    // Ratios of an angle's derivative and a rate that show degrees.
+    const DEGREE_RATIOS: [f64; 2] = [30.0, 110.0];
     let ratio = |period: f64| {
         let (derivative, rate) = channels.derivative_and_rate(axis, period);
         relation(&rate, &derivative).slope_above(MIN_COMPARED_RATE)
@@ -107,6 +88,8 @@ fn evidence_of_degrees(channels: &Channels, axis: usize, name: &str) -> Option<M
 
 /// Ratio of an angle's derivative in degrees and a rate that hardly vary; none of others.
 fn steady_ratio(channels: &Channels, axis: usize) -> Option<f64> {
+    // Spread of a derivative that hardly varies, as a part of it.
+    const STEADY_SPREAD: f64 = 0.2;
     let derivative = || channels.derivative(axis, 360.0);
     let usual = median(derivative());
     let rate = median(channels.rate(axis));
@@ -116,6 +99,8 @@ fn steady_ratio(channels: &Channels, axis: usize) -> Option<f64> {
 
 /// A quaternion of axes that point down, which turns the vehicle upside down.
 pub fn quaternion_from_below(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Cosine of the angle to the vertical below which a vehicle is upside down.
+    const UPSIDE_DOWN: f64 = -0.5;
     let up = |input: &Input| input.orientation.roll.cos() * input.orientation.pitch.cos();
     let is_upside_down = channels.has_quaternion() && median(channels.inputs.iter().map(up)) < UPSIDE_DOWN;
     is_upside_down.then(|| {
@@ -129,6 +114,10 @@ pub fn quaternion_from_below(channels: &Channels, _: Quantity) -> Option<Message
 
 /// Gravity in the columns of the rates, and none in those of the forces.
 pub fn exchanged_sensors(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Relative distance from standard gravity of rates in m/s2, and the largest force beside them
+    // in the file's unit. A circle at as many degrees a second has a lateral force.
+    const EXCHANGED_GRAVITY_TOLERANCE: f64 = 0.05;
+    const MAX_EXCHANGED_FORCE: f64 = 0.5;
     let Channels { table, conventions, .. } = channels;
     let median_of = |quantity: fn(usize) -> Quantity| {
         let column =
@@ -147,6 +136,8 @@ pub fn exchanged_sensors(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
 pub fn gravity(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Size of gravity from which it may be in counts [1].
+    const MIN_COUNTS: f64 = 60.0;
     let Channels { table, inputs, conventions, .. } = channels;
     let median = Vector3::from_fn(|axis, _| median(channels.force(axis)));
     let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
@@ -226,6 +217,8 @@ fn meaning_of_median(median: &Vector3<f64>, channels: &Channels) -> Message {
 
 /// Rates that are plausible only as deg/s. A given unit overrides all tests except the first.
 pub fn rate_unit(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Angular velocity that no head exceeds for a hundredth of a recording [rad/s].
+    const FASTEST_RATE: f64 = 10.0;
     let (unit, source) = channels.table.unit(Quantity::Rate(0));
     if unit != RateUnit::RadianPerSecond.unit() {
         return None;
@@ -249,6 +242,9 @@ pub fn usual_maximum(inputs: &[Input]) -> f64 {
 }
 
 fn evidence_of_degrees_a_second(channels: &Channels) -> Option<Message> {
+    // Swing of roll or pitch, drift removed, that no vehicle exceeds [rad]: a motorcycle goes from
+    // -1 to 1.
+    const WIDEST_SWING: f64 = 3.5;
     let by_angle = |axis: usize| {
         let name = Quantity::Angle(axis).key();
         let derivative = || rates_of_angle(channels, axis, name).filter(|_| channels.table.has_orientation());
@@ -272,6 +268,10 @@ fn rates_of_angle(channels: &Channels, axis: usize, name: &str) -> Option<Messag
 }
 
 fn rates_of_turn(channels: &Channels) -> Option<Message> {
+    // Least lateral specific force of a turn, as a standard deviation [m/s2].
+    const MIN_TURN_FORCE: f64 = 0.3;
+    // Radius below which no vehicle turns [m]; in deg/s for rad/s, a radius of 1 km reads as 0.3 m.
+    const TIGHTEST_RADIUS: f64 = 1.0;
     let lateral = channels.lateral();
     if root_mean_square(&lateral) < MIN_TURN_FORCE {
         return None;

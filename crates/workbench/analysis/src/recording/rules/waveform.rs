@@ -14,29 +14,20 @@ use crate::recording::signal::{integral, is_constant, median, root_mean_square, 
 
 /// Time from which a value that stays is looked at \[s\].
 const MIN_STOP_TIME: f64 = 2.0;
-/// Largest part of a recording in which a sensor has stopped: one that never moves was never there.
-const MAX_STOP_FRACTION: f64 = 0.95;
-/// Changes of a channel in its usual ones, and the number of channels, from which they jump.
-const JUMP_SIZE: f64 = 5.0;
-const MIN_JUMPING: usize = 2;
-/// Most times that a logger repeats its last line for seconds.
-const MAX_REPEATED_LINES: usize = 10;
 /// Times that each value is repeated, from which the steps are felt.
 const MIN_REPETITIONS: usize = 3;
 /// Least number of steps that are looked at, and the part of the samples that they must be.
 const MIN_STEPS: usize = 20;
 const REPEATED_FRACTION: f64 = 0.6;
-/// Part of the steps that are as long as the usual one.
-const EVEN_FRACTION: f64 = 0.9;
-/// Distance of a force's and of a rate's values from which its steps are felt \[m/s2, rad/s\].
-const COARSE_FORCE: f64 = 0.15;
-const COARSE_RATE: f64 = 0.05;
-/// Number of values from which a signal is no test of a few steps.
-const MIN_LEVELS: usize = 4;
 
 /// Lines that are repeated for seconds, after which several channels jump. Computed rides that are
 /// steady end so smoothly.
 pub fn repeated_lines(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Changes of a channel in its usual ones, and the number of channels, from which they jump.
+    const JUMP_SIZE: f64 = 5.0;
+    const MIN_JUMPING: usize = 2;
+    // Most times that a logger repeats its last line for seconds.
+    const MAX_REPEATED_LINES: usize = 10;
     let Channels { table, step, .. } = channels;
     let measured = table.columns.iter().filter(|(quantity, _)| channels.is_measured(**quantity));
     let moving: Vec<&Vec<f64>> = measured.map(|(_, values)| values).filter(|values| !is_constant(values)).collect();
@@ -60,6 +51,9 @@ pub fn repeated_lines(channels: &Channels, _: Quantity) -> Option<Message> {
 /// A force or yaw rate that stays at one value for seconds, while the speed changes otherwise or
 /// the vehicle drives bends.
 pub fn stop(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    // Largest part of a recording in which a sensor has stopped: one that never moves was never
+    // there.
+    const MAX_STOP_FRACTION: f64 = 0.95;
     let Channels { table, inputs, speeds, step, .. } = channels;
     let (is_of_force, contradiction) = match quantity {
         Quantity::Force(_) => (true, "the speed changes otherwise"),
@@ -89,6 +83,11 @@ pub fn stop(channels: &Channels, quantity: Quantity) -> Option<Message> {
 
 /// A channel whose values are so far apart that their steps are felt.
 pub fn coarse(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    // Distance of a force's and of a rate's values from which its steps are felt [m/s2, rad/s].
+    const COARSE_FORCE: f64 = 0.15;
+    const COARSE_RATE: f64 = 0.05;
+    // Number of values from which a signal is no test of a few steps.
+    const MIN_LEVELS: usize = 4;
     let least = if let Quantity::Force(_) = quantity { COARSE_FORCE } else { COARSE_RATE };
     let values = channels.whole.columns.get(&quantity)?;
     let changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count();
@@ -106,6 +105,8 @@ pub fn coarse(channels: &Channels, quantity: Quantity) -> Option<Message> {
 /// Channels whose values come several times in a row: they were sampled at a lower rate than they
 /// are written.
 pub fn repeated(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Part of the steps that are as long as the usual one.
+    const EVEN_FRACTION: f64 = 0.9;
     let table = channels.whole;
     let step = table.step();
     let times = |quantity: &Quantity| {

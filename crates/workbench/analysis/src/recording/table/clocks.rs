@@ -5,17 +5,6 @@ use crate::message::{Message, message, named};
 
 /// A day \[s\].
 const DAY: f64 = 86_400.0;
-/// Periods of clocks in seconds: minutes and seconds, twelve hours, a day, a week of satellites.
-const PERIODS: [f64; 4] = [3600.0, 43_200.0, DAY, 7.0 * DAY];
-/// Bits of counters.
-const BITS: [i32; 5] = [16, 24, 30, 31, 32];
-const SHORT_BITS: [i32; 3] = [8, 10, 12];
-/// Longest step over a clock's end \[usual steps\].
-const LONGEST: f64 = 20.0;
-/// Serial numbers of days: since 1970, since 1899 as spreadsheets count, and Julian \[d\].
-const SERIAL: [f64; 2] = [10_000.0, 3e6];
-/// Steps that are those of recordings \[s\].
-const STEPS: [f64; 2] = [1e-4, 0.25];
 
 /// Times in a unit, in the file's order.
 pub struct Clock<'a> {
@@ -33,6 +22,12 @@ pub struct Clock<'a> {
 impl Clock<'_> {
     /// Brings the times to seconds that go on. Returns warnings.
     pub fn into_seconds(self) -> Vec<Message> {
+        // Periods of clocks in seconds: minutes and seconds, twelve hours, a day, a week of
+        // satellites.
+        const PERIODS: [f64; 4] = [3600.0, 43_200.0, DAY, 7.0 * DAY];
+        // Bits of counters.
+        const BITS: [i32; 5] = [16, 24, 30, 31, 32];
+        const SHORT_BITS: [i32; 3] = [8, 10, 12];
         let Clock { time, unit, factor, is_open, is_written } = self;
         let mut warnings = Vec::new();
         if is_open && is_serial_days(time) {
@@ -71,6 +66,8 @@ impl Clock<'_> {
 /// Adds a period wherever the clock begins again: where a step back is a usual step with the period
 /// added, or half a day back. Returns the first such sample.
 fn add_period(time: &mut [f64], periods: &[f64]) -> Option<usize> {
+    // Longest step over a clock's end [usual steps].
+    const LONGEST: f64 = 20.0;
     let usual = usual_step(time);
     let (mut added, mut first) = (0.0, None);
     let mut before = *time.first()?;
@@ -91,6 +88,10 @@ fn add_period(time: &mut [f64], periods: &[f64]) -> Option<usize> {
 
 /// True for days since a date: as seconds they would come at more than 100 kHz.
 fn is_serial_days(time: &[f64]) -> bool {
+    // Serial numbers of days: since 1970, since 1899 as spreadsheets count, and Julian [d].
+    const SERIAL: [f64; 2] = [10_000.0, 3e6];
+    // Steps that are those of recordings [s].
+    const STEPS: [f64; 2] = [1e-4, 0.25];
     let step = usual_step(time) * DAY;
     time.iter().all(|time| (SERIAL[0]..SERIAL[1]).contains(time)) && (STEPS[0]..=STEPS[1]).contains(&step)
 }

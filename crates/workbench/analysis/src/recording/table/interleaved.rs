@@ -5,18 +5,17 @@ use crate::recording::conventions::Quantity;
 use crate::recording::signal::root_mean_square;
 use crate::recording::table::Table;
 
-/// Most sensors that are looked for.
-const MOST: usize = 4;
-/// Least samples of each.
-const LEAST_SAMPLES: usize = 50;
-/// Largest change between samples of one sensor, as a part of that between neighbours.
-const ALIKE: f64 = 0.25;
-/// Least of the measured channels that jump at every sample.
-const LEAST_CHANNELS: usize = 2;
-
 /// The reason for a refusal where samples that lie a number apart are alike, and neighbours are
 /// not, in several channels.
 pub fn refusal(table: &Table) -> Option<Message> {
+    // Most sensors that are looked for.
+    const MOST: usize = 4;
+    // Least samples of each.
+    const LEAST_SAMPLES: usize = 50;
+    // Largest change between samples of one sensor, as a part of that between neighbours.
+    const ALIKE: f64 = 0.25;
+    // Least of the measured channels that jump at every sample.
+    const LEAST_CHANNELS: usize = 2;
     let measured = table.columns.iter().filter(|(quantity, _)| quantity.is_required());
     let channels: Vec<(&Quantity, &Vec<f64>)> = measured.collect();
     let change = |values: &[f64], apart: usize| {

@@ -5,10 +5,6 @@ use std::f64::consts::{PI, TAU};
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
-/// Step of an angle above which an orientation is interpolated as a rotation \[rad\]: near the
-/// vertical roll and yaw flip by half a turn.
-const FLIP: f64 = 0.5;
-
 /// The two samples around a time.
 #[derive(Clone, Copy)]
 pub struct Bracket {
@@ -47,6 +43,9 @@ pub fn values(places: &[Bracket], samples: &[f64], period: Option<f64>) -> Vec<f
 
 /// Roll, pitch and yaw \[rad\] at places.
 pub fn orientations(places: &[Bracket], angles: [&[f64]; 3]) -> [Vec<f64>; 3] {
+    // Step of an angle above which an orientation is interpolated as a rotation [rad]: near the
+    // vertical roll and yaw flip by half a turn.
+    const FLIP: f64 = 0.5;
     let mut found = angles.map(|angle| values(places, angle, Some(TAU)));
     for (k, place) in places.iter().enumerate() {
         let at = |sample: usize| Vector3::from_fn(|axis, _| angles[axis][sample]);

@@ -10,10 +10,6 @@ use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
 
-/// Longest gap that is interpolated over without a warning where a file's samples are further
-/// apart, as those of a satellite receiver \[steps\].
-const GAP_STEPS: f64 = 2.5;
-
 /// The samples of one file, with the time in seconds.
 pub struct Part {
     pub file: PathBuf,
@@ -40,6 +36,9 @@ impl Part {
 
     /// A warning about the first long gap.
     fn gap(&self) -> Option<String> {
+        // Longest gap that is interpolated over without a warning where a file's samples are
+        // further apart, as those of a satellite receiver [steps].
+        const GAP_STEPS: f64 = 2.5;
         let Samples { time, lines, .. } = &self.samples;
         let longest = LONGEST_GAP.max(GAP_STEPS * usual_step(time));
         let (step, line) = gaps(time, lines, longest).next()?;

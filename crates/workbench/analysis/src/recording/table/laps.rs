@@ -5,16 +5,15 @@ use crate::message::{given, message, named};
 use crate::recording::conventions::{Conventions, Quantity};
 use crate::recording::message::RecordingError;
 
-/// Least step back in time with which a lap begins \[s\].
-const RESTART: f64 = 1.0;
-/// Number of laps of equally many samples that are a counter's.
-const COUNTED: usize = 4;
-
 /// Keeps the lap that the conventions choose.
 ///
 /// # Errors
 /// There are several laps and none is chosen, or there is no such lap.
 pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), RecordingError> {
+    // Least step back in time with which a lap begins [s].
+    const RESTART: f64 = 1.0;
+    // Number of laps of equally many samples that are a counter's.
+    const COUNTED: usize = 4;
     let restarts = (1..table.time.len()).filter(|&k| table.time[k] < table.time[k - 1] - RESTART);
     let starts: Vec<usize> = [0].into_iter().chain(restarts).collect();
     let laps = starts.len();

@@ -39,9 +39,6 @@ use crate::recording::read::Samples;
 pub use files::{read, recordings};
 pub use memory::of_columns;
 
-/// Largest distance of a quaternion's norm from 1, as few digits leave it.
-const NORM: f64 = 0.05;
-
 /// A recording's columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -61,9 +58,6 @@ pub struct Table {
     /// always do.
     complete: Option<(f64, f64)>,
 }
-
-/// Least number of samples that checks look at.
-const LEAST_CHECKED: usize = 100;
 
 impl Table {
     /// A table of the sums that the layout describes, of samples with the time in seconds. What the
@@ -108,6 +102,8 @@ impl Table {
 
     /// Makes roll, pitch and yaw of the columns of a quaternion, unless there are angles.
     fn orient(&mut self, conventions: &Conventions) -> Result<(), RecordingError> {
+        // Largest distance of a quaternion's norm from 1, as few digits leave it.
+        const NORM: f64 = 0.05;
         let [Some(w), Some(x), Some(y), Some(z)] = Quantity::QUATERNION.map(|part| self.columns.remove(&part)) else {
             return Ok(());
         };
@@ -146,6 +142,8 @@ impl Table {
     /// The part in which all columns have values of their own, and the samples that it is of. The
     /// whole table where there are few of them.
     pub fn complete(&self) -> (Cow<'_, Table>, Range<usize>) {
+        // Least number of samples that checks look at.
+        const LEAST_CHECKED: usize = 100;
         let whole = 0..self.time.len();
         let Some((from, to)) = self.complete else { return (Cow::Borrowed(self), whole) };
         let range = self.time.partition_point(|time| *time < from)..self.time.partition_point(|time| *time <= to);

@@ -9,12 +9,11 @@ use crate::recording::message::quoted;
 use crate::recording::read::{Samples, Sheet};
 use crate::recording::signal::is_constant;
 
-/// Least samples that show a column dead.
-const LEAST: usize = 50;
-
 /// Warnings about columns in use with one value throughout, where another moves that is likely the
 /// quantity's.
 pub fn warnings(sheet: &Sheet, samples: &Samples, layout: &[Column], conventions: &Conventions) -> Vec<Message> {
+    // Least samples that show a column dead.
+    const LEAST: usize = 50;
     if samples.time.len() < LEAST {
         return Vec::new();
     }

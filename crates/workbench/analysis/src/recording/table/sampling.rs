@@ -13,19 +13,8 @@ use crate::message::{Message, given, message, named};
 use crate::recording::conventions::{Conventions, Dimension, Quantity, Unit};
 use crate::recording::message::RecordingError;
 
-/// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
-/// times written with few digits.
-const JITTER: f64 = 0.2;
-/// Coarsest step of a usable recording \[s\].
-const COARSEST: f64 = 0.25;
 /// Finest step: below it, time is in another unit \[s\].
 pub const FINEST: f64 = 1e-4;
-/// Ticks of 100 ns of our days, since the year 1601 or 1.
-const TICKS: Range<f64> = 1.2e17..7e17;
-/// Gap from which it may be longer than the recording \[s\].
-const LONGEST_REFUSED: f64 = 10.0;
-/// Largest number of samples that are interpolated, unless there are a quarter as many already.
-const MOST_SAMPLES: f64 = 2e6;
 
 /// The recording at equal steps, with warnings. It is unchanged if its steps are equal, and
 /// interpolated if an option asks for it.
@@ -49,6 +38,10 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
 }
 
 fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingError> {
+    // Coarsest step of a usable recording [s].
+    const COARSEST: f64 = 0.25;
+    // Ticks of 100 ns of our days, since the year 1601 or 1.
+    const TICKS: Range<f64> = 1.2e17..7e17;
     let usual = usual_step(&table.time);
     let (unit, _) = table.unit(Quantity::Time);
     let rate = |other: Unit| unit.in_si / (usual * other.in_si);
@@ -88,6 +81,8 @@ fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingE
 
 /// Refuses a gap that is longer than all the rest.
 fn check_clock(table: &Table) -> Result<(), RecordingError> {
+    // Gap from which it may be longer than the recording [s].
+    const LONGEST_REFUSED: f64 = 10.0;
     let longest = (1..table.time.len()).max_by(|&a, &b| step_to(table, a).total_cmp(&step_to(table, b))).unwrap_or(1);
     let gap = step_to(table, longest);
     // Of a usual recording a gap is a small part.
@@ -102,6 +97,9 @@ fn check_clock(table: &Table) -> Result<(), RecordingError> {
 }
 
 fn check_equal(table: &Table) -> Result<(), RecordingError> {
+    // Largest distance of a sample from its time at equal steps [fractions of a step]. It allows
+    // for times written with few digits.
+    const JITTER: f64 = 0.2;
     let (step, usual) = (table.step(), usual_step(&table.time));
     let expected = |k: usize| table.time[0] + k as f64 * step;
     let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
@@ -126,6 +124,8 @@ fn step_to(table: &Table, sample: usize) -> f64 {
 
 /// Linear interpolation at `rate` samples a second, with warnings about gaps.
 fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<Message>), RecordingError> {
+    // Largest number of samples that are interpolated, unless there are a quarter as many already.
+    const MOST_SAMPLES: f64 = 2e6;
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
     let steps = (last - first) * rate + 1e-6;
     if steps > MOST_SAMPLES.max(4.0 * table.time.len() as f64) {

@@ -9,9 +9,6 @@ use crate::recording::signal::median;
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const LONGEST_GAP: f64 = 0.2;
 
-/// Number of lines by which samples in nearly the right order may be misplaced.
-const MOST_MISPLACED: usize = 8;
-
 /// Spreads samples of equal times, as clocks with few digits write them, evenly up to the next
 /// time. Returns a warning if there are any.
 pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
@@ -52,6 +49,8 @@ pub fn disorder(time: &[f64]) -> Option<(usize, Message)> {
 
 /// True for different times of which each is a few places from where it belongs.
 fn is_nearly_sorted(time: &[f64]) -> bool {
+    // Number of lines by which samples in nearly the right order may be misplaced.
+    const MOST_MISPLACED: usize = 8;
     let mut sorted = time.to_vec();
     sorted.sort_by(f64::total_cmp);
     let is_near = |k: usize| time[k] >= time[k - MOST_MISPLACED];

@@ -38,19 +38,8 @@ pub struct NotSolved {
     pub least: f64,
 }
 
-/// Largest distance of the value from its lower bound, as a fraction of the value.
-const RELATIVE_GAP: f64 = 1e-6;
 /// The same for values near 0, for an interval \[(m/s2)^2\].
 const ABSOLUTE_GAP: f64 = 1e-10;
-/// Distances this many times as large are accepted where rounding prevents smaller ones.
-const ACCEPTED_GAP_FACTOR: f64 = 1000.0;
-/// Iterations after which the solver gives up. Rides take 10 to 50.
-const MOST_ITERATIONS: usize = 200;
-/// Part of the way to the nearest limit that a step goes.
-const TO_THE_LIMIT: f64 = 0.98;
-/// Added to the inputs' Hessian: without it, rounding may take an input's curvature below 0. The
-/// solution is the same, because a step's gradient is exact.
-const HESSIAN_REGULARISATION: f64 = 1e-11;
 
 /// The recursion's result for an interval: with the state's change x, the best input's change
 /// solves L' u = -(gain x + offset).
@@ -75,6 +64,8 @@ struct Change<const N: usize, const U: usize> {
 pub fn solve<const N: usize, const U: usize, const E: usize>(
     program: &Program<N, U, E>,
 ) -> Result<Solution<N, U, E>, NotSolved> {
+    // Iterations after which the solver gives up. Rides take 10 to 50.
+    const MOST_ITERATIONS: usize = 200;
     solve_within(program, MOST_ITERATIONS)
 }
 
@@ -82,6 +73,10 @@ fn solve_within<const N: usize, const U: usize, const E: usize>(
     program: &Program<N, U, E>,
     most_iterations: usize,
 ) -> Result<Solution<N, U, E>, NotSolved> {
+    // Distances this many times as large are accepted where rounding prevents smaller ones.
+    const ACCEPTED_GAP_FACTOR: f64 = 1000.0;
+    // Part of the way to the nearest limit that a step goes.
+    const TO_THE_LIMIT: f64 = 0.98;
     let intervals = program.desired.len();
     let limits = 2 * (N + U + E) * intervals;
     let mut solver = Solver::at_rest(program);
@@ -157,6 +152,8 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
     }
 
     fn tolerance(&self) -> f64 {
+        // Largest distance of the value from its lower bound, as a fraction of the value.
+        const RELATIVE_GAP: f64 = 1e-6;
         RELATIVE_GAP * self.value() + ABSOLUTE_GAP * self.feedback.len() as f64
     }
 
@@ -248,6 +245,9 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
 
     /// The step that aims at products of 0: factorises on the way.
     fn uncentred_step(&mut self) -> Change<N, U> {
+        // Added to the inputs' Hessian: without it, rounding may take an input's curvature below 0.
+        // The solution is the same, because a step's gradient is exact.
+        const HESSIAN_REGULARISATION: f64 = 1e-11;
         let Rows { of_state: a, of_input: b } = &self.program.motion;
         let (felt, limited) = (&self.program.felt, &self.program.limited);
         let (mut hessian, mut gradient) = ([[0.0; N]; N], [0.0; N]);

@@ -1,8 +1,5 @@
 //! Matrices of a few rows, as arrays whose sizes the compiler knows.
 
-/// Least part of a diagonal element that stays in its pivot: rounding cannot make it negative.
-const PIVOT_ROUNDING: f64 = 1e-14;
-
 /// Adds the terms, each times the same factor.
 pub fn add<const M: usize>(sum: &mut [f64; M], times: f64, terms: &[f64; M]) {
     sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += times * term);
@@ -38,6 +35,8 @@ pub fn transposed_product<const R: usize, const K: usize, const C: usize>(
 
 /// The lower factor L with L L' = `matrix`; on its diagonal stand the inverses.
 pub fn cholesky<const M: usize>(mut matrix: [[f64; M]; M]) -> [[f64; M]; M] {
+    // Least part of a diagonal element that stays in its pivot: rounding cannot make it negative.
+    const PIVOT_ROUNDING: f64 = 1e-14;
     let diagonal: [f64; M] = std::array::from_fn(|j| matrix[j][j]);
     for j in 0..M {
         let pivot = matrix[j][j].max(PIVOT_ROUNDING * diagonal[j]);

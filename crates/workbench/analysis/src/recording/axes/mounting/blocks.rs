@@ -8,10 +8,6 @@ use crate::recording::signal::{extremes, median};
 pub const BLOCK: f64 = 0.1;
 /// Blocks of a stretch at rest: 1 s.
 const REST: usize = 10;
-/// Largest change of the specific force at rest \[m/s2\].
-const REST_FORCE: f64 = 0.3;
-/// Largest angular velocity at rest \[rad/s\].
-const REST_RATE: f64 = 0.05;
 
 /// Means of [`BLOCK`]s of a recording.
 pub struct Blocks {
@@ -65,6 +61,10 @@ pub fn mean(vectors: &[Vector3<f64>]) -> Vector3<f64> {
 }
 
 fn rests(forces: &[Vector3<f64>], rates: &[Vector3<f64>]) -> Vec<usize> {
+    // Largest change of the specific force at rest [m/s2].
+    const REST_FORCE: f64 = 0.3;
+    // Largest angular velocity at rest [rad/s].
+    const REST_RATE: f64 = 0.05;
     let is_at_rest = |&start: &usize| {
         let steady = (0..3).all(|axis| {
             let (least, greatest) = extremes(forces[start..start + REST].iter().map(|force| force[axis]));

@@ -17,11 +17,6 @@ use super::level::{Estimate, Level, sign};
 use crate::message::{Message, message};
 use crate::recording::conventions::Mounting;
 
-/// Largest standard error of a source that is used: it still tells forward from backward \[rad\].
-const USABLE: f64 = 45f64.to_radians();
-/// Angle between two sources beyond their errors that is a contradiction \[rad\].
-const CONTRADICTION: f64 = 20f64.to_radians();
-
 /// The forward direction.
 pub struct Forward {
     /// A horizontal unit vector.
@@ -39,6 +34,8 @@ pub struct Forward {
 /// # Errors
 /// No source tells it, or two contradict each other.
 pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
+    // Largest standard error of a source that is used: it still tells forward from backward [rad].
+    const USABLE: f64 = 45f64.to_radians();
     let [auto, angles] = Mounting::options();
     let level = Level::new(blocks, up);
     let sources = [level.along_speed(&blocks.speeds), level.in_bends(), level.in_leaning_bends()];
@@ -84,5 +81,7 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
 }
 
 fn contradicts(one: &Estimate, other: &Estimate) -> bool {
+    // Angle between two sources beyond their errors that is a contradiction [rad].
+    const CONTRADICTION: f64 = 20f64.to_radians();
     one.direction.angle(&other.direction) > CONTRADICTION + 2.0 * (one.error + other.error)
 }

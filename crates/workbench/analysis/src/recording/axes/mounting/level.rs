@@ -4,24 +4,14 @@ use moris_washout::nalgebra::Vector3;
 
 use super::blocks::{BLOCK, Blocks, mean};
 
-/// Least change of speed that determines the forward direction, as a standard deviation
-/// of its rate \[m/s2\].
-const SPEED_CHANGE: f64 = 0.2;
 /// Lateral force of bends by their yaw rate: the speed. Below it a vehicle leans, or bends are
 /// those of parking; above it there are no vehicles \[m/s\].
 const BEND_SPEED: [f64; 2] = [3.0, 100.0];
 /// Least yaw rate of bends, as a root mean square \[rad/s\].
 const BEND_RATE: f64 = 0.002;
-/// Least change of the rate about the lateral axis with the yaw rate: the sine
-/// of 6 degrees of lean.
-const LEAN: f64 = 0.1;
-/// Horizontal specific force of an acceleration \[m/s2\].
-const ACCELERATION: f64 = 0.5;
 /// Blocks over which forces and rates are averaged before straight accelerations are searched: 0.5
 /// s.
 const SMOOTHING: usize = 5;
-/// Shortest acceleration, in blocks: 0.5 s.
-const SHORTEST: usize = 5;
 /// Least and most blocks whose errors count as one, those of a bend: 2 s to 20 s.
 const CLUSTER: [usize; 2] = [20, 200];
 /// Standard error of any source, from the vehicle's own motion \[rad\].
@@ -63,6 +53,9 @@ impl Level {
     }
 
     pub fn along_speed(&self, speeds: &[f64]) -> Option<Estimate> {
+        // Least change of speed that determines the forward direction, as a standard deviation of
+        // its rate [m/s2].
+        const SPEED_CHANGE: f64 = 0.2;
         let changes: Vec<f64> = speeds.windows(3).map(|s| (s[2] - s[0]) / (2.0 * BLOCK)).collect();
         let Regression { direction, error, .. } =
             self.regression(&changes, self.forces.get(1..)?, SPEED_CHANGE, lasting)?;
@@ -77,6 +70,9 @@ impl Level {
     }
 
     pub fn in_leaning_bends(&self) -> Option<Estimate> {
+        // Least change of the rate about the lateral axis with the yaw rate: the sine of 6 degrees
+        // of lean.
+        const LEAN: f64 = 0.1;
         let mean = self.yaw_rates.iter().map(|rate| rate.abs()).sum::<f64>() / self.yaw_rates.len() as f64;
         let sizes: Vec<f64> = self.yaw_rates.iter().map(|rate| rate.abs() - mean).collect();
         let right = self.regression(&sizes, &self.rates, BEND_RATE, returning)?;
@@ -89,6 +85,10 @@ impl Level {
     ///
     /// A bend at up to 100 m/s has a larger yaw rate for its force.
     fn straight(&self) -> Vec<Vector3<f64>> {
+        // Horizontal specific force of an acceleration [m/s2].
+        const ACCELERATION: f64 = 0.5;
+        // Shortest acceleration, in blocks: 0.5 s.
+        const SHORTEST: usize = 5;
         let count = self.forces.len();
         let around = |k: usize| k.saturating_sub(SMOOTHING / 2)..(k + SMOOTHING / 2 + 1).min(count);
         let smooth = |k: usize| {

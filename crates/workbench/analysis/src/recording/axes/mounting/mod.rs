@@ -15,9 +15,6 @@ use crate::recording::conventions::Mounting;
 use blocks::{Blocks, mean};
 use forward::Forward;
 
-/// Largest standard error of the forward direction \[rad\].
-const LARGEST_ERROR: f64 = 15f64.to_radians();
-
 /// The rotation from the sensor's axes to the vehicle's, and a warning with its angles and their
 /// evidence. Specific force with gravity \[m/s2\] and angular velocity \[rad/s\] are in the
 /// sensor's axes; the vehicle's speed \[m/s\] is empty where it is not known.
@@ -33,6 +30,8 @@ pub fn find(
     rates: &[Vector3<f64>],
     speeds: &[f64],
 ) -> Result<(Matrix3<f64>, Message), Message> {
+    // Largest standard error of the forward direction [rad].
+    const LARGEST_ERROR: f64 = 15f64.to_radians();
     let [auto, angles] = Mounting::options();
     let blocks = Blocks::new(step, forces, rates, speeds);
     let rest = blocks.rest_force();

@@ -6,24 +6,8 @@ use crate::recording::conventions::{Dimension, Quantity};
 use crate::recording::signal::{extremes, median, runs, sorted};
 use crate::recording::table::Table;
 
-/// Values that loggers and converters write where they have none, of either sign.
-const ERROR_VALUES: [f64; 7] = [9999.0, 99_999.0, 32_767.0, 32_768.0, 65_535.0, 999_999.0, 1e6];
-/// Samples on either side of a sample whose median shows that it is isolated.
-const NEIGHBOURS: usize = 2;
-/// Samples on either side whose spread is the local one.
-const AROUND: usize = 50;
-/// Standard deviations beyond which an isolated sample is a spike.
-const SPREADS: f64 = 20.0;
-/// The 90 % quantile of sizes in standard deviations: a tenth of the samples may be spikes.
-const QUANTILE: f64 = 1.645;
 /// Shortest run of the extreme value that is a flat top \[samples\].
 pub const FLAT: usize = 4;
-/// The same in lengths of the longest run of any other value, which signals of few digits have.
-const FLAT_RUNS: usize = 3;
-/// Samples in which what slows down towards a flat top of its own comes to rest, at most.
-const SLOWED: f64 = 2.0;
-/// Least distance of a flat top from the values at rest \[fractions of the signal's range\].
-const AWAY: f64 = 0.1;
 
 /// The largest plausible size of a quantity, beyond which an isolated sample is a spike whatever
 /// the spread, and the least deviation of a spike, in SI units.
@@ -40,6 +24,8 @@ fn largest_and_least_spike(dimension: Dimension) -> (f64, f64) {
 
 /// Samples with the error values of loggers.
 pub fn error_values(table: &Table, quantity: Quantity, values: &[f64]) -> Vec<usize> {
+    // Values that loggers and converters write where they have none, of either sign.
+    const ERROR_VALUES: [f64; 7] = [9999.0, 99_999.0, 32_767.0, 32_768.0, 65_535.0, 999_999.0, 1e6];
     let unit = table.unit(quantity).0.in_si;
     let (largest, _) = largest_and_least_spike(quantity.dimension());
     let is_error = |value: f64| {
@@ -51,6 +37,12 @@ pub fn error_values(table: &Table, quantity: Quantity, values: &[f64]) -> Vec<us
 
 /// Isolated samples: one or two that are far from those before and after them.
 pub fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
+    // Samples on either side of a sample whose median shows that it is isolated.
+    const NEIGHBOURS: usize = 2;
+    // Samples on either side whose spread is the local one.
+    const AROUND: usize = 50;
+    // Standard deviations beyond which an isolated sample is a spike.
+    const SPREADS: f64 = 20.0;
     // Angles jump by a turn.
     if quantity.is_angle() {
         return Vec::new();
@@ -68,6 +60,8 @@ pub fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
 
 /// Standard deviation of sizes, which a few spikes among them do not change.
 fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
+    // The 90 % quantile of sizes in standard deviations: a tenth of the samples may be spikes.
+    const QUANTILE: f64 = 1.645;
     let sizes = sorted(sizes);
     sizes[sizes.len() * 9 / 10] / QUANTILE
 }
@@ -75,6 +69,8 @@ fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
 /// True if the values before or after a run would not have come to rest at its value. A sensor at
 /// the end of its range stops them, and what is computed slows down before.
 fn is_cut(values: &[f64], first: usize, length: usize) -> bool {
+    // Samples in which what slows down towards a flat top of its own comes to rest, at most.
+    const SLOWED: f64 = 2.0;
     // The three values next to an end of the run, the nearest first.
     let is_stopped = |beside: [Option<f64>; 3]| {
         let [Some(near), Some(farther), Some(farthest)] = beside else { return false };
@@ -88,6 +84,11 @@ fn is_cut(values: &[f64], first: usize, length: usize) -> bool {
 /// First samples of the runs of the greatest, and of the least value, at which a sensor would have
 /// been cut off.
 pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
+    // Shortest flat top in lengths of the longest run of any other value: signals of few digits have
+    // long runs.
+    const FLAT_RUNS: usize = 3;
+    // Least distance of a flat top from the values at rest [fractions of the signal's range].
+    const AWAY: f64 = 0.1;
     let (least, greatest) = extremes(values.iter().copied());
     let runs: Vec<(usize, usize)> = runs(values, |a, b| a == b).map(|run| (run.start, run.len())).collect();
     // A computed ride stands still at the extreme where all its bends are to one side.

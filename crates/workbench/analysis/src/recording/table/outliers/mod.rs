@@ -11,9 +11,6 @@ use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
 use find::{FLAT, error_values, flat_tops, spikes};
 
-/// Largest number of times that a message lists.
-const MOST_LISTED: usize = 5;
-
 /// Finds samples that no vehicle causes, and interpolates over them if `repair` is set. Returns
 /// warnings that name the samples.
 ///
@@ -86,6 +83,8 @@ fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> Message
 
 /// Times and lines of samples, for a message.
 fn times(table: &Table, samples: &[usize]) -> String {
+    // Largest number of times that a message lists.
+    const MOST_LISTED: usize = 5;
     let shown: Vec<String> = samples
         .iter()
         .take(MOST_LISTED)
