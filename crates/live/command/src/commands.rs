@@ -13,8 +13,6 @@ use super::place::WORDS;
 
 /// Names of the commands.
 pub const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
-/// Longest line that may be a command \[bytes\].
-const MAX_COMMAND_LENGTH: usize = 256;
 
 /// Standard input, which never stops this program.
 #[cfg(unix)]
@@ -30,6 +28,8 @@ pub fn input() -> impl Read {
 
 /// Passes lines on as commands until the input ends.
 pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
+    // Longest line that may be a command [bytes].
+    const MAX_COMMAND_LENGTH: usize = 256;
     let mut bytes = [0; 4096];
     let mut line = Vec::with_capacity(MAX_COMMAND_LENGTH);
     loop {

@@ -3,12 +3,6 @@
 use std::io::{self, ErrorKind};
 use std::time::Duration;
 
-/// Failures in a row that are no loss yet: a system reports each refused packet once, with a later
-/// one, which may be sent.
-const TOLERATED_FAILURES: u32 = 2;
-/// Time without a failure after which a failure begins a new row.
-const FAILURE_RESET_TIME: Duration = Duration::from_secs(1);
-
 /// Failures of sending.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
@@ -22,6 +16,9 @@ pub struct Contact {
 impl Contact {
     /// Contact with a controller that gets frames at this interval \[s\].
     pub fn new(interval: f64) -> Self {
+        // Failures in a row that are no loss yet: a system reports each refused packet once, with a
+        // later one, which may be sent.
+        const TOLERATED_FAILURES: u32 = 2;
         // Within 0.5 s, of which every other frame is refused.
         let most = if interval > 0.05 { 1 } else { TOLERATED_FAILURES + 1 };
         Contact { most, failures: 0, last: Duration::ZERO, is_lost: false }
@@ -44,6 +41,8 @@ impl Contact {
 
     /// Takes what has become of a frame. The reason, if the controller is lost with it.
     pub fn take(&mut self, sent: &io::Result<()>, now: Duration) -> Option<ErrorKind> {
+        // Time without a failure after which a failure begins a new row.
+        const FAILURE_RESET_TIME: Duration = Duration::from_secs(1);
         let kind = sent.as_ref().err()?.kind();
         if now.saturating_sub(self.last) > FAILURE_RESET_TIME {
             self.failures = 0;

@@ -7,9 +7,6 @@ use std::time::Duration;
 use moris_pages::ride::{RiderCommand, RoadPlace};
 use serde::Serialize;
 
-/// Time without word from the page after which the controls are released.
-const CONTROLS_TIMEOUT: Duration = Duration::from_millis(500);
-
 /// Kind of a vehicle's controls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -53,6 +50,8 @@ impl Controls {
     /// # Errors
     /// A value is out of range.
     pub fn hold(&self, command: &RiderCommand, now: Duration) -> Result<(), String> {
+        // Time without word from the page after which the controls are released.
+        const CONTROLS_TIMEOUT: Duration = Duration::from_millis(500);
         let check = |name: &str, value: f64, range: RangeInclusive<f64>| match range.contains(&value) {
             true => Ok(()),
             false => Err(format!("{name} must be from {} to {}", range.start(), range.end())),

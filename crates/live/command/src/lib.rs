@@ -81,9 +81,6 @@ use telemetry::{Features, Input};
 use watch::{Failed, Part, watch};
 use wire::Actuators;
 
-/// Largest recording of a session \[bytes\]. One of a day is smaller.
-const LARGEST_SESSION: u64 = 200_000_000;
-
 /// Step the washout beside a running vehicle, and command a platform
 ///
 /// Receives telemetry, steps the washout at 1 kHz and sends frames to the actuators. Lines on
@@ -249,6 +246,8 @@ impl Shared {
 /// # Errors
 /// An option, file or socket cannot be used, or the session cannot be repeated.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    // Largest recording of a session [bytes]. One of a day is smaller.
+    const LARGEST_SESSION: u64 = 200_000_000;
     if let Some(list) = &options.list {
         return tables::main(list, out);
     }

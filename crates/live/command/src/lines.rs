@@ -1,8 +1,5 @@
 //! Lines in bytes that come in parts.
 
-/// Longest line \[bytes\]; a longer one is dropped.
-const MAX_LINE_LENGTH: usize = 512;
-
 /// The beginning of a line whose end has not come yet.
 #[derive(Clone, Debug, Default)]
 pub struct Lines {
@@ -13,6 +10,8 @@ pub struct Lines {
 impl Lines {
     /// Takes some bytes, and gives the lines that end with them.
     pub fn take(&mut self, bytes: &[u8], mut line: impl FnMut(&[u8])) {
+        // Longest line [bytes]; a longer one is dropped.
+        const MAX_LINE_LENGTH: usize = 512;
         for byte in bytes {
             if matches!(byte, b'\n' | b'\r') {
                 if !self.is_too_long && !self.begun.is_empty() {

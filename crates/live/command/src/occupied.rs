@@ -24,8 +24,6 @@ const COMMON_FOLDERS: &[&str] = if cfg!(target_os = "linux") {
 } else {
     &["/tmp", "/var/tmp"]
 };
-/// Times that a lock is tried whose file another session removes meanwhile.
-const LOCK_ATTEMPTS: u32 = 20;
 
 /// The lock of a controller, until it is dropped.
 #[derive(Debug)]
@@ -118,6 +116,8 @@ struct CommonLock {
 impl CommonLock {
     /// Takes the lock of the file that is there under this name, not of one that has been removed.
     fn take(path: PathBuf) -> Result<Self, TryLockError> {
+        // Times that a lock is tried whose file another session removes meanwhile.
+        const LOCK_ATTEMPTS: u32 = 20;
         for _ in 0..LOCK_ATTEMPTS {
             let file = lock(&path)?;
             if is_there(&file, &path) {

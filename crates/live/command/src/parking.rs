@@ -11,13 +11,10 @@ use super::Shared;
 use super::journal::say;
 use super::page::Desk;
 
-/// Longest time that is looked ahead \[s\].
-const MAX_PARKING_TIME: f64 = 120.0;
-/// Time between looks for a session that parks.
-const PARKING_POLL_INTERVAL: Duration = Duration::from_millis(20);
-
 /// Says how long parking takes, for each copy of the session that begins to park.
 pub fn forecast(mut parking: Consumer<Session>, page: Option<&Desk>, shared: &Shared) {
+    // Time between looks for a session that parks.
+    const PARKING_POLL_INTERVAL: Duration = Duration::from_millis(20);
     while !parking.is_abandoned() {
         if let Ok(session) = parking.pop()
             && let Some(time) = time_of(session, shared)
@@ -32,6 +29,8 @@ pub fn forecast(mut parking: Consumer<Session>, page: Option<&Desk>, shared: &Sh
 
 /// The time until it is settled \[s\]; none if that is far away, or if the session has ended.
 fn time_of(mut session: Session, shared: &Shared) -> Option<f64> {
+    // Longest time that is looked ahead [s].
+    const MAX_PARKING_TIME: f64 = 120.0;
     let begin = session.time();
     while session.state() == State::Parking {
         session.step();

@@ -6,17 +6,9 @@ use moris_live::frame::{Encoder, Frames};
 
 /// Time for which a report holds \[s\].
 const REPORT_VALIDITY: f64 = 1.0;
-/// Time for which a start by itself waits for the first report \[s\].
-const FIRST_REPORT_TIMEOUT: f64 = 0.5;
 /// Legs that have changed by less than this \[m\] over at least this time \[s\] are at rest.
 const AT_REST_DISTANCE: f64 = 0.003;
 const AT_REST_TIME: f64 = 0.3;
-/// Way from the last frame to the lowest pose \[m\] from which on a person is asked to look again,
-/// and the time for it \[s\].
-const RECHECK_DISTANCE: f64 = 0.02;
-const SECOND_LOOK: f64 = 20.0;
-/// Speed of a leg in a slow start, without another one \[m/s\].
-pub const SLOW_SPEED: f64 = 0.02;
 
 /// Words of a person for the place, beside the options.
 pub const WORDS: &str = "settled, slow";
@@ -68,6 +60,8 @@ impl LegPlace {
 
     /// Speed of a leg in a slow start \[m/s\].
     pub fn slow_speed(&self) -> f64 {
+        // Speed of a leg in a slow start, without another one [m/s].
+        const SLOW_SPEED: f64 = 0.02;
         self.slow_speed.unwrap_or(SLOW_SPEED)
     }
 
@@ -84,6 +78,8 @@ impl LegPlace {
 
     /// True if a start by itself at this time \[s\] has nothing to wait for.
     pub fn is_ready(&self, now: f64) -> bool {
+        // Time for which a start by itself waits for the first report [s].
+        const FIRST_REPORT_TIMEOUT: f64 = 0.5;
         let waits = if self.report.is_some() { !self.is_at_rest() } else { now < FIRST_REPORT_TIMEOUT };
         !self.wants_report() || !waits
     }
@@ -122,6 +118,10 @@ impl LegPlace {
     /// last frames have left `away` \[m\] from their lowest pose are settled if a person says so
     /// twice: false the first time.
     pub fn give(&mut self, legs: Legs, now: f64, away: f64) -> bool {
+        // Way from the last frame to the lowest pose [m] from which on a person is asked to look
+        // again, and the time for it [s].
+        const RECHECK_DISTANCE: f64 = 0.02;
+        const SECOND_LOOK: f64 = 20.0;
         let was_doubted = self.doubted.take().is_some_and(|at| now - at <= SECOND_LOOK);
         if legs == Legs::Settled && away > RECHECK_DISTANCE && !was_doubted && !self.is_own {
             self.doubted = Some(now);

@@ -9,8 +9,6 @@ use moris_live::log::Entry;
 
 /// Entries that wait at most: those of seconds with a thousand samples a second.
 const QUEUE_CAPACITY: usize = 8192;
-/// Time in which the last entries must be written.
-const FINAL_WRITE_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// A recording.
 #[derive(Debug)]
@@ -54,6 +52,8 @@ impl Recorder {
     /// # Errors
     /// The last entries cannot be written, or not in time.
     pub fn end(self) -> io::Result<()> {
+        // Time in which the last entries must be written.
+        const FINAL_WRITE_TIMEOUT: Duration = Duration::from_secs(2);
         drop(self.entries);
         self.ended.recv_timeout(FINAL_WRITE_TIMEOUT).unwrap_or_else(|_| Err(hangs()))
     }

@@ -3,13 +3,6 @@
 use std::net::SocketAddr;
 use std::time::Duration;
 
-/// Silence after which another sender is followed.
-const SENDER_TIMEOUT: Duration = Duration::from_millis(1500);
-/// Most addresses that are named.
-const MAX_NAMED_ADDRESSES: usize = 16;
-/// Time between lines about dropped packets.
-const DROPPED_PACKET_LOG_INTERVAL: Duration = Duration::from_secs(5);
-
 /// The sender that is followed. Two of them would be two vehicles in one.
 #[derive(Debug, Default)]
 pub struct Followed {
@@ -21,6 +14,8 @@ impl Followed {
     /// True for a good packet of the sender that is followed; for the first of another one, a line
     /// about it.
     pub fn accepts(&mut self, from: SocketAddr, now: Duration) -> Result<(), Option<String>> {
+        // Silence after which another sender is followed.
+        const SENDER_TIMEOUT: Duration = Duration::from_millis(1500);
         match &mut self.sender {
             Some((sender, last)) if *sender != from && now.saturating_sub(*last) < SENDER_TIMEOUT => {
                 let sender = *sender;
@@ -39,6 +34,8 @@ impl Followed {
     }
 
     fn first_of(&mut self, from: SocketAddr) -> bool {
+        // Most addresses that are named.
+        const MAX_NAMED_ADDRESSES: usize = 16;
         let is_new = !self.named.contains(&from) && self.named.len() < MAX_NAMED_ADDRESSES;
         if is_new {
             self.named.push(from);
@@ -57,6 +54,8 @@ pub struct Dropped {
 impl Dropped {
     /// Takes one. True if there should be a line about it: at once, and then every 5 s.
     pub fn take(&mut self, now: Duration) -> Option<u64> {
+        // Time between lines about dropped packets.
+        const DROPPED_PACKET_LOG_INTERVAL: Duration = Duration::from_secs(5);
         self.count += 1;
         let is_due = self.last.is_none_or(|last| now.saturating_sub(last) >= DROPPED_PACKET_LOG_INTERVAL);
         is_due.then(|| {

@@ -9,9 +9,6 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 
-/// Time after a signal in which another one is the same wish: a supervisor sends two.
-const REPEATED_SIGNAL_TIME: Duration = Duration::from_millis(500);
-
 /// Numbers of Linux's signals of real time.
 #[cfg(target_os = "linux")]
 const FIRST_REAL_TIME: i32 = 34;
@@ -98,6 +95,8 @@ impl Interrupts {
 
     /// Takes the signals that have come until now.
     pub fn look(&mut self, now: Duration) {
+        // Time after a signal in which another one is the same wish: a supervisor sends two.
+        const REPEATED_SIGNAL_TIME: Duration = Duration::from_millis(500);
         let interrupted = self.signals.interrupt.swap(false, Ordering::Relaxed);
         let terminated = self.signals.termination.swap(false, Ordering::Relaxed);
         match self.first {

@@ -21,11 +21,6 @@ use super::telemetry::Received;
 use super::telemetry_watch::TelemetryWatch;
 use super::watch::Part;
 
-/// Lateness from which on steps are not made up for: their motion would come at once \[s\].
-const MAX_CATCH_UP_LATENESS: f64 = 0.02;
-/// Steps between looks at the telemetry's signs, sizes, losses and delay.
-const TELEMETRY_CHECK_STEPS: u64 = 1000;
-
 /// The loop of a live session.
 pub struct Steps<'a> {
     pub session: &'a mut Session,
@@ -94,6 +89,10 @@ pub fn empty(steps: u64) -> Lateness {
 impl Steps<'_> {
     /// Steps until a person, the time or the end of a recording ends it.
     pub fn run(&mut self) -> Summary {
+        // Lateness from which on steps are not made up for: their motion would come at once [s].
+        const MAX_CATCH_UP_LATENESS: f64 = 0.02;
+        // Steps between looks at the telemetry's signs, sizes, losses and delay.
+        const TELEMETRY_CHECK_STEPS: u64 = 1000;
         let mut summary = Summary::default();
         let mut digest = Digest::default();
         let mut state = self.session.state();

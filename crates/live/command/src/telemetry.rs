@@ -39,20 +39,12 @@ pub struct Received {
     pub sample: Sample,
 }
 
-/// The accepted values of `--from`.
-const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, fmu:FILE, ride, or a recording's file";
-
 /// The format of recordings of this name.
 fn logger(name: &str) -> Result<Logger> {
     let known = || Logger::value_variants().iter().map(|format| format.word()).collect::<Vec<_>>().join(", ");
     Logger::from_str(name, true)
         .map_err(|_| anyhow::anyhow!("--format is {name}, but a recording's must be one of {}", known()))
 }
-
-/// Largest packet \[bytes\].
-const LARGEST: usize = 65_536;
-/// Time after which a quiet socket is left to see whether all has ended.
-const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Properties of a source that are known before it runs.
 #[derive(Clone, Debug, Default)]
@@ -90,6 +82,10 @@ impl Input {
     /// # Errors
     /// The port, the format or the recording cannot be used.
     pub fn open(from: &str, options: &Options) -> Result<Input> {
+        // The accepted values of `--from`.
+        const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, fmu:FILE, ride, or a recording's file";
+        // Time after which a quiet socket is left to see whether all has ended.
+        const PATIENCE: Duration = Duration::from_millis(100);
         let Options { format, map, listen, learn, .. } = options;
         let (format, map, listen) = (format.as_deref(), map.as_deref(), *listen);
         if from == "ride" {
@@ -142,6 +138,8 @@ pub fn shape(format: &Format) -> Option<Shape> {
 }
 
 fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
+    // Largest packet [bytes].
+    const LARGEST: usize = 65_536;
     let mut packet = vec![0; LARGEST];
     let mut decoded = Vec::new();
     let mut quiet = 0;

@@ -6,14 +6,6 @@ use moris_live::signs::{Check, Verdict};
 
 use super::journal::Note;
 
-/// Part of the samples from which on those that are dropped are told, and the least number of them.
-const DROPPED_PART: f64 = 0.1;
-const LEAST_DROPPED: u64 = 5;
-/// Time between lines about dropped samples \[s\].
-const DROPPED_SAMPLE_INTERVAL: f64 = 5.0;
-/// Growth of a delay with which it is told again.
-const DELAY_GROWTH: f64 = 1.5;
-
 /// The lines that have been told.
 #[derive(Clone, Copy, Debug)]
 pub struct TelemetryWatch {
@@ -40,6 +32,8 @@ impl Default for TelemetryWatch {
 impl TelemetryWatch {
     /// Tells what is new.
     pub fn check(&mut self, session: &Session, mut note: impl FnMut(Note)) {
+        // Growth of a delay with which it is told again.
+        const DELAY_GROWTH: f64 = 1.5;
         let now = session.time();
         for (check, known) in Check::ALL.into_iter().zip(&mut self.signs) {
             let verdict = session.signs().verdict(check);
@@ -64,6 +58,12 @@ impl TelemetryWatch {
     }
 
     fn check_dropped(&mut self, session: &Session, now: f64, note: &mut impl FnMut(Note)) {
+        // Part of the samples from which on those that are dropped are told, and the least number
+        // of them.
+        const DROPPED_PART: f64 = 0.1;
+        const LEAST_DROPPED: u64 = 5;
+        // Time between lines about dropped samples [s].
+        const DROPPED_SAMPLE_INTERVAL: f64 = 5.0;
         let counts = session.source().counts();
         let [received, dropped] = [counts.received - self.counts[0], counts.dropped() - self.counts[1]];
         if now - self.dropped_at < DROPPED_SAMPLE_INTERVAL {

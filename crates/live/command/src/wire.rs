@@ -9,34 +9,12 @@ use std::time::Duration;
 
 use moris_live::frame::Values;
 
-/// Change between two frames, in terms of the largest speed, from which on a frame begins a glide.
-const GLIDE_SPEED_FACTOR: f64 = 1.15;
-/// Time without frames from which on the actuators stand \[s\], and the same in intervals.
-const STANDSTILL_TIME: f64 = 0.05;
-const STANDS_INTERVALS: f64 = 3.0;
-/// Speed of a glide in terms of the actuators' largest.
-const GLIDE_SPEED: f64 = 0.1;
-/// Speed of a glide to a controller that was lost, or without frames for so long \[m/s, s\].
-const LOST_SPEED: f64 = 0.05;
-const STANDSTILL_INTERVALS: f64 = 0.5;
 /// Acceleration of the legs that a glide may add \[m/s2\], of which a rider feels up to four times
 /// as much, and the same as a part of theirs.
 const GLIDE_ACCELERATION: f64 = 0.25;
 const GLIDE_PART: f64 = 0.3;
-/// Rates at which a glide may go on: with all of its way ahead, and at its end \[1/s\].
-const GLIDE_PACES: [f64; 2] = [1.0, 4.5];
-/// Part of the actuators' acceleration with which a glide brakes before the stroke's end.
-const GLIDE_BRAKING_FRACTION: f64 = 1.2;
-/// Part of a glide that is too short to see.
-const NO_PART: f64 = 1e-7;
-/// Distance from a place from which on the actuators are there \[m\].
-const ARRIVAL_DISTANCE: f64 = 1e-4;
 /// Longest step of a glide \[s\].
 const MAX_GLIDE_STEP: f64 = 1e-3;
-/// Time in which the speed falls to a third where there is no loop any more \[s\], and the part of
-/// the stroke's rest that the way may take.
-const REST_TIME: f64 = 0.15;
-const REST_WAY: f64 = 0.9;
 
 /// Numbers of a frame that a glide changes.
 const GLIDED_NUMBERS: usize = 17;
@@ -56,6 +34,8 @@ impl Actuators {
     /// A length so much later than the last one \[s, m\], from which it can still
     /// brake before its end.
     fn braked(&self, time: f64, last: f64, length: f64) -> f64 {
+        // Part of the actuators' acceleration with which a glide brakes before the stroke's end.
+        const GLIDE_BRAKING_FRACTION: f64 = 1.2;
         let [shortest, longest] = self.stroke;
         let by_braking = GLIDE_BRAKING_FRACTION * self.acceleration * time * time;
         // The speed of this step is that of which the rest of the stroke is the way to rest.
@@ -107,6 +87,8 @@ impl Glide {
 
     /// Goes on by a time \[s\], if its whole way is so far \[m\].
     fn advance(&mut self, time: f64, far: f64, actuators: &Actuators) {
+        // Rates at which a glide may go on: with all of its way ahead, and at its end [1/s].
+        const GLIDE_PACES: [f64; 2] = [1.0, 4.5];
         let steps = (time / MAX_GLIDE_STEP).ceil();
         let step = time / steps.max(1.0);
         let most = GLIDE_ACCELERATION.min(GLIDE_PART * actuators.acceleration);
@@ -153,12 +135,25 @@ impl Wire {
 
     /// True if the last frame has the actuators where these values have them.
     pub fn is_at(&self, values: &Values) -> bool {
+        // Distance from a place from which on the actuators are there [m].
+        const ARRIVAL_DISTANCE: f64 = 1e-4;
         let is_near = |last: &Values| (0..6).all(|k| (last.length[k] - values.length[k]).abs() < ARRIVAL_DISTANCE);
         self.last.is_none_or(|(_, last)| is_near(&last))
     }
 
     /// The frame that leaves now for these commands.
     pub fn pass(&mut self, now: Duration, commanded: &Values) -> Values {
+        // Change between two frames, in terms of the largest speed, from which on a frame begins a
+        // glide.
+        const GLIDE_SPEED_FACTOR: f64 = 1.15;
+        // Time without frames from which on the actuators stand [s], and the same in intervals.
+        const STANDSTILL_TIME: f64 = 0.05;
+        const STANDS_INTERVALS: f64 = 3.0;
+        // Speed of a glide in terms of the actuators' largest.
+        const GLIDE_SPEED: f64 = 0.1;
+        // Speed of a glide to a controller that was lost, or without frames for so long [m/s, s].
+        const LOST_SPEED: f64 = 0.05;
+        const STANDSTILL_INTERVALS: f64 = 0.5;
         let was_lost = std::mem::take(&mut self.is_lost);
         let mut values = *commanded;
         if let Some((at, last)) = self.last {
@@ -202,6 +197,8 @@ impl Wire {
 
     /// The frame after the last one, with what is left of the glide after this time \[s\].
     fn with_glide(&mut self, last: &Values, commanded: &Values, time: f64) -> Values {
+        // Part of a glide that is too short to see.
+        const NO_PART: f64 = 1e-7;
         let Some(glide) = &mut self.glide else { return *commanded };
         let commands = numbers(commanded);
         let difference = glide.difference(&commands);
@@ -233,6 +230,10 @@ impl Wire {
     /// The last frame's actuators on their way to rest within the stroke, so much later \[s\]:
     /// there is no washout any more that knows a way.
     pub fn at_rest_after(&self, time: f64) -> Option<Values> {
+        // Time in which the speed falls to a third where there is no loop any more [s], and the
+        // part of the stroke's rest that the way may take.
+        const REST_TIME: f64 = 0.15;
+        const REST_WAY: f64 = 0.9;
         let (_, last) = self.last?;
         let [shortest, longest] = self.actuators.stroke;
         let room = |k: usize| {

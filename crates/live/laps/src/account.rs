@@ -25,10 +25,6 @@ use crate::ticks::TICK;
 const BASE_PROOF_TIME: f64 = 1.5;
 /// Debt that doubles the proof needed \[s\].
 const DEBT_DOUBLING_TIME: f64 = 4.0;
-/// Part of the proof needed below which a preview ends.
-const KEEPING_FRACTION: f64 = 0.5;
-/// Time constant of the mean squared force \[s\].
-const MEAN_TIME: f64 = 60.0;
 /// Squared force added to its mean \[(m/s2)^2\].
 const FORCE_FLOOR: f64 = 0.05;
 
@@ -55,6 +51,8 @@ pub struct Account {
 impl Account {
     /// Takes the force of a tick, and the gains of both axes in it.
     pub fn tick(&mut self, force: [f64; 2], gains: [Gain; 2]) {
+        // Time constant of the mean squared force [s].
+        const MEAN_TIME: f64 = 60.0;
         let keep = 1.0 - TICK / MEAN_TIME;
         self.squares = keep * self.squares + force[0] * force[0] + force[1] * force[1];
         self.weights = keep * self.weights + 1.0;
@@ -73,6 +71,8 @@ impl Account {
 
     /// True where the proof is enough for a preview to begin, or to stay.
     pub fn allows(&self, is_given: bool) -> bool {
+        // Part of the proof needed below which a preview ends.
+        const KEEPING_FRACTION: f64 = 0.5;
         self.proof >= if is_given { KEEPING_FRACTION } else { 1.0 } * self.needed()
     }
 }

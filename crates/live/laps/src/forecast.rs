@@ -18,31 +18,14 @@ pub const FORECAST_POINTS: usize = 21;
 pub const POINT_SPACING_TICKS: usize = 4;
 /// Forecasts that are kept.
 const KEPT_FORECASTS: usize = FORECAST_POINTS * POINT_SPACING_TICKS + LAG_TICKS + 1;
-/// Time constant of the fit \[s\].
-const FIT_TIME: f64 = 60.0;
 /// Weight of the prior of b: squared force, summed over ticks \[(m/s2)^2\].
 const PRIOR_WEIGHT: f64 = 50.0;
-/// Time constant with which a trend fades \[s\].
-const TREND_TIME: f64 = 1.5;
-/// Time constant of the prior of b \[s\].
-const LASTING_TIME: f64 = 0.5;
-/// Range of b.
-const COEFFICIENT_RANGE: [f64; 2] = [0.0, 1.0];
-/// Time constants with which a mean squared error follows larger and smaller ones \[s\]. The first
-/// is that of a forecast that proves itself, too.
-const ERROR_TIMES: [f64; 2] = [2.0, 8.0];
-/// Time constant of the mean squared error at present \[s\].
-const NOW_TIME: f64 = 0.5;
-/// A forecast proves itself where its squared error now is below this part of that without memory.
-const PROVED_ERROR_RATIO: f64 = 0.25;
 /// Elements whose errors count: 0.4, 1 and 2 s ahead.
 const COMPARED_ELEMENTS: [usize; 3] = [1, 4, 9];
 /// Forecasts without memory.
 const MEMORYLESS_FORECASTS: usize = 4;
 /// Squared error added to the least one without memory \[(m/s2)^2\].
 const ERROR_FLOOR: f64 = 0.002;
-/// Ratio of the squared errors at which the forecast has half of the trust.
-const HALF_TRUST_RATIO: f64 = 0.6;
 
 /// A forecast, kept until its times have come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -70,11 +53,15 @@ pub fn time_ahead(element: usize) -> f64 {
 
 /// Growth of a trend up to an element's time; it fades \[s\].
 fn trend_growth(element: usize) -> f64 {
+    // Time constant with which a trend fades [s].
+    const TREND_TIME: f64 = 1.5;
     TREND_TIME * (1.0 - libm::exp(-(time_ahead(element) + LATEST_LAG) / TREND_TIME))
 }
 
 /// Part of a difference that is expected to last up to an element's time.
 fn lasting_part(element: usize) -> f64 {
+    // Time constant of the prior of b [s].
+    const LASTING_TIME: f64 = 0.5;
     libm::exp(-time_ahead(element) / LASTING_TIME)
 }
 
@@ -87,6 +74,8 @@ struct Fit {
 
 impl Fit {
     fn carried(&self, prior: f64) -> f64 {
+        // Range of b.
+        const COEFFICIENT_RANGE: [f64; 2] = [0.0, 1.0];
         ((self.products + PRIOR_WEIGHT * prior) / (self.squares + PRIOR_WEIGHT))
             .clamp(COEFFICIENT_RANGE[0], COEFFICIENT_RANGE[1])
     }
@@ -178,6 +167,8 @@ impl Record {
         [held, slope]: [f64; 2],
         passes: Option<(&[f64; FORECAST_POINTS], f64)>,
     ) -> Option<[f64; FORECAST_POINTS]> {
+        // Time constant of the mean squared error at present [s].
+        const NOW_TIME: f64 = 0.5;
         self.latest = (self.latest + 1) % KEPT_FORECASTS;
         self.compare(truth);
         let before = &self.made[(self.latest + KEPT_FORECASTS - LATEST_FORCE_TICKS) % KEPT_FORECASTS];
@@ -204,6 +195,14 @@ impl Record {
     }
 
     fn compare(&mut self, truth: f64) {
+        // Time constant of the fit [s].
+        const FIT_TIME: f64 = 60.0;
+        // Time constants with which a mean squared error follows larger and smaller ones [s]. The
+        // first is that of a forecast that proves itself, too.
+        const ERROR_TIMES: [f64; 2] = [2.0, 8.0];
+        // A forecast proves itself where its squared error now is below this part of that without
+        // memory.
+        const PROVED_ERROR_RATIO: f64 = 0.25;
         let [rising, falling] = ERROR_TIMES.map(|time| TICK / time);
         let keep = 1.0 - TICK / FIT_TIME;
         for (k, fit) in self.fits.iter_mut().enumerate() {
@@ -265,6 +264,8 @@ impl Record {
 
     /// The weight that the forecast deserves against those without memory, from 0 to 1.
     pub fn trust(&self) -> f64 {
+        // Ratio of the squared errors at which the forecast has half of the trust.
+        const HALF_TRUST_RATIO: f64 = 0.6;
         let ratio = self.error.max(self.error_now) / (HALF_TRUST_RATIO * (self.error_without_memory() + ERROR_FLOOR));
         1.0 / (1.0 + ratio * ratio * ratio * ratio)
     }

@@ -11,17 +11,6 @@ use crate::search::{LEAST_AGE, MIN_PASS_DISTANCE, Search};
 use crate::smooth::{LAG_TICKS, LATEST_LAG, Smooth};
 use crate::ticks::{Sample, TICK, Ticks};
 
-/// Ticks of the vehicle's way with which a found pass is compared.
-const COMPARED_TICKS: u64 = 80;
-/// Below this speed there is no line to follow \[m/s\].
-const LEAST_SPEED: f64 = 1.0;
-/// Squared error added to those of passes before they are weighed \[(m/s2)^2\].
-const WEIGHT_FLOOR: f64 = 0.02;
-/// Difference of the pace from 1 at which a pass has half of its weight.
-const HALF_WEIGHT_PACE_DIFFERENCE: f64 = 0.05;
-/// Trust from which on there is a preview, and below which there is none any more.
-const PREVIEW_TRUST_THRESHOLDS: [f64; 2] = [0.5, 0.2];
-
 /// A memory of the road, and the preview by it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Laps {
@@ -148,6 +137,10 @@ impl Whole<'_> {
     }
 
     fn tick(&mut self) {
+        // Below this speed there is no line to follow [m/s].
+        const LEAST_SPEED: f64 = 1.0;
+        // Trust from which on there is a preview, and below which there is none any more.
+        const PREVIEW_TRUST_THRESHOLDS: [f64; 2] = [0.5, 0.2];
         if !self.smooth.is_full() {
             return;
         }
@@ -212,6 +205,8 @@ impl Whole<'_> {
 
     /// Mean squared errors of a pass over the vehicle's way so far.
     fn errors_so_far(&self, number: u64) -> [f64; 2] {
+        // Ticks of the vehicle's way with which a found pass is compared.
+        const COMPARED_TICKS: u64 = 80;
         let now = self.line.next() - 1;
         // As if ten points of an unknown pass had been compared.
         let mut count = 10.0;
@@ -237,6 +232,10 @@ impl Whole<'_> {
 
     /// Forces to come and present forces by the passes, weighted by their errors.
     fn by_passes(&self) -> Option<([[f64; FORECAST_POINTS]; 2], [f64; 2])> {
+        // Squared error added to those of passes before they are weighed [(m/s2)^2].
+        const WEIGHT_FLOOR: f64 = 0.02;
+        // Difference of the pace from 1 at which a pass has half of its weight.
+        const HALF_WEIGHT_PACE_DIFFERENCE: f64 = 0.05;
         let mut ahead = [[0.0; FORECAST_POINTS]; 2];
         let mut now = [0.0; 2];
         let mut weights = [0.0; 2];

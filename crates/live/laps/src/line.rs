@@ -10,12 +10,6 @@ use crate::ticks::distance;
 pub const MAX_POINTS: usize = 1 << 15;
 /// Lists of points by cell.
 const CELL_LIST_COUNT: usize = 1 << 13;
-/// Side of a cell \[m\].
-const CELL_SIZE: f64 = 10.0;
-/// Least distance of listed points \[m\].
-const MIN_LISTED_DISTANCE: f64 = 2.0;
-/// Points visited in a cell, at most.
-const MAX_CELL_VISITS: usize = 128;
 /// Rows and columns of the cells around a place.
 pub const NEIGHBOUR_ROWS: usize = 3;
 /// Number that is no point's.
@@ -72,6 +66,8 @@ impl Line {
 
     /// Adds a point to the present stretch.
     pub fn push(&mut self, point: &Point) {
+        // Least distance of listed points [m].
+        const MIN_LISTED_DISTANCE: f64 = 2.0;
         let slot = self.next as usize % MAX_POINTS;
         self.points[slot] = Point { run: self.run, ..*point };
         self.before[slot] = NO_POINT;
@@ -113,6 +109,8 @@ impl Line {
     /// Calls `visit` with listed points in a row of the cells around a position, not before the
     /// point with number `first`.
     pub fn visit_around(&self, position: &[f64; 3], row: usize, first: u64, mut visit: impl FnMut(u64, &Point)) {
+        // Points visited in a cell, at most.
+        const MAX_CELL_VISITS: usize = 128;
         let [x, y] = cell(position);
         for column in 0..NEIGHBOUR_ROWS {
             let [dx, dy] = [column, row].map(|place| place as i64 - 1);
@@ -152,6 +150,8 @@ impl Between<'_> {
 }
 
 fn cell(position: &[f64; 3]) -> [i64; 2] {
+    // Side of a cell [m].
+    const CELL_SIZE: f64 = 10.0;
     [0, 1].map(|axis| libm::floor(position[axis] / CELL_SIZE) as i64)
 }
 

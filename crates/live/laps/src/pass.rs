@@ -12,23 +12,8 @@ pub const MAX_PASSES: usize = 6;
 pub const ON_LINE_DISTANCE: f64 = 10.0;
 /// Cosine of the angle between two directions that are the same.
 pub const SAME_DIRECTION: f64 = 0.8;
-/// Points before and after the expected one among which the nearest is searched.
-const SEARCHED_POINTS_BEHIND: u64 = 6;
-const SEARCHED_POINTS_AHEAD: u64 = 8;
-/// Ticks off the line after which the pass is given up.
-const MAX_OFF_LINE_TICKS: u32 = 10;
-/// Least and greatest pace.
-const PACE_RANGE: [f64; 2] = [0.5, 2.0];
-/// Time constant of the pace \[s\].
-const PACE_TIME: f64 = 0.1;
 /// Time constant with which the pace is expected to become that of the pass \[s\].
 const PACE_FADE: f64 = 3.0;
-/// Difference of the pace from 1 up to which it mostly wanders; beyond, it is expected to return.
-const WANDERING_PACE_DIFFERENCE: f64 = 0.1;
-/// Fraction of a difference in place that is corrected at each tick.
-const CORRECTION_PER_TICK: f64 = 0.4;
-/// Time constant of the squared error \[s\].
-const ERROR_TIME: f64 = 2.0;
 /// Squared error of a pass of which nothing is known \[(m/s2)^2\].
 pub const UNKNOWN_PASS_ERROR: f64 = 4.0;
 
@@ -58,6 +43,14 @@ impl Pass {
     /// Goes on by a tick to the place beside the vehicle. False where the vehicle has left the
     /// line, or the line ends.
     pub fn advance(&mut self, line: &Line, place: &RoadPoint) -> bool {
+        // Ticks off the line after which the pass is given up.
+        const MAX_OFF_LINE_TICKS: u32 = 10;
+        // Least and greatest pace.
+        const PACE_RANGE: [f64; 2] = [0.5, 2.0];
+        // Time constant of the pace [s].
+        const PACE_TIME: f64 = 0.1;
+        // Fraction of a difference in place that is corrected at each tick.
+        const CORRECTION_PER_TICK: f64 = 0.4;
         let expected = self.number + self.pace;
         match nearest(line, place, expected) {
             Some(found) => {
@@ -80,6 +73,9 @@ impl Pass {
     /// The force to come at a time whose [`fade`] is this; none where the line is not
     /// known \[m/s2\].
     pub fn force_ahead(&self, line: &Line, time: f64, fade: f64) -> Option<[f64; 2]> {
+        // Difference of the pace from 1 up to which it mostly wanders; beyond, it is expected to
+        // return.
+        const WANDERING_PACE_DIFFERENCE: f64 = 0.1;
         let excess = self.pace - 1.0;
         let square = excess * excess;
         let change =
@@ -97,6 +93,8 @@ impl Pass {
 
     /// Compares the pass with the force [`LAG_TICKS`] ticks ago.
     pub fn compare(&mut self, line: &Line, truth: [f64; 2]) {
+        // Time constant of the squared error [s].
+        const ERROR_TIME: f64 = 2.0;
         let Some(force) = self.force_ago(line, LAG_TICKS as f64 * TICK) else { return };
         for axis in 0..2 {
             let error = force[axis] - truth[axis];
@@ -107,6 +105,9 @@ impl Pass {
 
 /// Number of the point of the line nearest to a place, of those around a number.
 fn nearest(line: &Line, place: &RoadPoint, around: f64) -> Option<f64> {
+    // Points before and after the expected one among which the nearest is searched.
+    const SEARCHED_POINTS_BEHIND: u64 = 6;
+    const SEARCHED_POINTS_AHEAD: u64 = 8;
     let middle = around.max(0.0) as u64;
     let mut best: Option<(f64, f64)> = None;
     for number in middle.saturating_sub(SEARCHED_POINTS_BEHIND)..middle + SEARCHED_POINTS_AHEAD {

@@ -13,17 +13,12 @@ use crate::ticks::{TICK, Tick, distance};
 pub const LAG_TICKS: usize = 4;
 /// Ticks that a smoothed force is made of.
 const TRIANGLE_TICKS: usize = 2 * LAG_TICKS;
-/// Weights of the ticks: the triangle at their middles.
-const TRIANGLE_WEIGHTS: [f64; TRIANGLE_TICKS] =
-    [0.03125, 0.09375, 0.15625, 0.21875, 0.21875, 0.15625, 0.09375, 0.03125];
 /// Ticks of the latest force.
 pub const LATEST_FORCE_TICKS: usize = 4;
 /// Time by which it lags \[s\].
 pub const LATEST_LAG: f64 = 0.5 * LATEST_FORCE_TICKS as f64 * TICK;
 /// Ticks over which a position is averaged.
 const POSITION_TICKS: usize = 4;
-/// Ticks over which a direction and a speed are taken.
-const DIRECTION_TICKS: usize = 6;
 /// Places that are kept.
 const KEPT_PLACES: usize = TRIANGLE_TICKS;
 
@@ -52,6 +47,8 @@ pub struct RoadPoint {
 impl Smooth {
     /// Takes a tick.
     pub fn push(&mut self, tick: &Tick) {
+        // Ticks over which a direction and a speed are taken.
+        const DIRECTION_TICKS: usize = 6;
         if self.count == 0 {
             self.positions = [tick.position; POSITION_TICKS];
         }
@@ -100,6 +97,9 @@ impl Smooth {
 
     /// The point of the line [`LAG_TICKS`] ticks ago.
     pub fn point(&self) -> Point {
+        // Weights of the ticks: the triangle at their middles.
+        const TRIANGLE_WEIGHTS: [f64; TRIANGLE_TICKS] =
+            [0.03125, 0.09375, 0.15625, 0.21875, 0.21875, 0.15625, 0.09375, 0.03125];
         let RoadPoint { position, direction, speed } = self.places[LAG_TICKS];
         let force =
             |axis: usize| self.forces.iter().zip(TRIANGLE_WEIGHTS).map(|(force, weight)| weight * force[axis]).sum();

@@ -8,8 +8,6 @@ use crate::line::{MAX_POINTS, Point};
 /// First line of the text, and the names of the columns.
 const FORMAT_LINE: &str = "moris-laps,1";
 const COLUMN_NAMES: &str = "run,x,y,z,direction_x,direction_y,direction_z,speed,surge,sway";
-/// Largest position \[m\], speed \[m/s\] and force \[m/s2\].
-const MAX_VALUES: [f64; 3] = [1e9, 1e4, 1e3];
 
 /// Reason for which a text is no memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +64,8 @@ impl Laps {
 
 /// The point of a line.
 fn point(line: &str) -> Option<Point> {
+    // Largest position [m], speed [m/s] and force [m/s2].
+    const MAX_VALUES: [f64; 3] = [1e9, 1e4, 1e3];
     let mut fields = line.split(',');
     let run = fields.next()?.parse().ok()?;
     let mut number = |largest: f64| {

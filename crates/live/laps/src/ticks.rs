@@ -4,15 +4,6 @@ use serde::{Deserialize, Serialize};
 
 /// Length of a tick \[s\].
 pub const TICK: f64 = 0.05;
-/// A longer step is a gap in the samples \[s\].
-const LONGEST_STEP: f64 = 0.5;
-/// Displacement within a step that no vehicle has: this, and so many times that of its speed \[m\].
-const TELEPORT_DISTANCE: f64 = 15.0;
-const JUMP_FACTOR: f64 = 3.0;
-/// Time constant of the speed that a displacement is compared with \[s\].
-const SPEED_TIME: f64 = 0.5;
-/// A difference of times below this is rounding \[s\].
-const TIME_ROUNDING: f64 = 1e-9;
 
 /// The vehicle at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -58,6 +49,16 @@ impl Ticks {
     /// Takes a sample, and calls `tick` at the end of each tick. False where the sample
     /// does not continue those before: after a gap, a jump or a value that is not a number.
     pub fn push(&mut self, sample: &Sample, mut tick: impl FnMut(&Tick)) -> bool {
+        // A longer step is a gap in the samples [s].
+        const LONGEST_STEP: f64 = 0.5;
+        // Displacement within a step that no vehicle has: this, and so many times that of its speed
+        // [m].
+        const TELEPORT_DISTANCE: f64 = 15.0;
+        const JUMP_FACTOR: f64 = 3.0;
+        // Time constant of the speed that a displacement is compared with [s].
+        const SPEED_TIME: f64 = 0.5;
+        // A difference of times below this is rounding [s].
+        const TIME_ROUNDING: f64 = 1e-9;
         let numbers = sample.position.iter().chain(&sample.force).chain(&sample.speed).chain([&sample.step]);
         if !numbers.into_iter().all(|number| number.is_finite()) {
             *self = Ticks::default();

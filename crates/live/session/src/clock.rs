@@ -4,30 +4,12 @@
 //! is its corrected clock plus the least lag of the arrivals behind it. A sample that was held up
 //! is late, with the time at which it was true; a lag that lasts is the clock's own.
 
-/// Packets whose clock leaps ahead of their arrivals by more show a clock that was set \[s\].
-const CLOCK_SET_THRESHOLD: f64 = 0.25;
-/// A clock that goes back by less has two packets in the wrong order; by more, it has been started
-/// again \[s\].
-const MAX_REORDERING: f64 = 0.5;
-/// A sample that would have to be so much later than its arrival, to be later than the one before
-/// it, is one of too many \[s\].
-const MAX_SAMPLE_LEAD: f64 = 0.005;
 /// Time of a window in which the least lag is taken, and number of windows \[s\].
 const LAG_WINDOW: f64 = 0.1;
 const LAG_WINDOW_COUNT: usize = 10;
 /// A lag that has been longer by this for [`CLOCK_STOP_WINDOWS`] windows is the clock's own \[s\].
 const CLOCK_STOP_THRESHOLD: f64 = 0.05;
 const CLOCK_STOP_WINDOWS: usize = 3;
-/// Largest speed at which the lag follows a longer one.
-const MAX_LAG_RATE: f64 = 0.05;
-/// Longest time after a packet for which the lag follows \[s\].
-const LONGEST_STEP: f64 = 0.05;
-/// Gain of the rate on the slope of the least lag, for each window.
-const RATE_GAIN: f64 = 0.08;
-/// Slowest and fastest clocks, as seconds of the session in one of theirs.
-const CLOCK_RATE_RANGE: [f64; 2] = [0.2, 20.0];
-/// Part of the usual interval of arrivals below which packets come in a burst.
-const BURST_INTERVAL_FRACTION: f64 = 0.3;
 
 /// Time of a sample as the clock sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +65,10 @@ impl Lag {
 
     /// Takes a packet whose clock has advanced by `advance` within `passed`.
     fn take(&mut self, arrival: f64, advance: f64, passed: f64) {
+        // Largest speed at which the lag follows a longer one.
+        const MAX_LAG_RATE: f64 = 0.05;
+        // Longest time after a packet for which the lag follows [s].
+        const LONGEST_STEP: f64 = 0.05;
         self.clock += self.rate * advance;
         let behind = arrival - self.clock;
         if passed > LAG_WINDOW * LAG_WINDOW_COUNT as f64 {
@@ -112,6 +98,10 @@ impl Lag {
 
     /// Adjusts the rate to the slope of the least lags.
     fn adjust(&mut self) {
+        // Gain of the rate on the slope of the least lag, for each window.
+        const RATE_GAIN: f64 = 0.08;
+        // Slowest and fastest clocks, as seconds of the session in one of theirs.
+        const CLOCK_RATE_RANGE: [f64; 2] = [0.2, 20.0];
         let half = LAG_WINDOW_COUNT / 2;
         let [old, new] = [least(&self.least[..half]), least(&self.least[half..])];
         if old.is_finite() && new.is_finite() {
@@ -146,6 +136,16 @@ impl Clock {
 
     /// The time of a sample with this packet's clock that arrived then.
     pub fn stamp(&mut self, arrival: f64, clock: Option<f64>) -> Stamp {
+        // Packets whose clock leaps ahead of their arrivals by more show a clock that was set [s].
+        const CLOCK_SET_THRESHOLD: f64 = 0.25;
+        // A clock that goes back by less has two packets in the wrong order; by more, it has been
+        // started again [s].
+        const MAX_REORDERING: f64 = 0.5;
+        // A sample that would have to be so much later than its arrival, to be later than the one
+        // before it, is one of too many [s].
+        const MAX_SAMPLE_LEAD: f64 = 0.005;
+        // Part of the usual interval of arrivals below which packets come in a burst.
+        const BURST_INTERVAL_FRACTION: f64 = 0.3;
         let Some(last) = self.last else {
             self.last = Some(Last { arrival, clock, stamp: arrival, interval: 0.0, lag: Lag::new(arrival, 1.0) });
             return Stamp::At(arrival);

@@ -1,13 +1,5 @@
 //! Pace of a source's clock beside the arrivals: one in another unit is no slow motion.
 
-/// Time and samples over which the pace is measured \[s\].
-const BLOCK_TIME: f64 = 2.0;
-const BLOCK_SAMPLES: f64 = 20.0;
-/// Paces of slow and fast motion.
-const USUAL_PACES: [f64; 2] = [0.15, 6.0];
-/// Part of the samples at which the clock leaps, with which it does so all the time.
-const LEAPING_PART: f64 = 0.8;
-
 /// The pace of a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClockPace {
@@ -33,6 +25,13 @@ impl ClockPace {
 
     /// Takes a sample's arrival and clock \[s\]. `leaps`: the clock has gone on too far, or back.
     pub fn take(&mut self, arrival: f64, clock: Option<f64>, leaps: bool) {
+        // Time and samples over which the pace is measured [s].
+        const BLOCK_TIME: f64 = 2.0;
+        const BLOCK_SAMPLES: f64 = 20.0;
+        // Paces of slow and fast motion.
+        const USUAL_PACES: [f64; 2] = [0.15, 6.0];
+        // Part of the samples at which the clock leaps, with which it does so all the time.
+        const LEAPING_PART: f64 = 0.8;
         let Some(clock) = clock else { return };
         let Some((before, earlier)) = self.last.replace((arrival, clock)) else { return };
         let [passed, advanced] = [arrival - before, clock - earlier];

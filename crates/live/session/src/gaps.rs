@@ -6,14 +6,6 @@ use crate::resampler::MAX_DELAY;
 const CLASS_WIDTH: f64 = 1e-3;
 /// Number of classes: up to [`MAX_DELAY`].
 const CLASS_COUNT: usize = 250;
-/// Reserve of the delay beyond the time between samples.
-const DELAY_RESERVE: f64 = 1.1;
-/// Time constant with which gaps are forgotten \[s\].
-const GAP_TIME_CONSTANT: f64 = 5.0;
-/// Gaps from which on the longest alone does not count.
-const MIN_COUNTED_GAPS: f64 = 20.0;
-/// Weight from which on all are made smaller.
-const MAX_WEIGHT: f64 = 1e9;
 
 /// Numbers of gaps, by their length, older ones with less weight. Gaps from 0.25 s on are holes
 /// that no delay covers, and are left out.
@@ -33,6 +25,10 @@ impl Default for Gaps {
 impl Gaps {
     /// Takes a gap, so long after the one before it.
     pub fn take(&mut self, gap: f64, passed: f64) {
+        // Time constant with which gaps are forgotten [s].
+        const GAP_TIME_CONSTANT: f64 = 5.0;
+        // Weight from which on all are made smaller.
+        const MAX_WEIGHT: f64 = 1e9;
         self.weight *= libm::exp(passed.clamp(0.0, GAP_TIME_CONSTANT) / GAP_TIME_CONSTANT);
         if self.weight > MAX_WEIGHT {
             self.weights.iter_mut().for_each(|weight| *weight /= self.weight);
@@ -45,6 +41,10 @@ impl Gaps {
 
     /// The delay with which this part of the gaps is covered, with a reserve \[s\].
     pub fn delay(&self, part: f64) -> f64 {
+        // Reserve of the delay beyond the time between samples.
+        const DELAY_RESERVE: f64 = 1.1;
+        // Gaps from which on the longest alone does not count.
+        const MIN_COUNTED_GAPS: f64 = 20.0;
         let all = self.weights.iter().sum::<f64>();
         let mut wanted = part.clamp(0.0, 1.0) * all;
         // A loading screen at the beginning is one gap of few.

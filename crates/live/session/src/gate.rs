@@ -6,17 +6,6 @@
 
 use crate::motion::{ANGLES, CHANNEL_COUNT, Channels, Motion, SMALLEST_FELT_SIZES, turns};
 
-/// Shortest and longest glide after a change of the source \[s\].
-pub const GLIDE_DURATIONS: [f64; 2] = [1.0, 5.0];
-/// Time for which a felt difference takes to glide \[s\].
-const PER_FELT: f64 = 0.5;
-/// Least time for which a felt difference takes to glide after a gap \[s\].
-const PER_GAP: f64 = 0.1;
-/// Longest time for which the slope before a change goes on to fade \[s\].
-const SLOPE_TIME: f64 = 0.2;
-/// Largest change that a slope may still cause, in felt sizes; a steeper one fades earlier.
-const SLOPE_CHANGE: f64 = 3.0;
-
 /// Change of the source at a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
@@ -48,6 +37,10 @@ struct Glide {
 impl Glide {
     /// The difference at a time since its beginning; its slope fades within its own time.
     fn value(&self, elapsed: f64) -> Channels {
+        // Longest time for which the slope before a change goes on to fade [s].
+        const SLOPE_TIME: f64 = 0.2;
+        // Largest change that a slope may still cause, in felt sizes; a steeper one fades earlier.
+        const SLOPE_CHANGE: f64 = 3.0;
         let part = elapsed / self.duration;
         let left = 1.0 - part * part * (3.0 - 2.0 * part);
         Channels::from_fn(|k, _| {
@@ -104,6 +97,12 @@ impl Gate {
     }
 
     fn begin(&mut self, source: &Motion, slope: &Channels, change: Change, step: f64) {
+        // Shortest and longest glide after a change of the source [s].
+        const GLIDE_DURATIONS: [f64; 2] = [1.0, 5.0];
+        // Time for which a felt difference takes to glide [s].
+        const PER_FELT: f64 = 0.5;
+        // Least time for which a felt difference takes to glide after a gap [s].
+        const PER_GAP: f64 = 0.1;
         // Both at the step's start.
         let mut difference = self.output.0 - (source.0 - slope * step);
         for k in ANGLES {

@@ -5,9 +5,6 @@ use moris_washout::platform::{Geometry, Pose, forward_kinematics, leg_lengths};
 
 use crate::session::Refusal;
 
-/// Reported lengths may lie outside of the stroke by this part of it: a sensor is not exact.
-const STROKE_TOLERANCE: f64 = 0.02;
-
 /// Where the legs are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Legs {
@@ -49,6 +46,8 @@ impl Legs {
 /// # Errors
 /// The first that is none of this rig.
 pub fn lengths_within(rig: &Rig, lengths: [f64; 6]) -> Result<[f64; 6], Refusal> {
+    // Reported lengths may lie outside of the stroke by this part of it: a sensor is not exact.
+    const STROKE_TOLERANCE: f64 = 0.02;
     let [shortest, longest] = [rig.min_length, rig.max_length];
     let tolerance = STROKE_TOLERANCE * (longest - shortest);
     let range = shortest - tolerance..=longest + tolerance;

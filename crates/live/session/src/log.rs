@@ -20,8 +20,6 @@ use crate::transitions::Event;
 const HEADER_LINE: &str = "moris-live-session,1";
 /// Beginning of a line of the road that is known at first.
 const ROAD_PREFIX: &str = "road,";
-/// Most steps of a session: eleven days.
-const MAX_STEPS: u64 = 1_000_000_000;
 
 /// Something from outside that a session has received before a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,6 +215,8 @@ pub struct Replayed {
 /// # Errors
 /// The text is no recorded session.
 pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed, ReplayError> {
+    // Most steps of a session: eleven days.
+    const MAX_STEPS: u64 = 1_000_000_000;
     // A full disk cuts the last line off.
     let whole = text.rfind('\n').map_or(text, |end| &text[..end]);
     let mut lines = whole.lines().enumerate().map(|(place, line)| (place + 1, line)).peekable();

@@ -38,12 +38,8 @@ pub const ABOUT: &str = "Motion base MOOG 6DOF2000E by UDP, which answers with i
 pub const INTERVAL: f64 = 1.0 / 60.0;
 /// Packets for which the pose fades in or out: 3 s.
 const FADE_PACKETS: u32 = 180;
-/// Packets without an answer that confirms a state, after which the base counts as lost: 0.5 s.
-const ANSWER_TIMEOUT_PACKETS: u32 = 30;
 /// Equal answers in a row with which a state counts: 50 ms.
 pub const CONFIRMING_ANSWERS: u32 = 3;
-/// Largest number of a packet's pose that counts as neutral \[m, rad\].
-const NEUTRAL_TOLERANCE: f64 = 1e-4;
 /// Length of an answer, and of a packet \[bytes\].
 const ANSWER_LENGTH: usize = 40;
 const PACKET_LENGTH: usize = 32;
@@ -167,6 +163,11 @@ impl Moog {
     /// The next packet, and a fault if the base is silent. `is_up`: the base is wanted at neutral
     /// or moving. The values are those of [`Moog::faded`] within the limits of the legs.
     pub fn send(&mut self, is_up: bool, values: &Values) -> ([u8; PACKET_LENGTH], Option<Event>) {
+        // Packets without an answer that confirms a state, after which the base counts as lost: 0.5
+        // s.
+        const ANSWER_TIMEOUT_PACKETS: u32 = 30;
+        // Largest number of a packet's pose that counts as neutral [m, rad].
+        const NEUTRAL_TOLERANCE: f64 = 1e-4;
         self.unanswered = self.unanswered.saturating_add(1);
         let silent = self.unanswered == ANSWER_TIMEOUT_PACKETS;
         if silent {

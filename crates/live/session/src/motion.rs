@@ -105,9 +105,6 @@ pub struct Sample {
     pub has_angles: bool,
 }
 
-/// Names of the channels of a [`Motion`], as in tables.
-pub const CHANNEL_NAMES: [&str; CHANNEL_COUNT] = ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
-
 /// Reason for which a sample is dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Implausible {
@@ -119,6 +116,9 @@ pub enum Implausible {
 
 impl Display for Implausible {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        // Names of the channels of a `Motion`, as in tables.
+        const CHANNEL_NAMES: [&str; CHANNEL_COUNT] =
+            ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
         match *self {
             Implausible::NoNumber(place) => {
                 write!(f, "{} is no number", place.map_or("position or time", |place| CHANNEL_NAMES[place]))

@@ -14,10 +14,6 @@ const SAMPLE_CAPACITY: usize = 256;
 pub const MAX_DELAY: f64 = 0.25;
 /// Delay from which on a person is warned \[s\].
 pub const WARNED_DELAY: f64 = 0.06;
-/// Packets that arrive within this time after another came with it \[s\].
-const BURST_TIME: f64 = 1e-3;
-/// A change of an angle within a sample that may be one of its description alone \[rad\].
-const MAX_ANGLE_CHANGE: f64 = 0.5;
 
 /// The samples of the last moments.
 #[derive(Clone, Debug)]
@@ -71,6 +67,8 @@ impl Default for Resampler {
 impl Resampler {
     /// Adds a sample of this time, later than the last one's.
     pub fn push(&mut self, arrival: f64, time: f64, motion: Motion, position: Option<Vector3<f64>>) {
+        // Packets that arrive within this time after another came with it [s].
+        const BURST_TIME: f64 = 1e-3;
         let motion = self.continued(motion);
         if self.count > 0 {
             let passed = arrival - self.arrival;
@@ -127,6 +125,8 @@ impl Resampler {
 
     /// The motion at a time; none without a sample.
     pub fn at(&self, time: f64) -> Option<At> {
+        // A change of an angle within a sample that may be one of its description alone [rad].
+        const MAX_ANGLE_CHANGE: f64 = 0.5;
         if self.count == 0 {
             return None;
         }

@@ -24,27 +24,6 @@ use crate::tuning::{self, Tuning};
 
 /// Length of a step \[s\].
 pub const STEP: f64 = 0.001;
-/// A leg is at neutral within this part of its stroke, at this part of it per second. A slow
-/// wash-out of the yaw goes on for long.
-const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
-/// Part of the cue, and of the actuators' speed, below which the way down may begin.
-const DESCENT_CUE: f64 = 0.2;
-const DESCENT_SPEED: f64 = 0.25;
-/// Least time of engaging \[s\], also where the washout has stayed engaged through a pause.
-const LEAST_ENGAGING: f64 = 4.0;
-/// Part of the way to neutral that is too short to change a pose.
-const NO_WAY: f64 = 1e-9;
-/// Glide after a gap: twice its length, within these \[s\].
-const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
-/// Part of the gaps between samples that the delay covers; of those of a source inside the program.
-const COVERED_GAP_FRACTIONS: [f64; 2] = [0.99, 0.5];
-/// Speed at which the delay changes while the vehicle is cued.
-const DELAY_CHANGE: f64 = 0.02;
-/// Part by which a source may change faster within a step than its slope says.
-const SLOPE_TOLERANCE: f64 = 0.1;
-
-/// Largest speed and acceleration of the legs on the way home, in those of the actuators.
-const HOMING_LIMIT_FRACTION: f64 = 0.25;
 
 /// Settings of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -186,6 +165,8 @@ pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> R
 /// The pose with these lengths of the legs, at this part of the way to the washout's pose. It is
 /// that pose if no other is found from there or from the one before.
 fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64, before: Option<&Pose>) -> Pose {
+    // Part of the way to neutral that is too short to change a pose.
+    const NO_WAY: f64 = 1e-9;
     let above = Pose { position: output.position, orientation: Orientation::new(output.orientation) };
     if 1.0 - part < NO_WAY {
         return above;
@@ -196,6 +177,8 @@ fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f
 
 /// True if the source has gone on from its motion a step ago as its slopes say.
 fn passes((motion, slope): &(Motion, Channels), at: &At) -> bool {
+    // Part by which a source may change faster within a step than its slope says.
+    const SLOPE_TOLERANCE: f64 = 0.1;
     let change = at.motion.0 - motion.0;
     let most = (slope.abs()).sup(&at.slope.abs()) * (1.0 + SLOPE_TOLERANCE) * STEP;
     change.iter().zip(&most).all(|(change, most)| change.abs() <= most + 1e-9)
@@ -321,6 +304,8 @@ impl Session {
 
     /// The way to neutral begins at these lengths.
     fn begin_at(&mut self, lengths: [f64; 6]) {
+        // Largest speed and acceleration of the legs on the way home, in those of the actuators.
+        const HOMING_LIMIT_FRACTION: f64 = 0.25;
         let rig = &self.washout.parameters().rig;
         let [speed, acceleration] =
             [rig.velocity_limit, rig.acceleration_limit].map(|limit| HOMING_LIMIT_FRACTION * limit);
@@ -608,6 +593,11 @@ impl Session {
 
     /// The delay that is given, or that covers most gaps; slowly while the vehicle is cued.
     fn adjust_delay(&mut self) {
+        // Part of the gaps between samples that the delay covers; of those of a source inside the
+        // program.
+        const COVERED_GAP_FRACTIONS: [f64; 2] = [0.99, 0.5];
+        // Speed at which the delay changes while the vehicle is cued.
+        const DELAY_CHANGE: f64 = 0.02;
         let part = COVERED_GAP_FRACTIONS[usize::from(self.settings.is_inside)];
         let target = self.settings.delay.unwrap_or_else(|| self.resampler.delay(part));
         let most = if self.state.is_engaged() { DELAY_CHANGE * STEP } else { f64::INFINITY };
@@ -631,6 +621,8 @@ impl Session {
 
     /// The washout's source at the step's end.
     fn input(&mut self, now: f64) -> (At, Change) {
+        // Glide after a gap: twice its length, within these [s].
+        const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
         let rest = At { motion: Motion::at_rest(), slope: Channels::zeros(), held_from: None };
         let follows = self.state.follows_telemetry();
         let at = self.resampler.at(now - self.delay).filter(|_| follows).unwrap_or(rest);
@@ -652,12 +644,18 @@ impl Session {
 
     /// True if the legs of the washout are at neutral and slow.
     fn is_at_neutral(&self, output: &Output) -> bool {
+        // A leg is at neutral within this part of its stroke, at this part of it per second. A slow
+        // wash-out of the yaw goes on for long.
+        const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
         let [distance, speed] = AT_NEUTRAL.map(|part| part * self.stroke);
         (0..6).all(|k| (output.length[k] - self.neutral[k]).abs() < distance && output.leg_velocity[k].abs() < speed)
     }
 
     /// True if the way down can begin: the cue is nearly out, and the legs are slow.
     fn may_descend(&self, output: &Output) -> bool {
+        // Part of the cue, and of the actuators' speed, below which the way down may begin.
+        const DESCENT_CUE: f64 = 0.2;
+        const DESCENT_SPEED: f64 = 0.25;
         let slow = DESCENT_SPEED * self.washout.parameters().rig.velocity_limit;
         self.washout.engagement() < DESCENT_CUE && output.leg_velocity.iter().all(|speed| speed.abs() < slow)
     }
@@ -682,6 +680,8 @@ impl Session {
 
     /// The transition that follows if the state's own motion is complete.
     fn arrive(&mut self, output: &Output) {
+        // Least time of engaging [s], also where the washout has stayed engaged through a pause.
+        const LEAST_ENGAGING: f64 = 4.0;
         let at_neutral = self.is_at_neutral(output);
         let arrived = match self.state {
             State::Homing => at_neutral && self.travel.is_up(),

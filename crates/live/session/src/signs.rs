@@ -10,33 +10,10 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use crate::motion::Sample;
 use crate::relation::{Relation, Sums};
 
-/// Time for which samples are taken \[s\].
-pub const SAMPLING_TIME: f64 = 60.0;
-/// Shortest and longest time between samples that are compared \[s\].
-const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
-/// Correlation from which on a check decides.
-const DECISIVE_CORRELATION: f64 = 0.5;
 /// Samples from which on it decides, and the time of motion after which signs may agree \[s\].
 /// Within less, two channels that have nothing to do with each other may go together.
 const MIN_SAMPLES: f64 = 40.0;
 const AGREEING_TIME: f64 = 2.0;
-/// Largest factor between the sizes of two channels that agree.
-const AGREEING_FACTOR: f64 = 3.0;
-/// Part of a turn's acceleration that gravity makes up for in a vehicle that leans into it.
-const LEANING_FRACTION: f64 = 0.5;
-/// Angles up to which a body's rates are those of its angles, about \[rad\].
-const MAX_LEVEL_ANGLE: f64 = 0.3;
-
-/// Largest part of a force that a slope may cause \[m/s2\], without an attitude and with one.
-const MAX_SLOPE_FORCES: [f64; 2] = [2.5, 0.5];
-/// Time over which a change of speed is compared with the force \[s\].
-const SPEED_CHANGE_WINDOW: f64 = 0.1;
-/// Part of [`MIN_SAMPLES`] from which on the change of speed decides.
-const BRAKING_SAMPLE_FRACTION: f64 = 0.5;
-/// Speed below which a vehicle may be reversing, if its speed has no sign \[m/s\].
-const MAX_REVERSING_SPEED: f64 = 8.0;
-/// Speed from which on a negative one is a sign \[m/s\].
-const MIN_SIGNED_SPEED: f64 = 0.3;
 
 /// A check of one sign or axis of the telemetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,6 +95,22 @@ struct Window {
 impl Signs {
     /// Takes a sample of this time.
     pub fn take(&mut self, time: f64, sample: &Sample) {
+        // Time for which samples are taken [s].
+        const SAMPLING_TIME: f64 = 60.0;
+        // Shortest and longest time between samples that are compared [s].
+        const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
+        // Part of a turn's acceleration that gravity makes up for in a vehicle that leans into it.
+        const LEANING_FRACTION: f64 = 0.5;
+        // Angles up to which a body's rates are those of its angles, about [rad].
+        const MAX_LEVEL_ANGLE: f64 = 0.3;
+        // Largest part of a force that a slope may cause [m/s2], without an attitude and with one.
+        const MAX_SLOPE_FORCES: [f64; 2] = [2.5, 0.5];
+        // Time over which a change of speed is compared with the force [s].
+        const SPEED_CHANGE_WINDOW: f64 = 0.1;
+        // Speed below which a vehicle may be reversing, if its speed has no sign [m/s].
+        const MAX_REVERSING_SPEED: f64 = 8.0;
+        // Speed from which on a negative one is a sign [m/s].
+        const MIN_SIGNED_SPEED: f64 = 0.3;
         if self.time >= SAMPLING_TIME {
             return;
         }
@@ -190,6 +183,12 @@ impl Signs {
     }
 
     fn decided(&self, check: Check) -> Verdict {
+        // Correlation from which on a check decides.
+        const DECISIVE_CORRELATION: f64 = 0.5;
+        // Largest factor between the sizes of two channels that agree.
+        const AGREEING_FACTOR: f64 = 3.0;
+        // Part of `MIN_SAMPLES` from which on the change of speed decides.
+        const BRAKING_SAMPLE_FRACTION: f64 = 0.5;
         let [all, apart, slow] = [&self.all, &self.apart, &self.slow].map(|sums| sums[check as usize]);
         let least = check.least();
         let enough = if check == Check::Braking { MIN_SAMPLES * BRAKING_SAMPLE_FRACTION } else { MIN_SAMPLES };

@@ -13,12 +13,6 @@ use nalgebra::Vector3;
 use crate::motion::{Channels, Sample};
 use crate::relation::{Relation, Sums};
 
-/// Time for which samples are compared \[s\].
-pub const COMPARED_TIME: f64 = 60.0;
-/// Time over which samples are averaged before they are compared \[s\].
-const WINDOW_TIME: f64 = 0.25;
-/// Shortest and longest time between samples that are compared \[s\].
-const SAMPLE_INTERVAL: [f64; 2] = [1e-3, 0.2];
 /// Windows with which two channels are judged, and those for a force that is missing.
 const ENOUGH_WINDOWS: f64 = 12.0;
 const ENOUGH_BENDS: f64 = 20.0;
@@ -34,43 +28,22 @@ const NEAR_UNIT_FACTOR: f64 = 1.2;
 const LEAST_RATE: f64 = 0.005;
 const LEAST_EXCHANGED_RATE: f64 = 0.02;
 const LEAST_FORCE: f64 = 0.3;
-/// Least lateral force of bends, by speed and yaw rate, beside which a force is missing \[m/s2\],
-/// and the part of it below which it is.
-const LEAST_BENDS: f64 = 0.7;
-const MISSING_PART: f64 = 0.25;
-/// Correlation below which two channels are not the same quantity, and the factor between them
-/// beyond which they are not.
-const OTHER_CORRELATION: f64 = 0.5;
-const OTHER_FACTOR: f64 = 2.0;
 /// Angles up to which a body's rates are those of its angles, about: in radians that are read as
 /// degrees, too \[rad\].
 const LEVEL_ANGLE: f64 = 0.3;
 const LEVEL_IN_DEGREES: f64 = LEVEL_ANGLE * 180.0 / PI;
 /// Roll and pitch beyond which angles are no radians \[rad\].
 const LARGEST_ANGLE: f64 = 1.6;
-/// A change of an angle within a window that may be a whole turn \[rad\].
-const WHOLE_TURN_CHANGE: f64 = 3.0;
-/// Part of a turn's force that gravity may make up for: a vehicle that leans more is left out.
-const MAX_LEAN_FRACTION: f64 = 0.25;
-/// Speed below which a vehicle may be reversing, or hardly moves \[m/s\].
-const MANOEUVRING_SPEED: f64 = 1.5;
-/// Speed below which the source has none \[m/s\].
-const NO_SPEED: f64 = 0.1;
 /// Radius below which no vehicle turns \[m\], and angular velocity that no head keeps \[rad/s\],
 /// with the part of the windows for it.
 const TIGHTEST_RADIUS: f64 = 1.0;
 const FASTEST_RATE: f64 = 10.0;
 const FAST_PART: f64 = 0.1;
-/// Radians in a degree.
-const DEGREE: f64 = PI / 180.0;
 
 /// Time constant of the mean force, and the times for which it must be of one kind, to contradict
 /// and to agree \[s\].
 const GRAVITY_TIME: f64 = 1.0;
 const GRAVITY_HELD: f64 = 1.5;
-/// Largest distance of the mean vertical force from gravity \[m/s2\]: bumps,
-/// slopes and hard driving.
-const GRAVITY_TOLERANCE: f64 = 4.0;
 
 /// A table that contradicts its telemetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,11 +92,10 @@ pub enum GravityFault {
     Large,
 }
 
-const RATE_NAMES: [&str; 3] = ["wx", "wy", "wz"];
-const ANGLE_NAMES: [&str; 3] = ["roll", "pitch", "yaw"];
-
 impl Display for Mismatch {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        const RATE_NAMES: [&str; 3] = ["wx", "wy", "wz"];
+        const ANGLE_NAMES: [&str; 3] = ["roll", "pitch", "yaw"];
         match *self {
             Mismatch::Time(pace) => {
                 write!(f, "the packets' clock advances by {pace:.3} s in a second: in the line of time set ")?;
@@ -244,6 +216,12 @@ struct Window {
 impl Sizes {
     /// Takes a sample of this time \[s\].
     pub fn take(&mut self, time: f64, sample: &Sample) {
+        // Time for which samples are compared [s].
+        const COMPARED_TIME: f64 = 60.0;
+        // Time over which samples are averaged before they are compared [s].
+        const WINDOW_TIME: f64 = 0.25;
+        // Shortest and longest time between samples that are compared [s].
+        const SAMPLE_INTERVAL: [f64; 2] = [1e-3, 0.2];
         let before = self.last.replace((time, *sample));
         let Some((earlier, before)) = before else { return };
         let interval = time - earlier;
@@ -271,6 +249,13 @@ impl Sizes {
 
     /// Compares the means and slopes of a window.
     fn compare(&mut self, mean: &Channels, slope: &Channels, time: f64, sample: &Sample) {
+        // A change of an angle within a window that may be a whole turn [rad].
+        const WHOLE_TURN_CHANGE: f64 = 3.0;
+        // Part of a turn's force that gravity may make up for: a vehicle that leans more is left
+        // out.
+        const MAX_LEAN_FRACTION: f64 = 0.25;
+        // Speed below which a vehicle may be reversing, or hardly moves [m/s].
+        const MANOEUVRING_SPEED: f64 = 1.5;
         let [roll, pitch, speed] = [mean[6], mean[7], mean[9]];
         self.windows += 1.0;
         self.fast_windows += f64::from((3..6).any(|k| mean[k].abs() > FASTEST_RATE));
@@ -312,6 +297,10 @@ impl Sizes {
     }
 
     fn units_of_rates(&self) -> Option<Mismatch> {
+        // Speed below which the source has none [m/s].
+        const NO_SPEED: f64 = 0.1;
+        // Radians in a degree.
+        const DEGREE: f64 = PI / 180.0;
         let is_enough = |relation: &Relation| relation.count >= ENOUGH_WINDOWS;
         let by_angles = (0..3).map(|axis| self.rates[axis][axis].relation()).filter(is_enough).find_map(|relation| {
             let is_near = |ratio: f64| relation.is_near(ratio, UNIT_FACTOR, SAME_CORRELATION);
@@ -339,6 +328,10 @@ impl Sizes {
 
     /// A rate that is that of another angle, or of bends, while the right one is neither.
     fn exchanged_rates(&self) -> Option<Mismatch> {
+        // Correlation below which two channels are not the same quantity, and the factor between
+        // them beyond which they are not.
+        const OTHER_CORRELATION: f64 = 0.5;
+        const OTHER_FACTOR: f64 = 2.0;
         let is_same = |relation: &Relation| {
             let is_known = relation.count >= ENOUGH_WINDOWS && relation.sizes[0] >= LEAST_EXCHANGED_RATE;
             is_known && relation.is_near(1.0, UNIT_FACTOR, SAME_CORRELATION)
@@ -373,6 +366,10 @@ impl Sizes {
     }
 
     fn missing_bends(&self) -> Option<Mismatch> {
+        // Least lateral force of bends, by speed and yaw rate, beside which a force is missing
+        // [m/s2], and the part of it below which it is.
+        const LEAST_BENDS: f64 = 0.7;
+        const MISSING_PART: f64 = 0.25;
         let relation = self.bends[2].relation();
         // A vehicle without an attitude may lean.
         let is_missing = self.has_attitude
@@ -395,6 +392,9 @@ struct MeanForce {
 
 impl MeanForce {
     fn take(&mut self, interval: f64, sample: &Sample) {
+        // Largest distance of the mean vertical force from gravity [m/s2]: bumps, slopes and hard
+        // driving.
+        const GRAVITY_TOLERANCE: f64 = 4.0;
         let angles = sample.motion.angles();
         if self.agrees {
             return;

@@ -14,13 +14,6 @@ use crate::transitions::Event;
 pub const SILENT_TIME: f64 = 0.5;
 /// Time without a good sample after which it is stale \[s\].
 pub const STALE_TIME: f64 = 1.5;
-/// A place that differs from the expected one by more than this is another place \[m\].
-const MAX_PLACE_DEVIATION: f64 = 10.0;
-/// An attitude that turns by more within a sample than its rates say is that of another place
-/// \[rad\].
-const MAX_ATTITUDE_DEVIATION: f64 = 0.7;
-/// Samples that follow from each other with which a vehicle runs: random bytes do not.
-const CONFIRMING_SAMPLES: u32 = 5;
 
 /// Health of the source.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -234,6 +227,8 @@ impl Source {
 
     /// True once enough samples follow from each other.
     fn confirms(&mut self, elsewhere: bool) -> bool {
+        // Samples that follow from each other with which a vehicle runs: random bytes do not.
+        const CONFIRMING_SAMPLES: u32 = 5;
         if self.confirming == 0 {
             self.is_elsewhere = elsewhere;
         } else if elsewhere {
@@ -268,6 +263,11 @@ impl Source {
 
 /// True if the vehicle cannot have gone from one sample to the next in this time.
 fn is_elsewhere(before: &Sample, after: &Sample, time: f64) -> bool {
+    // A place that differs from the expected one by more than this is another place [m].
+    const MAX_PLACE_DEVIATION: f64 = 10.0;
+    // An attitude that turns by more within a sample than its rates say is that of another place
+    // [rad].
+    const MAX_ATTITUDE_DEVIATION: f64 = 0.7;
     let speed = before.motion.speed().abs().max(after.motion.speed().abs());
     let moved = before.position.zip(after.position).map_or(0.0, |(before, after)| (after - before).norm());
     let rate = before.motion.rates().norm().max(after.motion.rates().norm());

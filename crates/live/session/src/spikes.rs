@@ -3,16 +3,6 @@
 
 use crate::motion::{CHANNEL_COUNT, Channels, Sample};
 
-/// Least deviation of a spike, as for recordings: forces, rates, angles, speed.
-const MIN_SPIKE_DEVIATION: [f64; CHANNEL_COUNT] =
-    [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY, 5.0];
-/// Usual changes from sample to sample beyond which one is a spike.
-const SPIKE_CHANGE_FACTOR: f64 = 10.0;
-/// Samples over which the usual change is averaged.
-const AVERAGED_SAMPLES: f64 = 100.0;
-/// Time after which a sample says nothing of the next \[s\].
-const LONG_AGO: f64 = 0.2;
-
 /// The ride's usual changes, and a sample that has yet to be confirmed.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spikes {
@@ -46,6 +36,15 @@ impl Spikes {
     /// Judges a sample of this time. The second value is true if a doubtful one before it was a
     /// spike.
     pub fn judge(&mut self, time: f64, sample: &Sample) -> (Judgement, bool) {
+        // Least deviation of a spike, as for recordings: forces, rates, angles, speed.
+        const MIN_SPIKE_DEVIATION: [f64; CHANNEL_COUNT] =
+            [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY, 5.0];
+        // Usual changes from sample to sample beyond which one is a spike.
+        const SPIKE_CHANGE_FACTOR: f64 = 10.0;
+        // Samples over which the usual change is averaged.
+        const AVERAGED_SAMPLES: f64 = 100.0;
+        // Time after which a sample says nothing of the next [s].
+        const LONG_AGO: f64 = 0.2;
         let Some((before, last)) = self.last.filter(|(before, _)| time - before < LONG_AGO) else {
             (self.last, self.doubtful) = (Some((time, *sample)), None);
             return (Judgement::Used(None), false);

@@ -8,20 +8,6 @@ use crate::motion::Sample;
 /// Time for which all numbers stay the same in a vehicle that moves, from which on it is paused
 /// \[s\]; the least of that for a position.
 pub const STANDSTILL_TIME: f64 = 0.5;
-/// Speed \[m/s\] and angular velocity \[rad/s\] from which on a vehicle moves.
-const LEAST_SPEED: f64 = 0.1;
-const LEAST_RATE: f64 = 0.02;
-/// Changes of the position after which it counts as measured.
-const POSITION_CHANGES: u32 = 5;
-/// A position stands if it does so longer than it ever did between two changes, times this: a
-/// receiver of 1 Hz repeats its position for a second.
-const USUAL_WAITS: f64 = 2.5;
-/// Speed from which on a position that stands says something \[m/s\], and the way that the vehicle
-/// has gone meanwhile \[m\], which a coarse position does not show.
-const POSITION_SPEED: f64 = 1.0;
-const POSITION_WAY: f64 = 2.0;
-/// Time without a packet after which a position begins anew \[s\].
-const LONG_GAP: f64 = 0.2;
 
 /// Numbers of the source that stand still, and since when.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,6 +23,11 @@ pub struct Standing {
 impl Standing {
     /// Takes a sample that arrived then. True while the vehicle is paused.
     pub fn is_paused(&mut self, arrival: f64, sample: &Sample) -> bool {
+        // Speed [m/s] and angular velocity [rad/s] from which on a vehicle moves.
+        const LEAST_SPEED: f64 = 0.1;
+        const LEAST_RATE: f64 = 0.02;
+        // Time without a packet after which a position begins anew [s].
+        const LONG_GAP: f64 = 0.2;
         let Some((before, last)) = self.last.replace((arrival, *sample)) else {
             (self.motion_since, self.position_since) = (arrival, arrival);
             return false;
@@ -50,6 +41,15 @@ impl Standing {
     }
 
     fn position_stands(&mut self, arrival: f64, is_after_gap: bool, sample: &Sample, last: &Sample) -> bool {
+        // Changes of the position after which it counts as measured.
+        const POSITION_CHANGES: u32 = 5;
+        // A position stands if it does so longer than it ever did between two changes, times this:
+        // a receiver of 1 Hz repeats its position for a second.
+        const USUAL_WAITS: f64 = 2.5;
+        // Speed from which on a position that stands says something [m/s], and the way that the
+        // vehicle has gone meanwhile [m], which a coarse position does not show.
+        const POSITION_SPEED: f64 = 1.0;
+        const POSITION_WAY: f64 = 2.0;
         let speed = sample.motion.speed().abs();
         let waited = arrival - self.position_since;
         let most = STANDSTILL_TIME.max(USUAL_WAITS * self.longest_wait);

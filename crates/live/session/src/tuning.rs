@@ -9,14 +9,10 @@ use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::log::name_of;
 
-/// Steps from one change to the next.
-const CHANGE_INTERVAL_STEPS: u64 = 40;
 /// Part by which a limit becomes tighter in an interval.
 const TIGHTENING_FRACTION: f64 = 0.108;
 /// Parts of new limits within which the platform must be before they come into force.
 const INSIDE_FRACTIONS: f64 = 0.8;
-/// Least pace with which a limit is approached \[1/s\], where the soft limits have none.
-const MIN_PACE: f64 = 1.0;
 
 /// The chosen parameters.
 #[derive(Clone, Debug)]
@@ -52,6 +48,8 @@ impl Tuning {
     /// Puts the chosen values into force as far as the platform keeps them gently, if this step is
     /// one for that.
     pub fn apply(&mut self, washout: &mut Washout, step: u64) {
+        // Steps from one change to the next.
+        const CHANGE_INTERVAL_STEPS: u64 = 40;
         if !self.waits || !step.is_multiple_of(CHANGE_INTERVAL_STEPS) {
             return;
         }
@@ -89,6 +87,8 @@ fn with_tilt(parameters: &Parameters, washout: &Washout) -> TiltParameters {
 /// The safety units' limits of these parameters. On an axis where the platform is beyond smaller
 /// ones, or too fast to stay within them gently, those in force stay.
 fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
+    // Least pace with which a limit is approached [1/s], where the soft limits have none.
+    const MIN_PACE: f64 = 1.0;
     let (before, mut safety) = (&washout.parameters().safety, parameters.safety);
     let motion = washout.motion();
     let neutral = washout.parameters().rig.neutral_height;

@@ -16,6 +16,8 @@ use crate::suspension::Suspension;
 /// # Errors
 /// The first parameter that cannot be used, and why.
 pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
+    // Least fraction of the weight on either wheel.
+    const LEAST_LOAD: f64 = 0.02;
     parameters.check_ranges()?;
     let loads = static_loads(&crate::lateral::bicycle(&parameters.machine), parameters.run.gravity);
     let weight = loads.front + loads.rear;
@@ -84,6 +86,8 @@ pub fn design_rider(
     suspension: &Suspension,
     fastest: f64,
 ) -> Result<(Lateral, Rider), ParameterError> {
+    // Number of speeds checked.
+    const CHECKED_SPEEDS: u32 = 200;
     let Some(lateral) = Lateral::new(&Design::new(parameters)) else {
         return refuse(
             "frame.inertia.xz",
@@ -126,6 +130,9 @@ pub fn check_step(parameters: &Parameters, suspension: &Suspension) -> Result<()
 
 /// Checks the internal step against the magnitude of a pole \[rad/s\].
 fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), ParameterError> {
+    // The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the
+    // step; with a margin.
+    const LARGEST_POLE: f64 = 2.0;
     let step = parameters.run.max_step;
     if pole * step <= LARGEST_POLE {
         return Ok(());
@@ -140,12 +147,6 @@ fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), ParameterError> 
     )
 }
 
-/// Least fraction of the weight on either wheel.
-const LEAST_LOAD: f64 = 0.02;
-/// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step;
-/// with a margin.
-const LARGEST_POLE: f64 = 2.0;
-
 /// Largest pole of throttle, brakes and the rider's reference filters \[rad/s\].
 fn fastest_lag(parameters: &Parameters) -> f64 {
     let Parameters { longitudinal, rider, .. } = parameters;
@@ -154,6 +155,3 @@ fn fastest_lag(parameters: &Parameters) -> f64 {
         .max(2.0 * rider.lean_frequency)
         .max(2.0 * rider.body_lean_frequency)
 }
-
-/// Number of speeds checked.
-const CHECKED_SPEEDS: u32 = 200;

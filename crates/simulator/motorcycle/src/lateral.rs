@@ -183,6 +183,10 @@ impl Lateral {
     /// Adds feet and hands at full support: a stiffness against roll, with critical damping. Hands
     /// have the same on the bars, which would otherwise turn to a side by their own weight.
     fn add_feet_and_hands(&mut self, t: &Totals, k0: &Matrix2<f64>, inverse: &Matrix4<f64>) {
+        // Stiffness of foot support relative to the toppling stiffness of gravity.
+        const FEET_STIFFNESS: f64 = 4.0;
+        // Stiffness of the hands on the bars relative to the turning stiffness of gravity.
+        const HANDS_STIFFNESS: f64 = 5.0;
         let feet = (2, LEAN, LEAN_RATE, FEET_STIFFNESS * k0[(0, 0)].abs(), t.t_xx);
         let hands = (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll);
         for (row, angle, rate, stiffness, inertia) in [feet, hands] {
@@ -269,11 +273,6 @@ fn gyroscopic_matrix(t: &Totals, sin: f64, cos: f64) -> Matrix4<f64> {
         0.0, t.s_f * sin, -t.s_f * cos, 0.0,
     )
 }
-
-/// Stiffness of foot support relative to the toppling stiffness of gravity.
-const FEET_STIFFNESS: f64 = 4.0;
-/// Stiffness of the hands on the bars relative to the turning stiffness of gravity.
-const HANDS_STIFFNESS: f64 = 5.0;
 
 /// Foot support: 1 at rest, falling smoothly to 0 at `fastest` \[m/s\].
 pub fn foot_support(speed: f64, fastest: f64) -> f64 {

@@ -24,9 +24,6 @@ use crate::suspension::{self, Suspension};
 /// Largest number of internal steps in a communication step.
 pub const MOST_MOTORCYCLE_STEPS: f64 = 100_000.0;
 
-/// Limit of the rider's torque on the bars on a path \[N m\].
-const STRONGEST_TORQUE: f64 = 120.0;
-
 /// A motorcycle and its rider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Motorcycle {
@@ -266,6 +263,10 @@ impl Motorcycle {
 
     /// The equations of motion.
     fn motion(&self, state: &State, input: &Input, stage: Stage, ahead: &Ahead) -> Dynamics {
+        // Limit of the rider's torque on the bars on a path [N m].
+        const STRONGEST_TORQUE: f64 = 120.0;
+        // Passes in which limits of lateral forces and loads are found together.
+        const GRIP_PASSES: usize = 3;
         let p = &self.parameters;
         let speed = state.speed.max(0.0);
         let feet = foot_support(speed, p.rider.feet_speed);
@@ -540,9 +541,6 @@ fn settling(state: &suspension::State) -> (f64, f64) {
     let back = -(state.velocity * 2.0 + state.position * rate) * rate;
     (back.x, back.y)
 }
-
-/// Passes in which limits of lateral forces and loads are found together.
-const GRIP_PASSES: usize = 3;
 
 /// The roll angle, whose tangent the lateral equations' lean is, and its derivatives.
 fn roll(state: &lateral::State, derivative: &lateral::State) -> Motion {

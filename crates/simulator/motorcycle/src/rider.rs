@@ -78,6 +78,9 @@ impl Rider {
     /// # Errors
     /// No steering torque stabilises the motorcycle with these parameters.
     pub fn new(lateral: &Lateral, parameters: &Parameters, fastest: f64) -> Result<Rider, ParameterError> {
+        // The slowest speed with gains of its own, as a fraction of the speed at which foot support
+        // ends.
+        const SLOWEST_FRACTION: f64 = 0.3;
         let limits = &parameters.rider;
         let mut rider = Rider {
             gains: SVector::repeat(GainSet::default()),
@@ -103,6 +106,8 @@ impl Rider {
 
     /// Sets all limits and frequencies by these parameters; the gains do not change.
     pub fn set_limits(&mut self, parameters: &Parameters) {
+        // The reference lean needs at most this fraction of the friction.
+        const FRICTION_FRACTION: f64 = 0.9;
         let limits = &parameters.rider;
         self.parameters = *limits;
         self.largest_lean = libm::tan(limits.lean_limit).min(FRICTION_FRACTION * parameters.tyres.friction);
@@ -192,6 +197,13 @@ impl Rider {
     ///
     /// It reduces rates beyond the rider's limit, and slows down in time before the largest lean.
     pub fn lean_acceleration(&self, state: &State, gains: &GainSet, feet: f64, control: f64) -> f64 {
+        // Rates [1/s] at which a reference lean on a path approaches its limit, and its rate the
+        // largest rate.
+        const LIMIT_APPROACH: f64 = 8.0;
+        const LIMIT_RATE: f64 = 30.0;
+        // Natural frequency with which the reference lean on a path returns to zero below walking
+        // pace [1/s].
+        const UPRIGHT_FREQUENCY: f64 = 4.0;
         let lean = libm::tan(state.lean);
         let (square, most) = (1.0 + lean * lean, self.steepest(gains));
         let rate = state.lean_rate * square;
@@ -211,20 +223,8 @@ impl Rider {
     }
 }
 
-/// The slowest speed with gains of its own, as a fraction of the speed at which foot support ends.
-const SLOWEST_FRACTION: f64 = 0.3;
-/// The reference lean needs at most this fraction of the friction.
-const FRICTION_FRACTION: f64 = 0.9;
 /// Time constant with which foot support discharges accumulated errors \[s\].
 pub(crate) const SUPPORT_FORGETTING_TIME: f64 = 0.5;
-
-/// Rates \[1/s\] at which a reference lean on a path approaches its limit, and its
-/// rate the largest rate.
-const LIMIT_APPROACH: f64 = 8.0;
-const LIMIT_RATE: f64 = 30.0;
-/// Natural frequency with which the reference lean on a path returns to zero below
-/// walking pace \[1/s\].
-const UPRIGHT_FREQUENCY: f64 = 4.0;
 
 /// The limited value: at most `limit` to either side.
 pub(crate) fn within(value: f64, limit: f64) -> f64 {

@@ -83,6 +83,8 @@ impl State {
     /// The state with values below the threshold set to zero, so that the motorcycle comes to rest
     /// in finite time.
     pub fn flush_small(mut self) -> State {
+        // Angles, lengths, forces and their rates below this count as zero, in SI units.
+        const NEGLIGIBLE_MOTION: f64 = 1e-12;
         let flush = |value: &mut f64| {
             if value.abs() < NEGLIGIBLE_MOTION {
                 *value = 0.0;
@@ -98,6 +100,3 @@ impl State {
         self
     }
 }
-
-/// Angles, lengths, forces and their rates below this count as zero, in SI units.
-const NEGLIGIBLE_MOTION: f64 = 1e-12;

@@ -27,17 +27,16 @@ pub struct Outcome {
     pub force: Vector6<f64>,
 }
 
-/// Largest number of sweeps over the six legs; some tens suffice.
-const MOST_SWEEPS: usize = 500;
-/// Convergence: largest change of a force as a fraction of the largest force.
-const FORCE_TOLERANCE: f64 = 1e-12;
-
 /// Solves the conditions leg by leg, over and over (Gauss and Seidel's method, which converges for
 /// them).
 ///
 /// `free` are the velocities at the step's end without any force, `gain` is h A, and no drive has
 /// more force than `limit`.
 pub fn solve(free: &Vector6<f64>, gain: &Matrix6<f64>, legs: &[Leg; 6], limit: f64) -> Outcome {
+    // Largest number of sweeps over the six legs; some tens suffice.
+    const MOST_SWEEPS: usize = 500;
+    // Convergence: largest change of a force as a fraction of the largest force.
+    const FORCE_TOLERANCE: f64 = 1e-12;
     let mut force = Vector6::zeros();
     for _ in 0..MOST_SWEEPS {
         let mut change: f64 = 0.0;

@@ -64,15 +64,6 @@ pub struct Sender<'a> {
 /// Answers of the device that are taken at a time: a flood of them delays no frame.
 const MOST_ANSWERS: u32 = 64;
 
-/// Time between questions for the legs' lengths.
-const POSITION_REQUEST_INTERVAL: Duration = Duration::from_millis(200);
-
-/// Longest time to the lowest pose: the slowest way over the longest stroke.
-const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
-
-/// Errors of this program after which the sending thread ends.
-const MOST_ERRORS: u32 = 10;
-
 impl<'a> Sender<'a> {
     /// A sender of frames at this interval \[s\] to these actuators.
     pub fn new(
@@ -105,6 +96,8 @@ impl<'a> Sender<'a> {
     /// Sends messages until the loop has ended. If the loop ends without a stop string, by a panic,
     /// sends it. An error of this program costs a message, and is a failure of the session.
     pub fn run(mut self) -> Sent {
+        // Errors of this program after which the sending thread ends.
+        const MOST_ERRORS: u32 = 10;
         for _ in 0..MOST_ERRORS {
             if catch_unwind(AssertUnwindSafe(|| self.work())).is_ok() {
                 break;
@@ -154,6 +147,8 @@ impl<'a> Sender<'a> {
     /// Goes on with frames until the actuators are where these values have them. Frames that were
     /// late are behind the loop, and a controller that parks takes no more of them.
     fn arrive(&mut self, values: &Values, packet: &mut [u8]) {
+        // Longest time to the lowest pose: the slowest way over the longest stroke.
+        const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
         let mut values = *values;
         let interval = self.wire.interval();
         let end = pace::now() + LONGEST_ARRIVAL;
@@ -234,6 +229,8 @@ impl<'a> Sender<'a> {
 
     /// Asks for the legs' lengths now and then, and passes answers on.
     fn ask(&mut self, packet: &mut [u8]) {
+        // Time between questions for the legs' lengths.
+        const POSITION_REQUEST_INTERVAL: Duration = Duration::from_millis(200);
         if !self.device.asks() {
             return;
         }
@@ -278,6 +275,9 @@ impl<'a> Sender<'a> {
     }
 
     fn end(&mut self) {
+        // Time between frames of a platform that comes to rest, and their number.
+        const REST_INTERVAL: Duration = Duration::from_millis(10);
+        const REST_FRAMES: u32 = 100;
         if self.running {
             let mut last = self.last;
             for frame in 1..=REST_FRAMES {
@@ -294,10 +294,6 @@ impl<'a> Sender<'a> {
         }
     }
 }
-
-/// Time between frames of a platform that comes to rest, and their number.
-const REST_INTERVAL: Duration = Duration::from_millis(10);
-const REST_FRAMES: u32 = 100;
 
 #[cfg(test)]
 mod tests;

@@ -20,11 +20,6 @@ use crate::controls::Controls;
 use crate::frames::Loss;
 use crate::{Shared, pace};
 
-/// Time between messages.
-const MESSAGE_INTERVAL: Duration = Duration::from_millis(40);
-/// Most lines of the journal that are kept.
-const MOST_LINES: usize = 50;
-
 /// An order to the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
@@ -41,9 +36,6 @@ pub enum Order {
     /// A person has said where the legs are.
     Legs(Legs),
 }
-
-/// Most browsers that are known.
-const MOST_BROWSERS: usize = 64;
 
 /// An order of a browser.
 #[derive(Clone, Debug, Deserialize)]
@@ -167,6 +159,8 @@ impl Desk {
 
     /// A line for the page's journal.
     pub fn log_line(&self, line: &str) {
+        // Most lines of the journal that are kept.
+        const MOST_LINES: usize = 50;
         let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
         lines.push_back(line.trim().to_owned());
         if lines.len() > MOST_LINES {
@@ -177,6 +171,8 @@ impl Desk {
     /// Makes messages of what the loop shows, until it has ended. `refusals`: the parameters in
     /// force where the loop has refused others.
     pub fn show(&self, mut moments: Consumer<Shown>, mut refusals: Consumer<Parameters>, shared: &Shared) {
+        // Time between messages.
+        const MESSAGE_INTERVAL: Duration = Duration::from_millis(40);
         loop {
             let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
             let taken: Vec<Shown> = std::iter::from_fn(|| moments.pop().ok()).collect();
@@ -220,6 +216,8 @@ impl Desk {
 
     /// A browser with this secret number has come. The first one controls.
     pub fn enter(&self, client: &str) -> Welcome {
+        // Most browsers that are known.
+        const MOST_BROWSERS: usize = 64;
         let mut inner = self.lock();
         inner.count += 1;
         let browser = Browser { client: client.to_owned(), number: inner.count };

@@ -9,8 +9,6 @@ use super::refusal::{Refusal, Status};
 /// Most bytes of a request's head, and of its body.
 const MOST_HEAD: usize = 16_384;
 const MOST_BODY: usize = 16_384;
-/// Time in which a request must be complete.
-const REQUEST_TIMEOUT: Duration = Duration::from_secs(1);
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 
@@ -51,6 +49,8 @@ impl Incoming {
     /// Takes what has come. The request, once it is whole; its refusal, if it is none,
     /// too large, or too slow.
     pub fn request(&mut self) -> Option<Result<Request, Refusal>> {
+        // Time in which a request must be complete.
+        const REQUEST_TIMEOUT: Duration = Duration::from_secs(1);
         let mut part = [0; 4096];
         loop {
             match self.stream.read(&mut part) {

@@ -25,19 +25,9 @@ use crate::telemetry::Features;
 use crate::watch::{Part, watch};
 use moris_analysis::page::simulator::parameters;
 
-/// Most connections at once whose request has not come yet: a new one closes the oldest.
-const MAX_STRANGERS: usize = 128;
-/// Connections that are taken before those that are there are read again.
-const ACCEPTED_AT_ONCE: usize = 16;
 /// Connections that the system keeps until they are taken: more than a flood makes meanwhile.
 #[cfg(unix)]
 const WAITING_CONNECTIONS: i32 = 4096;
-/// Most pages, and most of their other requests at once.
-const MOST_PAGES: usize = 12;
-const MOST_REQUESTS: usize = 24;
-/// Time between looks for a new connection, and for the rest of a request.
-const CONNECTION_CHECK_INTERVAL: Duration = Duration::from_millis(20);
-const REQUEST_CHECK_INTERVAL: Duration = Duration::from_millis(1);
 
 /// Data of the page from its start on.
 #[derive(Clone, Debug, Serialize)]
@@ -113,6 +103,9 @@ impl Server {
 
     /// Answers until the loop has ended. Threads of connections may live a little longer.
     pub fn run(&self, shared: &Shared) {
+        // Time between looks for a new connection, and for the rest of a request.
+        const CONNECTION_CHECK_INTERVAL: Duration = Duration::from_millis(20);
+        const REQUEST_CHECK_INTERVAL: Duration = Duration::from_millis(1);
         let mut strangers = VecDeque::new();
         while !shared.done.load(Ordering::Relaxed) {
             self.accept(&mut strangers);
@@ -127,6 +120,10 @@ impl Server {
 
     /// Takes new connections. Before one closes the oldest, that has been read once at least.
     fn accept(&self, strangers: &mut VecDeque<Incoming>) {
+        // Most connections at once whose request has not come yet: a new one closes the oldest.
+        const MAX_STRANGERS: usize = 128;
+        // Connections that are taken before those that are there are read again.
+        const ACCEPTED_AT_ONCE: usize = 16;
         for _ in 0..ACCEPTED_AT_ONCE {
             let Ok((stream, _)) = self.listener.accept() else { return };
             let Ok(stranger) = Incoming::new(stream) else { continue };
@@ -184,6 +181,9 @@ impl Site {
     }
 
     fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), Refusal> {
+        // Most pages, and most of their other requests at once.
+        const MOST_PAGES: usize = 12;
+        const MOST_REQUESTS: usize = 24;
         self.access.check(request)?;
         let (places, most) =
             if request.path == "/events" { (&self.pages, MOST_PAGES) } else { (&self.requests, MOST_REQUESTS) };

@@ -13,8 +13,6 @@ use crate::lateness::{Classes, Lateness};
 
 /// Steps between what is shown.
 pub const EVERY: u64 = 10;
-/// Lines of the journal that a message has.
-const MAX_JOURNAL_LINES: usize = 8;
 
 /// Names of the numbers in a row, in order.
 pub const NAMES: &str = "time desired_x desired_y desired_z wx wy wz roll pitch yaw speed felt_x felt_y felt_z \
@@ -77,6 +75,8 @@ impl Shown {
 
 /// The message of some moments, as JSON in one line. `told` has further members of the object.
 pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Option<String> {
+    // Lines of the journal that a message has.
+    const MAX_JOURNAL_LINES: usize = 8;
     let last = moments.last()?;
     // A number that is none is not JSON's.
     let number = |number: &f64| if number.is_finite() { format!("{number:.5}") } else { "0".to_owned() };

@@ -2,8 +2,6 @@
 
 use moris_laps::Laps;
 
-/// Distance of the places, at least \[m\].
-const MIN_PLACE_DISTANCE: f64 = 5.0;
 /// Largest number of places kept.
 const MAX_TRACK_PLACES: usize = 6000;
 
@@ -12,6 +10,8 @@ pub type Track = Vec<Option<[f64; 2]>>;
 
 /// The latest places of the road that these laps know.
 pub fn track(laps: &Laps) -> Track {
+    // Distance of the places, at least [m].
+    const MIN_PLACE_DISTANCE: f64 = 5.0;
     let mut places = Track::new();
     let mut before: Option<(u32, [f64; 2])> = None;
     for point in laps.points() {

@@ -13,11 +13,6 @@ use serde::Deserialize;
 
 use super::{Features, Handling, Vehicle, shape};
 
-/// Words of a map that are not those of a table of fields.
-const MAP_KEYS: [&str; 3] = ["start", "step", "controls"];
-/// Keys of a table of fields that a map may leave out, with their values.
-const MAP_DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
-
 /// A control of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -59,6 +54,10 @@ impl Fmu {
     /// # Errors
     /// The map or the FMU cannot be used, or the FMU lacks a variable of the map.
     pub fn open(file: &Path, map: &Path) -> Result<Self> {
+        // Words of a map that are not those of a table of fields.
+        const MAP_KEYS: [&str; 3] = ["start", "step", "controls"];
+        // Keys of a table of fields that a map may leave out, with their values.
+        const MAP_DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
         let text = moris_fmu_host::files::text(map, TEXT).with_context(|| map.display().to_string())?;
         let mut table: toml::Table = text.parse().with_context(|| map.display().to_string())?;
         let [start, step, controls] = MAP_KEYS.map(|word| table.remove(word));

@@ -32,9 +32,6 @@ pub enum Dropped {
     Field(Quantity),
 }
 
-/// Most vehicles in a list.
-const MAX_PLAYERS: f64 = 1024.0;
-
 /// A packet, or a part of it with one sample, in the form of its layout.
 enum Record<'a> {
     Binary(&'a [u8]),
@@ -143,6 +140,8 @@ impl Format {
 
     /// The player's number.
     fn player_of(&self, player: &Player, record: &Record) -> Option<usize> {
+        // Most vehicles in a list.
+        const MAX_PLAYERS: f64 = 1024.0;
         let found = match (&player.at, record) {
             (FieldAddress::Index(at), Record::Binary(bytes)) => number(bytes, *at, player.kind, self.byte_order),
             (FieldAddress::Index(at), Record::Line(line)) => line.column(*at),

@@ -14,9 +14,6 @@ pub enum Line<'a> {
     Pairs(&'a str),
 }
 
-/// Separators of columns, those first that stand in numbers as well.
-const SEPARATORS: [char; 3] = [';', '\t', ','];
-
 impl<'a> Line<'a> {
     /// The text.
     pub fn text(self) -> &'a str {
@@ -52,6 +49,8 @@ impl<'a> Line<'a> {
 
 /// The fields of a line. With semicolons or tabs between them, a comma may stand in a number.
 fn fields(line: &str) -> impl Iterator<Item = &str> {
+    // Separators of columns, those first that stand in numbers as well.
+    const SEPARATORS: [char; 3] = [';', '\t', ','];
     let separator = SEPARATORS.into_iter().find(|separator| line.contains(*separator)).unwrap_or(',');
     line.split(separator).map(|field| field.trim().trim_matches('"'))
 }

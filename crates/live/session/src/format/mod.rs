@@ -33,9 +33,6 @@ use serde::Deserialize;
 
 pub use decode::Dropped;
 
-/// Most fields of a table, and largest offset.
-const MAX_FIELDS: usize = 4096;
-
 /// A table of a packet's fields.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -283,6 +280,8 @@ impl FromStr for Format {
     type Err = FormatError;
 
     fn from_str(text: &str) -> Result<Self, FormatError> {
+        // Most fields of a table, and largest offset.
+        const MAX_FIELDS: usize = 4096;
         let format: Format = toml::from_str(text)?;
         let further = format.of_lengths.iter().flat_map(|of| &of.fields);
         for (quantity, field) in format.fields.iter().chain(further) {

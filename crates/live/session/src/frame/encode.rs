@@ -11,14 +11,6 @@ use crate::session::Commands;
 /// Quantities of a frame besides the actuators' positions, in SI units.
 pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
     velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave own_x own_y own_z";
-/// Places of the lengths and velocities among them.
-const LENGTH_PLACES: Range<usize> = 1..13;
-/// Most bytes of a template.
-const MAX_TEMPLATE_BYTES: usize = 4096;
-/// Ends of the numbers of actuators where a template has none, but for signed ones.
-const SIXTEEN_BITS: [i64; 2] = [0, 65_535];
-/// Most decimals of a quantity.
-const MAX_DECIMALS: usize = 15;
 
 /// Values of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -204,6 +196,8 @@ impl Encoder {
 
     /// True if its frames have positions of actuators.
     pub fn moves_actuators(&self) -> bool {
+        // Places of the lengths and velocities among them.
+        const LENGTH_PLACES: Range<usize> = 1..13;
         self.frame.iter().any(|token| match token {
             Token::Binary { .. } | Token::Decimal { .. } => true,
             Token::Quantity { place, .. } | Token::Float { place, .. } | Token::Scaled { place, .. } => {
@@ -244,6 +238,8 @@ impl Encoder {
     }
 
     fn fill(&self, tokens: &[Token], values: &Values, out: &mut Vec<u8>) {
+        // Ends of the numbers of actuators where a template has none, but for signed ones.
+        const SIXTEEN_BITS: [i64; 2] = [0, 65_535];
         out.clear();
         for token in tokens {
             match token {
@@ -299,6 +295,8 @@ fn wrapped(number: i64, whole: Whole) -> i64 {
 
 /// The tokens of a template.
 fn tokens(template: &str) -> Result<Vec<Token>, FramesError> {
+    // Most bytes of a template.
+    const MAX_TEMPLATE_BYTES: usize = 4096;
     let mut tokens = Vec::new();
     let mut rest = template.trim_start();
     if template.len() > MAX_TEMPLATE_BYTES {
@@ -323,6 +321,8 @@ fn tokens(template: &str) -> Result<Vec<Token>, FramesError> {
 }
 
 fn token(word: &str) -> Option<Token> {
+    // Most decimals of a quantity.
+    const MAX_DECIMALS: usize = 15;
     let Some((name, form)) = word.split_once(':') else {
         let byte = u8::from_str_radix(word, 16).ok().filter(|_| word.len() == 2)?;
         return Some(Token::Bytes(vec![byte]));

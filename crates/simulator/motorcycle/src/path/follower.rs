@@ -48,6 +48,8 @@ impl Follower {
         rider: &Rider,
         longitudinal: &Longitudinal,
     ) -> Result<Option<Box<Self>>, ParameterError> {
+        // Fraction of the friction that the hardest braking takes.
+        const HARD_BRAKING_FRACTION: f64 = 0.8;
         let Some(table) = Table::new(&parameters.path)? else { return Ok(None) };
         let limits = Limits::new(parameters);
         let Some(preview) = PreviewRider::new(lateral, rider) else {
@@ -94,6 +96,8 @@ impl Follower {
 
     /// Acceleration of the speed control \[m/s2\].
     fn acceleration(&self, (planned, acceleration): (f64, f64), speed: f64) -> f64 {
+        // Gain of the speed control [1/s].
+        const SPEED_GAIN: f64 = 1.5;
         (acceleration + SPEED_GAIN * (planned - speed)).min(self.forward)
     }
 
@@ -106,6 +110,11 @@ impl Follower {
 
     /// The rider's actions for the path ahead.
     pub fn ahead(&self, state: &State, longitudinal: &Longitudinal) -> Ahead {
+        // Samples of the preview over which the planned acceleration is averaged: the lags of drive
+        // and brakes, and less jerk.
+        const SMOOTHED_SAMPLES: usize = 4;
+        // Planned speed below which the rider stops [m/s].
+        const STOPPING_SPEED: f64 = 0.3;
         let (distance, speed) = (state.place.distance, state.speed);
         let gains = self.rider.gains(speed);
         let mut steady_leans = [0.0; PREVIEW_INTERVALS + 1];
@@ -156,6 +165,8 @@ impl Follower {
 
     /// Rate of the place beside the path: the kinematics of a point beside a curve.
     pub fn place_rate(&self, state: &State, feet: f64) -> PathState {
+        // Least distance from the path's centre of curvature, relative to its radius.
+        const MIN_RELATIVE_CURVATURE_DISTANCE: f64 = 0.1;
         let PathState { distance, deviation, integral, heading } = state.place;
         let curvature = self.table.curvature_at(distance);
         let (sin, cos) = libm::sincos(heading);
@@ -172,19 +183,8 @@ impl Follower {
     }
 }
 
-/// Fraction of the friction that the hardest braking takes.
-const HARD_BRAKING_FRACTION: f64 = 0.8;
-/// Gain of the speed control \[1/s\].
-const SPEED_GAIN: f64 = 1.5;
-/// Samples of the preview over which the planned acceleration is averaged: the lags of drive and
-/// brakes, and less jerk.
-const SMOOTHED_SAMPLES: usize = 4;
-/// Planned speed below which the rider stops \[m/s\].
-const STOPPING_SPEED: f64 = 0.3;
 /// Deviation \[m\] and heading \[rad\] of which the lean control takes account, and deviation that
 /// accumulates.
 const LARGEST_DEVIATION: f64 = 1.5;
 const LARGEST_HEADING: f64 = 0.3;
 const LARGEST_ACCUMULATED: f64 = 0.3;
-/// Least distance from the path's centre of curvature, relative to its radius.
-const MIN_RELATIVE_CURVATURE_DISTANCE: f64 = 0.1;

@@ -18,10 +18,6 @@ pub const PREVIEW_STEP: f64 = 0.2;
 /// Time between two records \[s\].
 const RECORD_INTERVAL: f64 = 0.02;
 const RECORD_CAPACITY: usize = 256;
-/// Time by which the second simulation is ahead \[s\]: the preview and a record.
-const LEAD_TIME: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64 + RECORD_INTERVAL;
-/// Largest time simulated ahead per second of the motorcycle \[s\].
-const MAX_AHEAD_RATE: f64 = 5.0;
 
 /// A record of the second simulation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -83,6 +79,10 @@ impl Forerun {
         advanced: impl Fn(&RunState, f64) -> RunState,
         record: impl Fn(&RunState) -> Record,
     ) {
+        // Time by which the second simulation is ahead [s]: the preview and a record.
+        const LEAD_TIME: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64 + RECORD_INTERVAL;
+        // Largest time simulated ahead per second of the motorcycle [s].
+        const MAX_AHEAD_RATE: f64 = 5.0;
         self.find(step, here);
         let per_record = libm::ceil(RECORD_INTERVAL / longest - 1e-6).max(1.0);
         let size = RECORD_INTERVAL / per_record;
@@ -101,6 +101,8 @@ impl Forerun {
 
     /// Finds the time in the records that corresponds to the motorcycle's present position.
     fn find(&mut self, step: f64, here: &State) {
+        // Speed below which records are found by time, not by distance [m/s].
+        const SLOW_SPEED: f64 = 1.0;
         self.now = (self.now + step).min(self.last as f64 * RECORD_INTERVAL);
         if here.speed < SLOW_SPEED {
             return;
@@ -124,6 +126,11 @@ impl Forerun {
 
     /// True if the motorcycle's speed or deviation differs too much from the recorded one.
     pub fn is_wrong(&self, here: &State) -> bool {
+        // Least time between two restarts [s].
+        const LEAST_TIME: f64 = 2.0;
+        // Largest errors of speed [m/s] and deviation [m] without a restart.
+        const LARGEST_SPEED_ERROR: f64 = 0.5;
+        const LARGEST_DEVIATION_ERROR: f64 = 0.3;
         let then = self.at(self.now);
         self.now > LEAST_TIME
             && ((then.speed - here.speed).abs() > LARGEST_SPEED_ERROR
@@ -133,6 +140,8 @@ impl Forerun {
     /// The preview from now on. `felt` is the present specific force in surge and sway at the head
     /// \[m/s2\]. Its difference from the recorded one decays over the preview.
     pub fn preview(&self, felt: [f64; 2]) -> Preview {
+        // Time constant with which a difference between the two is assumed to decay [s].
+        const DIFFERENCE_TIME_CONSTANT: f64 = 1.0;
         let then = self.at(self.now);
         let [surge, sway] = [felt[0] - then.surge, felt[1] - then.sway];
         let end = self.last as f64 * RECORD_INTERVAL;
@@ -163,13 +172,3 @@ impl Forerun {
         self.record(number).toward(self.record((number + 1).min(self.last)), fraction)
     }
 }
-
-/// Time constant with which a difference between the two is assumed to decay \[s\].
-const DIFFERENCE_TIME_CONSTANT: f64 = 1.0;
-/// Speed below which records are found by time, not by distance \[m/s\].
-const SLOW_SPEED: f64 = 1.0;
-/// Least time between two restarts \[s\].
-const LEAST_TIME: f64 = 2.0;
-/// Largest errors of speed \[m/s\] and deviation \[m\] without a restart.
-const LARGEST_SPEED_ERROR: f64 = 0.5;
-const LARGEST_DEVIATION_ERROR: f64 = 0.3;

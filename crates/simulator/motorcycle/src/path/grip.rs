@@ -23,6 +23,8 @@ impl Friction {
     /// Limits of a lateral force for a load in the plane of a motorcycle whose lean has the tangent
     /// `lean`, positive to the right.
     pub fn lateral(&self, load: f64, lean: f64) -> Limits {
+        // Least denominator of the ellipse's end.
+        const LEAST_FRACTION: f64 = 0.1;
         let friction = self.ratio * self.along;
         let cos = 1.0 / libm::sqrt(1.0 + lean * lean);
         let sin = lean * cos;
@@ -38,23 +40,19 @@ impl Friction {
     }
 }
 
-/// Least denominator of the ellipse's end.
-const LEAST_FRACTION: f64 = 0.1;
-
 /// Deceleration of a motorcycle that slides on its side, as a fraction of gravity times friction.
 pub const SLIDING_FRICTION_FRACTION: f64 = 0.4;
 /// Time constant with which roll and yaw rates of a fallen motorcycle end \[s\].
 pub const FALLEN_SETTLING_TIME: f64 = 0.1;
 
-/// Roll beyond the rider's limit at which the motorcycle has fallen \[rad\], and the largest roll.
-const FALLEN_ROLL_MARGIN: f64 = 0.35;
-const MAX_FALLEN_ROLL: f64 = 1.35;
-/// Slip angle at which it has fallen, as a tangent, above a lateral velocity of 1 m/s.
-const SPUN_SLIP_TANGENT: f64 = 0.7;
-
 /// True for a motorcycle that has fallen: with a roll, the speed and the lateral velocity of its
 /// rear contact.
 pub fn has_fallen(roll: f64, lean_limit: f64, speed: f64, lateral_velocity: f64) -> bool {
+    // Roll beyond the rider's limit at which the motorcycle has fallen [rad], and the largest roll.
+    const FALLEN_ROLL_MARGIN: f64 = 0.35;
+    const MAX_FALLEN_ROLL: f64 = 1.35;
+    // Slip angle at which it has fallen, as a tangent, above a lateral velocity of 1 m/s.
+    const SPUN_SLIP_TANGENT: f64 = 0.7;
     roll.abs() > (lean_limit + FALLEN_ROLL_MARGIN).min(MAX_FALLEN_ROLL)
         || lateral_velocity.abs() > 1.0 + SPUN_SLIP_TANGENT * speed
 }

@@ -35,6 +35,10 @@ pub struct Limits {
 impl Limits {
     /// The rider's limits, and of the tyres' friction and the rider's lean what leaves a reserve.
     pub fn new(parameters: &Parameters) -> Self {
+        // Fraction of the friction that a plan uses.
+        const FRICTION_FRACTION: f64 = 0.7;
+        // Fraction of the largest lean that a plan uses.
+        const LEAN_FRACTION: f64 = 0.85;
         let Parameters { path, tyres, rider, run, .. } = parameters;
         let grip = FRICTION_FRACTION * tyres.friction * run.gravity;
         let lean = LEAN_FRACTION * libm::tan(rider.lean_limit) * run.gravity;
@@ -52,16 +56,11 @@ impl Limits {
     }
 }
 
-/// Fraction of the friction that a plan uses.
-const FRICTION_FRACTION: f64 = 0.7;
-/// Fraction of the largest lean that a plan uses.
-const LEAN_FRACTION: f64 = 0.85;
-/// Fraction of the drive's force that a plan uses.
-const DRIVE_FRACTION: f64 = 0.9;
-
 impl SpeedPlan {
     /// The fastest plan along a path.
     pub fn new(table: &Table, limits: &Limits, longitudinal: &Longitudinal) -> Self {
+        // Fraction of the drive's force that a plan uses.
+        const DRIVE_FRACTION: f64 = 0.9;
         let nodes = (table.count() - 1) * DIVISIONS_PER_ROW + 1;
         let place = |node: usize| {
             let row = (node / DIVISIONS_PER_ROW).min(table.count() - 2);

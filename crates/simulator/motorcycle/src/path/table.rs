@@ -182,13 +182,12 @@ fn between(values: &PathColumn, Between { row, fraction }: Between) -> f64 {
     values[row] + fraction * (values[row + 1] - values[row])
 }
 
-/// Least distance between two rows \[m\].
-const MIN_ROW_DISTANCE: f64 = 0.1;
-/// Least speed limit, except at the end of a path that does not repeat \[m/s\].
-const MIN_SPEED_LIMIT: f64 = 1.0;
-
 /// Checks the custom path.
 fn check(path: &Path) -> Result<(), ParameterError> {
+    // Least distance between two rows [m].
+    const MIN_ROW_DISTANCE: f64 = 0.1;
+    // Least speed limit, except at the end of a path that does not repeat [m/s].
+    const MIN_SPEED_LIMIT: f64 = 1.0;
     let count = path.count as usize;
     if count < 2 {
         return refuse("path.point.count", format!("is {count}; a custom path has two rows at least"));
