@@ -16,9 +16,6 @@ use crate::{
     terminals,
 };
 
-/// Largest FMU that is read, packed or unpacked \[bytes\].
-const MAX_FMU_SIZE: u64 = 256_000_000;
-
 /// Path of the description in an FMU.
 const MODEL_DESCRIPTION: &str = "modelDescription.xml";
 
@@ -36,6 +33,8 @@ impl Unpacked {
     /// # Errors
     /// The file cannot be read, is too large, or is no archive.
     pub fn open(file: &Path) -> Result<Self, Error> {
+        // Largest FMU that is read, packed or unpacked [bytes].
+        const MAX_FMU_SIZE: u64 = 256_000_000;
         let bytes = moris_fmu_host::files::bytes(file, MAX_FMU_SIZE)
             .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
         let files = unpack(&bytes, MAX_FMU_SIZE)

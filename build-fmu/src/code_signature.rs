@@ -6,8 +6,6 @@ use sha2::{Digest, Sha256};
 
 /// First bytes of a 64-bit Mach-O file.
 const MACH_O: u32 = 0xfeed_facf;
-/// Size of its header, after which the load commands stand \[bytes\].
-const HEADER_SIZE: usize = 32;
 /// The load command that says where the signature is.
 const CODE_SIGNATURE: u32 = 0x1d;
 /// The part of a signature that has the hashes.
@@ -44,6 +42,8 @@ impl Directory {
 
 /// The directories of a signed library; none of any other file, or of one that ends too early.
 fn directories(library: &[u8]) -> Option<Vec<Directory>> {
+    // Size of the file's header, after which the load commands stand [bytes].
+    const HEADER_SIZE: usize = 32;
     let little = |place: usize| library.get(place..)?.first_chunk().map(|bytes| u32::from_le_bytes(*bytes));
     // A signature's numbers are in the other byte order.
     let big = |place: usize| Some(u32::from_be_bytes(*library.get(place..)?.first_chunk()?) as usize);

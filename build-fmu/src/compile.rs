@@ -8,9 +8,6 @@ use std::process::Command;
 
 use crate::{Error, FmiVersion, FmuModel, Platform, macos_stub, tools, workspace};
 
-/// The glibc that zig links for: that of RHEL 7, and the oldest that Rust supports.
-const OLDEST_GLIBC: &str = "2.17";
-
 /// Compilation plan of the library for a platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
@@ -137,6 +134,8 @@ impl Plan {
 
     /// The target as cargo and cargo-zigbuild name it.
     fn target(&self) -> String {
+        // The glibc that zig links for: that of RHEL 7, and the oldest that Rust supports.
+        const OLDEST_GLIBC: &str = "2.17";
         match self.linker {
             Linker::Zig => format!("{}.{OLDEST_GLIBC}", self.platform.target()),
             Linker::Host | Linker::Lld | Linker::Mingw => self.platform.target().to_owned(),

@@ -3,12 +3,11 @@
 use crate::model::Wording;
 use crate::{FmiVersion, FmuModel, Start};
 
-/// The page, with places in double braces.
-const PAGE_TEMPLATE: &str = include_str!("../documentation/page.html");
-const PAGE_STYLE: &str = include_str!("../documentation/style.css");
-
 /// `documentation/index.html`: the model's sections, then its tables of variables.
 pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
+    // The page, with places in double braces.
+    const PAGE_TEMPLATE: &str = include_str!("../documentation/page.html");
+    const PAGE_STYLE: &str = include_str!("../documentation/style.css");
     let variables = model.variables(fmi, start);
     let identity = &model.functions.identity;
     let sections = || {

@@ -11,19 +11,16 @@ use moris_interface::{Causality, Identity, Kind, Model, SlotModel};
 
 use crate::archive::Contents;
 
-/// Directory of the layered standard's files.
-const REFERENCE_DIRECTORY: &str = "extra/org.fmi-standard.fmi-ls-ref";
-const MANIFEST_TEMPLATE: &str = include_str!("../reference/fmi-ls-manifest.xml");
-const EXPERIMENTS_TEMPLATE: &str = include_str!("../reference/experiments.exp");
-
 /// The communication steps in a second: inputs are set at the beginning of each and held.
 const STEPS_PER_SECOND: usize = 100;
-/// Communication steps from one row of the output to the next.
-const STEPS_PER_ROW: usize = 20;
 
 /// The files of a model's reference ride, given its tables of inputs and outputs;
 /// `stop` is its end \[s\].
 pub fn files(name: &str, stop: f64, input: String, output: String) -> Contents {
+    // Directory of the layered standard's files.
+    const REFERENCE_DIRECTORY: &str = "extra/org.fmi-standard.fmi-ls-ref";
+    const MANIFEST_TEMPLATE: &str = include_str!("../reference/fmi-ls-manifest.xml");
+    const EXPERIMENTS_TEMPLATE: &str = include_str!("../reference/experiments.exp");
     let fill = |text: &str| {
         text.replace("{{name}}", name)
             .replace("{{stop}}", &stop.to_string())
@@ -107,6 +104,8 @@ impl Stimuli {
 /// # Panics
 /// An input is not one of the model's, or its start values are not usable.
 pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
+    // Communication steps from one row of the output to the next.
+    const STEPS_PER_ROW: usize = 20;
     let identity = M::IDENTITY;
     let inputs: Vec<usize> =
         input.names[1..].iter().map(|name| identity.slot(name).expect("one of the model's inputs")).collect();

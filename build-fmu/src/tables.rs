@@ -31,11 +31,10 @@ pub const TABLES: &[Table] = &[
     Table { page: "docs/strategies/predictive.md", name: "predictive", text: parameters },
 ];
 
-const END_OF_TABLE: &str = "<!-- end of table -->\n";
-
 impl Table {
     /// The page's text with this table in its place. None if the page has no place for it.
     pub fn within(&self, page: &str) -> Option<String> {
+        const END_OF_TABLE: &str = "<!-- end of table -->\n";
         let (before, rest) = page.split_once(&self.begin())?;
         let (_, after) = rest.split_once(END_OF_TABLE)?;
         Some(format!("{before}{}{}{END_OF_TABLE}{after}", self.begin(), (self.text)(self.name)))

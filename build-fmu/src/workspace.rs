@@ -13,6 +13,8 @@ use crate::Error;
 /// It is not that of the compilation: cargo takes the program for fresh in a
 /// copy of the sources, too. A released program shows no directory of the machine that made it.
 pub fn root() -> &'static Path {
+    // A file that only the sources of this project have, seen from their root.
+    const MARKER_FILE: &str = "build-fmu/Cargo.toml";
     static ROOT: OnceLock<PathBuf> = OnceLock::new();
     ROOT.get_or_init(|| {
         let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
@@ -26,9 +28,6 @@ pub fn root() -> &'static Path {
         starts.iter().flatten().find_map(around).unwrap_or_else(|| PathBuf::from("."))
     })
 }
-
-/// A file that only the sources of this project have, seen from their root.
-const MARKER_FILE: &str = "build-fmu/Cargo.toml";
 
 /// Directory of FMUs by default: the environment's `MORIS_FMUS`, or `fmu` in the directory in which
 /// cargo compiles.

@@ -17,8 +17,6 @@ use crate::archive::Contents;
 use crate::{Error, FmiVersion, FmuModel, Start, compile, library, tools, workspace};
 
 const WEBASSEMBLY_TARGET: &str = "wasm32-unknown-unknown";
-/// The version of WABT whose output the runtime in `c/` serves.
-const WASM2C_VERSION: &str = "1.0.32";
 /// Places of the module's two files in an FMU.
 const DECLARATIONS_PATH: &str = "sources/module.h";
 const CODE_PATH: &str = "sources/module_code.h";
@@ -62,6 +60,8 @@ impl Sources {
     /// # Errors
     /// A tool is missing, or fails.
     pub fn make(model: &FmuModel, fmi: FmiVersion) -> Result<Self, Error> {
+        // The version of WABT whose output the runtime in `c/` serves.
+        const WASM2C_VERSION: &str = "1.0.32";
         tools::wasm2c(WEBASSEMBLY_TARGET, WASM2C_VERSION)?;
         let directory = workspace::target_directory().join(WEBASSEMBLY_TARGET).join(compile::WEBASSEMBLY_PROFILE);
         let module = directory.join(format!("{}.wasm", model.library(fmi)));

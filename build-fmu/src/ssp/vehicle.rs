@@ -15,8 +15,6 @@ use crate::base::Unpacked;
 const REPLACED_COMPONENT: &str = "motorcycle";
 /// Path of the vehicle's FMU in the package.
 pub const VEHICLE_FMU: &str = "resources/Vehicle.fmu";
-/// Inputs of the washout without which nothing is felt.
-const REQUIRED_INPUTS: [&str; 3] = ["vehicle.specificForce.x", "vehicle.specificForce.y", "vehicle.specificForce.z"];
 
 /// A vehicle's FMU of FMI 2.0, and what it is connected to.
 pub struct Vehicle {
@@ -68,6 +66,9 @@ impl Vehicle {
     /// The file is no FMU of FMI 2.0 for co-simulation, lacks a variable, or leaves a specific
     /// force without an output.
     pub fn open(file: &Path, connected: &[String]) -> Result<Self, Error> {
+        // Inputs of the washout without which nothing is felt.
+        const REQUIRED_INPUTS: [&str; 3] =
+            ["vehicle.specificForce.x", "vehicle.specificForce.y", "vehicle.specificForce.z"];
         let refused = |reason: String| Error::Base { file: file.to_owned(), reason };
         let unpacked = Unpacked::open(file)?;
         let text = unpacked.model_description().map_err(refused)?;

@@ -22,11 +22,6 @@ use moris_washout::{Input, Output, Parameters, Preview, Washout};
 
 /// Size of the buffer for a washout with the strategies that are built in, in bytes.
 pub const BUFFER_SIZE: usize = if cfg!(feature = "predictive") { 288 << 10 } else { 24 << 10 };
-/// Alignment of the buffer in bytes.
-const BUFFER_ALIGNMENT: usize = 8;
-const PARAMETER_COUNT: usize = slot_count(Parameters::ROWS);
-const INPUT_COUNT: usize = slot_count(Input::ROWS);
-const PREVIEW_COUNT: usize = slot_count(Preview::ROWS);
 /// Elements of the output.
 pub const OUTPUT_COUNT: usize = slot_count(Output::ROWS);
 
@@ -75,6 +70,9 @@ unsafe fn create(
     parameters: *const f64,
     count: usize,
 ) -> Result<*mut Washout, Cow<'static, str>> {
+    // Alignment of the buffer [bytes].
+    const BUFFER_ALIGNMENT: usize = 8;
+    const PARAMETER_COUNT: usize = slot_count(Parameters::ROWS);
     if buffer.is_null() || size < BUFFER_SIZE || buffer.align_offset(BUFFER_ALIGNMENT) != 0 {
         let reason = "buffer: is NULL, smaller than moris_buffer_size() or not aligned to 8 bytes; give another one";
         return Err(reason.into());
@@ -102,6 +100,7 @@ unsafe fn create(
 /// `washout` comes from [`moris_create`], `input` points to an input's numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn moris_step(washout: *mut Washout, input: *const f64, step: f64) {
+    const INPUT_COUNT: usize = slot_count(Input::ROWS);
     // SAFETY: the caller promises both.
     if let (Some(washout), input) = unsafe { (washout.as_mut(), slice::from_raw_parts(input, INPUT_COUNT)) } {
         washout.step(&Input::read(&mut Reader::new(input)), step);
@@ -114,6 +113,7 @@ pub unsafe extern "C" fn moris_step(washout: *mut Washout, input: *const f64, st
 /// `washout` comes from [`moris_create`], `preview` points to a preview's numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn moris_preview(washout: *mut Washout, preview: *const f64) {
+    const PREVIEW_COUNT: usize = slot_count(Preview::ROWS);
     // SAFETY: the caller promises both.
     if let (Some(washout), preview) = unsafe { (washout.as_mut(), slice::from_raw_parts(preview, PREVIEW_COUNT)) } {
         washout.preview(&Preview::read(&mut Reader::new(preview)));

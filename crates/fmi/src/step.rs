@@ -6,11 +6,6 @@ use crate::{CallError, Instance};
 
 /// Tolerance of a step's end beyond a limit, relative to the limit.
 const LIMIT_TOLERANCE: f64 = 1e-9;
-/// Tolerance of a host's time, relative to the step ...
-const STEP_TOLERANCE: f64 = 1e-6;
-/// ... and to the time itself: a few units in the last place. A larger one would accept a repeated
-/// step late in a long simulation, or at a calendar's time.
-const TIME_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 /// Most of a step by which the rounding of a host in single precision may shift its time. A step
 /// that is repeated or left out is off by a whole one.
 const MOST_ROUNDING: f64 = 0.9;
@@ -24,6 +19,11 @@ fn single_rounding(time: f64) -> f64 {
 
 /// Deviation of a step's beginning that is rounding \[s\].
 fn time_tolerance(time: f64, step: f64) -> f64 {
+    // Tolerance of a host's time, relative to the step ...
+    const STEP_TOLERANCE: f64 = 1e-6;
+    // ... and to the time itself: a few units in the last place. A larger one would accept a
+    // repeated step late in a long simulation, or at a calendar's time.
+    const TIME_TOLERANCE: f64 = 8.0 * f64::EPSILON;
     let double = TIME_TOLERANCE * time.abs() + STEP_TOLERANCE * step;
     double.max(single_rounding(time).min(MOST_ROUNDING * step))
 }

@@ -51,9 +51,6 @@ macro_rules! scalar {
 }
 pub(crate) use scalar;
 
-/// Rounding of a value, relative to its range.
-const RELATIVE_ROUNDING: f64 = 1e-9;
-
 /// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -124,6 +121,8 @@ impl VariableInfo {
     /// The end of the range that the model uses in place of `value`; `None` where the difference is
     /// not more than rounding.
     pub fn replacement(&self, value: f64) -> Option<f64> {
+        // Rounding of a value, relative to its range.
+        const RELATIVE_ROUNDING: f64 = 1e-9;
         let end = value.clamp(self.lower, self.upper);
         ((value - end).abs() > RELATIVE_ROUNDING * (self.upper - self.lower)).then_some(end)
     }

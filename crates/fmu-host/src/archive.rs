@@ -7,11 +7,10 @@ use tempfile::TempDir;
 
 use crate::HostError;
 
-/// Largest FMU, packed or unpacked \[bytes\].
-const MAX_ARCHIVE_SIZE: u64 = 1_000_000_000;
-
 /// Unpacks an FMU into a new temporary directory.
 pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
+    // Largest FMU, packed or unpacked [bytes].
+    const MAX_ARCHIVE_SIZE: u64 = 1_000_000_000;
     let file_error = |source| HostError::File { path: path.into(), source };
     let archive_error = |source| match source {
         ArchiveError::Read(source) => file_error(source),

@@ -80,13 +80,12 @@ pub(crate) struct Description {
     pub declarations: HashMap<String, Declaration>,
 }
 
-/// Elements of an array that a host gets and sets.
-const MAX_ARRAY_LENGTH: usize = 4096;
-
 impl Description {
     /// A variable by name. `name[2]` and `name[2,3]` are elements of an array
     /// `name`, counted from 1.
     pub fn find(&self, name: &str) -> Option<(Variable, &Declaration, Option<Element>)> {
+        // Elements of an array that a host gets and sets.
+        const MAX_ARRAY_LENGTH: usize = 4096;
         let named = |name: &str| self.variables.get(name).copied().zip(self.declarations.get(name));
         if let Some((variable, declaration)) = named(name) {
             return Some((variable, declaration, None));

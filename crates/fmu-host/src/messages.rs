@@ -20,9 +20,6 @@ pub struct Message {
 /// The messages so far, oldest first. Its address is the environment that [`log`] gets.
 pub(crate) type Messages = Mutex<Vec<Message>>;
 
-/// On these, arguments in the variable part are passed differently from others.
-const ARGUMENT_UNREADABLE: bool = cfg!(all(target_vendor = "apple", target_arch = "aarch64"));
-
 /// The host's function for messages: keeps them.
 pub(crate) unsafe extern "C" fn log(
     environment: *mut c_void,
@@ -32,6 +29,8 @@ pub(crate) unsafe extern "C" fn log(
     message: Text,
     argument: Text,
 ) {
+    // On these, arguments in the variable part are passed differently from others.
+    const ARGUMENT_UNREADABLE: bool = cfg!(all(target_vendor = "apple", target_arch = "aarch64"));
     // SAFETY: the environment is the address that the host passed, and outlives the instance.
     let Some(messages) = (unsafe { environment.cast::<Messages>().as_ref() }) else { return };
     let string = |text: Text| {

@@ -72,9 +72,6 @@ pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G
     Ok(())
 }
 
-/// Largest number of slots of a group that is extrapolated.
-const MOST_EXTRAPOLATED: usize = 64;
-
 /// A struct whose fields are variables of the interface: made by [`interface!`]
 /// and [`interface_tree!`].
 pub trait Group: Default + 'static {
@@ -125,6 +122,8 @@ pub trait Group: Default + 'static {
     /// The values after `time` at these slopes. Booleans and whole numbers keep their values where
     /// their slopes are zero.
     fn extrapolated(&self, slope: &Self, time: f64) -> Self {
+        // Largest number of slots of a group that is extrapolated.
+        const MOST_EXTRAPOLATED: usize = 64;
         const { assert!(slot_count(Self::ROWS) <= MOST_EXTRAPOLATED) }
         let mut buffer = [[0.0; MOST_EXTRAPOLATED]; 2];
         let [values, slopes] = buffer.each_mut().map(|buffer| &mut buffer[..const { slot_count(Self::ROWS) }]);

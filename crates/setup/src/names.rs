@@ -1,15 +1,14 @@
 //! Which of the right names a wrong one was meant to be.
 
-/// Least similarity of a proposed name to the wrong one, from 0 to 1.
-const MIN_NAME_SIMILARITY: f64 = 0.6;
-/// Largest loss of similarity of a further proposal against the best.
-const ALMOST_AS_ALIKE: f64 = 0.15;
-/// No more than this many are proposed.
-const MAX_PROPOSALS: usize = 3;
-
 /// The candidates that look most like `name`, the best first; none that does not look like it at
 /// all.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    // Least similarity of a proposed name to the wrong one, from 0 to 1.
+    const MIN_NAME_SIMILARITY: f64 = 0.6;
+    // Largest loss of similarity of a further proposal against the best.
+    const ALMOST_AS_ALIKE: f64 = 0.15;
+    // No more than this many are proposed.
+    const MAX_PROPOSALS: usize = 3;
     let name = name.to_lowercase();
     let mut scored: Vec<(f64, &str)> = candidates
         .into_iter()

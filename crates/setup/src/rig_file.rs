@@ -178,24 +178,16 @@ const RIG_FILE_KEYS: &str = "name neutralHeight base.radius base.degrees base.jo
 
 /// A platform larger than this, in metres, has been given in other units.
 const MAX_PLATFORM_SIZE: f64 = 30.0;
-/// Joints closer than this to each other are one \[m\].
-const MIN_JOINT_DISTANCE: f64 = 1e-3;
-/// A leg faster than this, in m/s, has been given in other units.
-const MAX_LEG_SPEED: f64 = 20.0;
-/// A leg with more than this, in m/s2, has been given in other units.
-const LARGEST_ACCELERATION: f64 = 500.0;
-/// A crank faster than this, in rad/s, has been given in degrees.
-const MAX_CRANK_SPEED: f64 = 60.0;
-/// A crank with more than this, in rad/s2, has been given in degrees.
-const MAX_CRANK_ACCELERATION: f64 = 5000.0;
-/// A leg thicker than this, in metres, has been given in other units.
-const LARGEST_DIAMETER: f64 = 1.0;
 
 /// Reads the text of a rig file. `source_name` is what errors call the file.
 ///
 /// # Errors
 /// Text that is not TOML; a key that is not one, is missing or has a value that it cannot have.
 pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
+    // Remedy for a rig of another kind.
+    const OTHER_KIND: &str = "rigs with six legs in a table [actuator], or six motors with arms and rods in a table [crank], are \
+                              supported, not cables or fewer legs; docs/platforms.md has the keys, and says how the pose \
+                              serves other rigs";
     let toml_error = |error| Error::toml(source_name, &error, "a rig file is TOML; copy examples/rigs/default.toml");
     let table: toml::Table = text.parse().map_err(toml_error)?;
     // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
@@ -220,11 +212,6 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
     file.check_joints(source_name)?;
     Ok(file)
 }
-
-/// Remedy for a rig of another kind.
-const OTHER_KIND: &str = "rigs with six legs in a table [actuator], or six motors with arms and rods in a table [crank], are \
-                          supported, not cables or fewer legs; docs/platforms.md has the keys, and says how the pose \
-                          serves other rigs";
 
 /// True for a key of other mechanisms than legs and cranks.
 fn is_other_kind(key: &str) -> bool {
@@ -278,6 +265,10 @@ impl Joints {
 impl Crank {
     /// Values with the largest that can be meant, and their units.
     fn units(&self) -> [(&'static str, f64, f64, [&'static str; 2]); 4] {
+        // A crank faster than this, in rad/s, has been given in degrees.
+        const MAX_CRANK_SPEED: f64 = 60.0;
+        // A crank with more than this, in rad/s2, has been given in degrees.
+        const MAX_CRANK_ACCELERATION: f64 = 5000.0;
         [
             ("crank.arm", self.arm, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
             ("crank.rod", self.rod, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
@@ -309,6 +300,10 @@ impl Crank {
 impl RigFile {
     /// Checks beyond the file's syntax: each joint once, and lengths in metres.
     fn check_joints(&self, source_name: &str) -> Result<(), Error> {
+        // Joints closer than this to each other are one [m].
+        const MIN_JOINT_DISTANCE: f64 = 1e-3;
+        // A leg thicker than this, in metres, has been given in other units.
+        const LARGEST_DIAMETER: f64 = 1.0;
         for (name, joints) in [("base", &self.base), ("platform", &self.platform)] {
             let wrong = |reason: String| Error::wrong_value(source_name, &format!("[{name}]"), reason);
             let joints = joints
@@ -361,6 +356,10 @@ impl RigFile {
     /// Checks that the legs' lengths are in metres from joint to joint, and their limits in m/s and
     /// m/s2.
     fn check_actuators(&self, legs: &Actuator, source_name: &str) -> Result<(), Error> {
+        // A leg faster than this, in m/s, has been given in other units.
+        const MAX_LEG_SPEED: f64 = 20.0;
+        // A leg with more than this, in m/s2, has been given in other units.
+        const LARGEST_ACCELERATION: f64 = 500.0;
         let Actuator { min_length, max_length, velocity_limit, acceleration_limit, .. } = *legs;
         let values = [
             ("actuator.minLength", min_length, MAX_PLATFORM_SIZE, ["m", "millimetres"]),

@@ -12,12 +12,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const WEBASSEMBLY_TARGET: &str = "wasm32-unknown-unknown";
-const MODULE_PACKAGE: &str = "moris-pages";
-/// Examples of the package that are modules, the feature that each takes, and what is missing
-/// without one.
-const WEBASSEMBLY_MODULES: [(&str, &str, &str); 2] =
-    [("page_simulation", "", "the report's page will not simulate"), ("page_ride", "ride", "there will be no ride")];
-const MODULE_PROFILE: &str = "page-simulation";
 
 /// Directories of the workspace whose files the modules are compiled of.
 const SOURCE_DIRECTORIES: [&str; 9] = [
@@ -43,6 +37,12 @@ const OF_THE_HOST: [&str; 6] = [
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
+    // Examples of the package that are modules, the feature that each takes, and what is missing
+    // without one.
+    const WEBASSEMBLY_MODULES: [(&str, &str, &str); 2] = [
+        ("page_simulation", "", "the report's page will not simulate"),
+        ("page_ride", "ride", "there will be no ride"),
+    ];
     let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?).join("../../..");
     let out = PathBuf::from(variable("OUT_DIR")?);
     for source in SOURCE_DIRECTORIES {
@@ -144,6 +144,8 @@ fn is_added() -> Result<bool, Box<dyn Error>> {
 /// A module, compiled in a directory of its own, because this build holds the lock of its
 /// own. All profiles share it.
 fn compile(root: &Path, out: &Path, [name, feature]: [&str; 2], missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+    const MODULE_PACKAGE: &str = "moris-pages";
+    const MODULE_PROFILE: &str = "page-simulation";
     // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
     let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
     let mut command = Command::new(variable("CARGO")?);

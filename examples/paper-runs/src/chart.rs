@@ -14,22 +14,13 @@ use crate::thin::thin;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-const PICTURE_WIDTH: u32 = 1600;
 const LABEL_FONT: &str = "sans-serif";
 const FONT_SIZE: i32 = 26;
 const TEXT_COLOUR: RGBColor = RGBColor(40, 40, 40);
-const GRID_COLOUR: RGBColor = RGBColor(222, 222, 222);
 const LIMIT_COLOUR: RGBColor = RGBColor(190, 30, 45);
-
-/// Background of the second that is enlarged.
-const ENLARGED_COLOUR: RGBColor = RGBColor(238, 238, 238);
-/// Fraction of a panel's width for the whole, where a second is enlarged beside it.
-const WHOLE_WIDTH_FRACTION: f64 = 0.72;
 
 /// Fraction of a panel's height reserved for its legend, above the curves.
 const LEGEND_HEIGHT: f64 = 0.16;
-/// Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a pixel.
-const CURVE_TOLERANCE: f64 = 0.0005;
 
 /// A diagram of curves over time.
 #[derive(Clone, Debug, Default)]
@@ -79,6 +70,7 @@ impl Stroke {
 /// # Errors
 /// The file cannot be written.
 pub fn draw(path: &Path, panels: &[Panel], panel_height: u32) -> Result<()> {
+    const PICTURE_WIDTH: u32 = 1600;
     let root = SVGBackend::new(path, (PICTURE_WIDTH, panel_height * panels.len() as u32)).into_drawing_area();
     root.fill(&WHITE)?;
     for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
@@ -89,6 +81,8 @@ pub fn draw(path: &Path, panels: &[Panel], panel_height: u32) -> Result<()> {
 }
 
 fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
+    // Fraction of a panel's width for the whole, where a second is enlarged beside it.
+    const WHOLE_WIDTH_FRACTION: f64 = 0.72;
     let end = panel.curves.iter().filter_map(|curve| curve.points.last()).map(|point| point.0).fold(0.0, f64::max);
     let Some(from) = panel.enlarged else {
         return draw_diagram(area, panel, 0.0..end);
@@ -106,6 +100,12 @@ fn within(points: &[(f64, f64)], from: f64, to: f64) -> Vec<(f64, f64)> {
 }
 
 fn draw_diagram(area: &Area, panel: &Panel, times: Range<f64>) -> Result<()> {
+    const GRID_COLOUR: RGBColor = RGBColor(222, 222, 222);
+    // Background of the second that is enlarged.
+    const ENLARGED_COLOUR: RGBColor = RGBColor(238, 238, 238);
+    // Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a
+    // pixel.
+    const CURVE_TOLERANCE: f64 = 0.0005;
     let (bottom, top) = vertical_range(panel);
     let Range { start, end } = times;
     let is_part = start > 0.0;

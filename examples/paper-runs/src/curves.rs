@@ -8,14 +8,6 @@ use anyhow::{Context, Result};
 
 use crate::trace::{Sample, Trace};
 
-/// Time between the rows \[s\], if the run's steps are shorter.
-const MIN_ROW_INTERVAL: f64 = 0.01;
-
-const COLUMN_TITLES: &str = "time [s],desired force x [m/s2],desired force y [m/s2],desired force z [m/s2],felt force x [m/s2],\
-felt force y [m/s2],felt force z [m/s2],desired rate x [rad/s],desired rate y [rad/s],desired rate z [rad/s],\
-felt rate x [rad/s],felt rate y [rad/s],felt rate z [rad/s],position x [m],position y [m],position z [m],\
-leg 1 [m],leg 2 [m],leg 3 [m],leg 4 [m],leg 5 [m],leg 6 [m]";
-
 /// Writes a CSV file for each trace into the directory and returns their paths.
 ///
 /// # Errors
@@ -37,6 +29,12 @@ fn file_stem(trace: &Trace) -> String {
 }
 
 fn table(trace: &Trace) -> String {
+    // Time between the rows [s], if the run's steps are shorter.
+    const MIN_ROW_INTERVAL: f64 = 0.01;
+    const COLUMN_TITLES: &str = "time [s],desired force x [m/s2],desired force y [m/s2],desired force z [m/s2],felt force x [m/s2],\
+    felt force y [m/s2],felt force z [m/s2],desired rate x [rad/s],desired rate y [rad/s],desired rate z [rad/s],\
+    felt rate x [rad/s],felt rate y [rad/s],felt rate z [rad/s],position x [m],position y [m],position z [m],\
+    leg 1 [m],leg 2 [m],leg 3 [m],leg 4 [m],leg 5 [m],leg 6 [m]";
     let every = ((MIN_ROW_INTERVAL / trace.step).round() as usize).max(1);
     let mut text = format!("{COLUMN_TITLES}\n");
     for sample in trace.samples.iter().step_by(every) {

@@ -12,17 +12,10 @@ use moris_simulation::drives::runs::{A, B, C, TOWN};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
 const COLOUR_BLUE: RGBColor = RGBColor(0, 114, 178);
-const COLOUR_VERMILION: RGBColor = RGBColor(213, 94, 0);
 const COLOUR_GREEN: RGBColor = RGBColor(0, 158, 115);
 const COLOUR_PURPLE: RGBColor = RGBColor(204, 121, 167);
-const COLOUR_SKY: RGBColor = RGBColor(86, 180, 233);
-const COLOUR_ORANGE: RGBColor = RGBColor(230, 159, 0);
-const COLOUR_GREY: RGBColor = RGBColor(170, 170, 170);
 
-const FORCE_LABEL: &str = "specific force [m/s²]";
-const RATE_LABEL: &str = "angular velocity [deg/s]";
 const PANEL_HEIGHT: u32 = 560;
-const RIDE_PANEL_HEIGHT: u32 = 360;
 
 /// Writes `figure-5.svg` to `figure-9.svg` into the directory and returns their paths.
 ///
@@ -63,6 +56,7 @@ pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
 /// # Errors
 /// The ride is missing from the traces, or the file cannot be written.
 pub fn write_ride(path: &Path, traces: &[Trace]) -> Result<()> {
+    const RIDE_PANEL_HEIGHT: u32 = 360;
     let ride = runs(traces, TOWN.name)?;
     let surge = "Surge: what the vehicle asks for, and what the rider feels".to_owned();
     let panels = [
@@ -81,6 +75,7 @@ fn runs<'a>(traces: &'a [Trace], run: &str) -> Result<Vec<&'a Trace>> {
 }
 
 fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
+    const FORCE_LABEL: &str = "specific force [m/s²]";
     let quantity = format!("specific force along {}_H", ["x", "y", "z"][axis]);
     Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
@@ -91,6 +86,7 @@ fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
 }
 
 fn rate(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
+    const RATE_LABEL: &str = "angular velocity [deg/s]";
     let quantity = format!("ω_{} at the head", ["x", "y", "z"][axis]);
     Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
@@ -131,6 +127,8 @@ fn felt_against_desired(
     desired: impl Fn(&Sample) -> f64,
     felt: impl Fn(&Sample) -> f64,
 ) -> Vec<Curve> {
+    const COLOUR_VERMILION: RGBColor = RGBColor(213, 94, 0);
+    const COLOUR_GREY: RGBColor = RGBColor(170, 170, 170);
     let mut curves = vec![curve("desired", COLOUR_GREY, Stroke::Broad, runs[0], desired)];
     let colours = [COLOUR_BLUE, COLOUR_VERMILION, COLOUR_GREEN, COLOUR_PURPLE, BLACK];
     assert!(runs.len() <= colours.len(), "no colour for each of {} curves", runs.len());
@@ -149,6 +147,8 @@ fn felt_against_desired(
 /// The six legs. In a straight run legs 2, 6 and 5 do as 1, 3 and 4 do, and are dashed on top of
 /// them to show it.
 fn legs(figure: &str, run: &Trace) -> Panel {
+    const COLOUR_SKY: RGBColor = RGBColor(86, 180, 233);
+    const COLOUR_ORANGE: RGBColor = RGBColor(230, 159, 0);
     let styles = [
         (COLOUR_BLUE, Stroke::Broad),
         (COLOUR_ORANGE, Stroke::Dashed),

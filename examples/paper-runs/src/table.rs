@@ -6,11 +6,6 @@ use moris_simulation::measures::fidelity::fidelity;
 
 use crate::trace::{Sample, Trace};
 
-/// Stands where a number is not defined.
-const UNDEFINED_MARK: &str = "–";
-
-const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
-
 /// Rows of cells under a header; displayed with aligned columns, the first ones' text to the left
 /// and numbers to the right.
 #[derive(Clone, Debug)]
@@ -70,6 +65,9 @@ fn fidelity_table(
     traces: &[Trace],
     on_axis: impl Fn(&Sample, usize) -> [f64; 2],
 ) -> Table {
+    // Stands where a number is not defined.
+    const UNDEFINED_MARK: &str = "–";
+    const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
     let row = |trace: &Trace, axis: usize| {
         let [desired, felt] = [0, 1].map(|which| trace.series(|sample| on_axis(sample, axis)[which]));
         let fidelity = fidelity(&desired, &felt, trace.step)?;

@@ -5,10 +5,6 @@ use moris_interface::{Causality, Identity, Row};
 use super::xml::Element;
 use super::{origin, units};
 
-/// Relative tolerance for tools that ask for one. The models step without error control: runs with
-/// different communication steps agree to this.
-const DEFAULT_TOLERANCE: f64 = 1e-3;
-
 /// The root with its attributes. `token` is the attribute that identifies the description as the
 /// binary's own, with its value.
 pub(crate) fn root(identity: &Identity, fmi_version: &str, token: (&'static str, String)) -> Element {
@@ -54,6 +50,9 @@ pub(crate) fn log_categories<'a>(categories: impl IntoIterator<Item = (&'a str, 
 
 /// Experiment that a host runs by default; times in seconds.
 pub(crate) fn default_experiment(identity: &Identity) -> Element {
+    // Relative tolerance for tools that ask for one. The models step without error control: runs
+    // with different communication steps agree to this.
+    const DEFAULT_TOLERANCE: f64 = 1e-3;
     Element::new("DefaultExperiment")
         .with("startTime", 0.0)
         .with("stopTime", identity.stop_time)

@@ -64,16 +64,12 @@ impl Serialize for Element {
     }
 }
 
-/// Indentation of a variable, in spaces.
-const VARIABLE_DEPTH: usize = 4;
-
-const XML_DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
-
 /// The text of a file, such as a description of either version as `modelDescription.xml` has it:
 /// UTF-8, indented, a variable a line.
 ///
 /// Numbers are written in the shortest form that reads back as the very same number.
 pub fn to_xml(description: &Element) -> String {
+    const XML_DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
     let body = indented(description).expect("every part of a model description has an XML form");
     format!("{XML_DECLARATION}\n{}\n", one_variable_a_line(&body))
 }
@@ -88,6 +84,8 @@ fn indented(description: &Element) -> Result<String, SeError> {
 
 /// Joins the lines of each variable, so that a changed variable is one changed line.
 fn one_variable_a_line(xml: &str) -> String {
+    // Indentation of a variable, in spaces.
+    const VARIABLE_DEPTH: usize = 4;
     let mut joined = String::with_capacity(xml.len());
     let mut among_variables = false;
     for line in xml.lines() {

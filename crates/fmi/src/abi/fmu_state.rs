@@ -13,9 +13,6 @@ use crate::{CallError, Guid, InstanceState};
 /// A saved state, as the host holds it.
 type FmuState = *mut c_void;
 
-/// Mark at the beginning of every state of this library. Other memory is unlikely to hold it.
-const LIVE_STATE_MARK: u64 = u64::from_le_bytes(*b"FMUstate");
-
 /// Target of an [`FmuState`].
 #[repr(C)]
 struct State<M> {
@@ -34,6 +31,9 @@ struct Owner {
 
 impl Owner {
     fn of<M: Model, H: Host>(component: &Component<M, H>) -> Self {
+        // Mark at the beginning of every state of this library. Other memory is unlikely to hold
+        // it.
+        const LIVE_STATE_MARK: u64 = u64::from_le_bytes(*b"FMUstate");
         Owner { mark: LIVE_STATE_MARK, guid: component.instance.tables().guid }
     }
 }

@@ -8,8 +8,6 @@ use super::size::shown;
 
 /// Largest text that a person writes, such as a rig or parameters \[bytes\].
 pub const TEXT: u64 = 16_000_000;
-/// Part that is read at a time \[bytes\].
-const READ_CHUNK_SIZE: u64 = 1 << 20;
 
 /// The text of a file of at most `largest` bytes.
 ///
@@ -43,6 +41,8 @@ fn read(
     bytes: &mut Vec<u8>,
     fault: impl Fn(&[u8]) -> Option<&'static str>,
 ) -> io::Result<()> {
+    // Part that is read at a time [bytes].
+    const READ_CHUNK_SIZE: u64 = 1 << 20;
     let mut source = File::open(file)?.take(largest.saturating_add(1));
     loop {
         let before = bytes.len();

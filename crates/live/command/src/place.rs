@@ -6,9 +6,6 @@ use moris_live::frame::{Encoder, Frames};
 
 /// Time for which a report holds \[s\].
 const REPORT_VALIDITY: f64 = 1.0;
-/// Legs that have changed by less than this \[m\] over at least this time \[s\] are at rest.
-const AT_REST_DISTANCE: f64 = 0.003;
-const AT_REST_TIME: f64 = 0.3;
 
 /// Words of a person for the place, beside the options.
 pub const WORDS: &str = "settled, slow";
@@ -86,6 +83,8 @@ impl LegPlace {
 
     /// True if the reports say that the legs are at rest.
     fn is_at_rest(&self) -> bool {
+        // Time for which legs that hardly change must be reported to be at rest [s].
+        const AT_REST_TIME: f64 = 0.3;
         // With rounding of the times.
         self.report.zip(self.rest).is_some_and(|((last, _), (first, _))| last - first >= 0.999 * AT_REST_TIME)
     }
@@ -106,6 +105,8 @@ impl LegPlace {
 
     /// The controller has reported these lengths \[m\].
     pub fn report(&mut self, now: f64, lengths: [f64; 6]) {
+        // Change of the legs from which on they are not at rest [m].
+        const AT_REST_DISTANCE: f64 = 0.003;
         let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > AT_REST_DISTANCE);
         let was_long_ago = self.report.is_some_and(|(at, _)| now - at > REPORT_VALIDITY);
         if was_long_ago || self.rest.is_none_or(|(_, from)| moved(&from)) {

@@ -10,9 +10,8 @@ use std::time::Duration;
 use moris_live::frame::Values;
 
 /// Acceleration of the legs that a glide may add \[m/s2\], of which a rider feels up to four times
-/// as much, and the same as a part of theirs.
+/// as much.
 const GLIDE_ACCELERATION: f64 = 0.25;
-const GLIDE_PART: f64 = 0.3;
 /// Longest step of a glide \[s\].
 const MAX_GLIDE_STEP: f64 = 1e-3;
 
@@ -87,6 +86,8 @@ impl Glide {
 
     /// Goes on by a time \[s\], if its whole way is so far \[m\].
     fn advance(&mut self, time: f64, far: f64, actuators: &Actuators) {
+        // Part of the actuators' acceleration that a glide may add.
+        const GLIDE_PART: f64 = 0.3;
         // Rates at which a glide may go on: with all of its way ahead, and at its end [1/s].
         const GLIDE_PACES: [f64; 2] = [1.0, 4.5];
         let steps = (time / MAX_GLIDE_STEP).ceil();

@@ -7,9 +7,6 @@
 /// Time of a window in which the least lag is taken, and number of windows \[s\].
 const LAG_WINDOW: f64 = 0.1;
 const LAG_WINDOW_COUNT: usize = 10;
-/// A lag that has been longer by this for [`CLOCK_STOP_WINDOWS`] windows is the clock's own \[s\].
-const CLOCK_STOP_THRESHOLD: f64 = 0.05;
-const CLOCK_STOP_WINDOWS: usize = 3;
 
 /// Time of a sample as the clock sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +62,10 @@ impl Lag {
 
     /// Takes a packet whose clock has advanced by `advance` within `passed`.
     fn take(&mut self, arrival: f64, advance: f64, passed: f64) {
+        // A lag that has been longer by this for `CLOCK_STOP_WINDOWS` windows is the clock's own
+        // [s].
+        const CLOCK_STOP_THRESHOLD: f64 = 0.05;
+        const CLOCK_STOP_WINDOWS: usize = 3;
         // Largest speed at which the lag follows a longer one.
         const MAX_LAG_RATE: f64 = 0.05;
         // Longest time after a packet for which the lag follows [s].

@@ -40,8 +40,7 @@ pub const INTERVAL: f64 = 1.0 / 60.0;
 const FADE_PACKETS: u32 = 180;
 /// Equal answers in a row with which a state counts: 50 ms.
 pub const CONFIRMING_ANSWERS: u32 = 3;
-/// Length of an answer, and of a packet \[bytes\].
-const ANSWER_LENGTH: usize = 40;
+/// Length of a packet \[bytes\].
 const PACKET_LENGTH: usize = 32;
 
 /// Word of a packet.
@@ -77,6 +76,8 @@ pub enum Base {
 impl Base {
     /// The state in an answer; none in other packets.
     pub fn of(answer: &[u8]) -> Option<Base> {
+        // Length of an answer [bytes].
+        const ANSWER_LENGTH: usize = 40;
         let word = answer.get(8..12).filter(|_| answer.len() == ANSWER_LENGTH)?;
         Some(match word[3] & 0x0F {
             0x0 => Base::PowerUp,

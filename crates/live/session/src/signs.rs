@@ -10,11 +10,6 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use crate::motion::Sample;
 use crate::relation::{Relation, Sums};
 
-/// Samples from which on it decides, and the time of motion after which signs may agree \[s\].
-/// Within less, two channels that have nothing to do with each other may go together.
-const MIN_SAMPLES: f64 = 40.0;
-const AGREEING_TIME: f64 = 2.0;
-
 /// A check of one sign or axis of the telemetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Check {
@@ -183,6 +178,10 @@ impl Signs {
     }
 
     fn decided(&self, check: Check) -> Verdict {
+        // Samples from which on a check decides, and the time of motion after which signs may agree
+        // [s]. Within less, two channels that have nothing to do with each other may go together.
+        const MIN_SAMPLES: f64 = 40.0;
+        const AGREEING_TIME: f64 = 2.0;
         // Correlation from which on a check decides.
         const DECISIVE_CORRELATION: f64 = 0.5;
         // Largest factor between the sizes of two channels that agree.

@@ -13,36 +13,24 @@ use nalgebra::Vector3;
 use crate::motion::{Channels, Sample};
 use crate::relation::{Relation, Sums};
 
-/// Windows with which two channels are judged, and those for a force that is missing.
+/// Windows with which two channels are judged.
 const ENOUGH_WINDOWS: f64 = 12.0;
-const ENOUGH_BENDS: f64 = 20.0;
 /// Correlation of two channels that are the same quantity, in any unit.
 const SAME_CORRELATION: f64 = 0.8;
 /// The same where the factors of units are near to each other.
 const STRICT_CORRELATION: f64 = 0.9;
-/// Largest factor between a ratio and that of a unit that explains it: far apart, and near to
-/// others.
+/// Largest factor between a ratio and that of a unit of rates that explains it.
 const UNIT_FACTOR: f64 = 1.4;
-const NEAR_UNIT_FACTOR: f64 = 1.2;
-/// Least rates \[rad/s\] and forces \[m/s2\] that say something, as root mean squares.
-const LEAST_RATE: f64 = 0.005;
-const LEAST_EXCHANGED_RATE: f64 = 0.02;
+/// Least forces that say something, as root mean squares \[m/s2\].
 const LEAST_FORCE: f64 = 0.3;
-/// Angles up to which a body's rates are those of its angles, about: in radians that are read as
-/// degrees, too \[rad\].
+/// Angles up to which a body's rates are those of its angles, about \[rad\].
 const LEVEL_ANGLE: f64 = 0.3;
-const LEVEL_IN_DEGREES: f64 = LEVEL_ANGLE * 180.0 / PI;
 /// Roll and pitch beyond which angles are no radians \[rad\].
 const LARGEST_ANGLE: f64 = 1.6;
-/// Radius below which no vehicle turns \[m\], and angular velocity that no head keeps \[rad/s\],
-/// with the part of the windows for it.
-const TIGHTEST_RADIUS: f64 = 1.0;
+/// Angular velocity that no head keeps \[rad/s\].
 const FASTEST_RATE: f64 = 10.0;
-const FAST_PART: f64 = 0.1;
 
-/// Time constant of the mean force, and the times for which it must be of one kind, to contradict
-/// and to agree \[s\].
-const GRAVITY_TIME: f64 = 1.0;
+/// Time for which the mean force must be of one kind, to contradict or to agree \[s\].
 const GRAVITY_HELD: f64 = 1.5;
 
 /// A table that contradicts its telemetry.
@@ -170,6 +158,9 @@ impl Display for Mismatch {
 
 /// The line to change for a force so many times that of the speed.
 fn unit_of_force(ratio: f64) -> Option<&'static str> {
+    // Largest factor between a ratio and that of a unit that explains it: units of force are near
+    // to each other.
+    const NEAR_UNIT_FACTOR: f64 = 1.2;
     const UNITS: [(f64, &str); 6] = [
         (1.0 / STANDARD_GRAVITY, "in the lines of ax, ay and az set unit = \"g\""),
         (STANDARD_GRAVITY, "in the lines of ax, ay and az set unit = \"m/s2\""),
@@ -249,6 +240,8 @@ impl Sizes {
 
     /// Compares the means and slopes of a window.
     fn compare(&mut self, mean: &Channels, slope: &Channels, time: f64, sample: &Sample) {
+        // The level angle where degrees are read as radians.
+        const LEVEL_IN_DEGREES: f64 = LEVEL_ANGLE * 180.0 / PI;
         // A change of an angle within a window that may be a whole turn [rad].
         const WHOLE_TURN_CHANGE: f64 = 3.0;
         // Part of a turn's force that gravity may make up for: a vehicle that leans more is left
@@ -297,6 +290,12 @@ impl Sizes {
     }
 
     fn units_of_rates(&self) -> Option<Mismatch> {
+        // Least rates that say something, as root mean squares [rad/s].
+        const LEAST_RATE: f64 = 0.005;
+        // Radius below which no vehicle turns [m].
+        const TIGHTEST_RADIUS: f64 = 1.0;
+        // Part of the windows that must be faster than any head.
+        const FAST_PART: f64 = 0.1;
         // Speed below which the source has none [m/s].
         const NO_SPEED: f64 = 0.1;
         // Radians in a degree.
@@ -328,6 +327,8 @@ impl Sizes {
 
     /// A rate that is that of another angle, or of bends, while the right one is neither.
     fn exchanged_rates(&self) -> Option<Mismatch> {
+        // Least rates that say something, as root mean squares [rad/s].
+        const LEAST_EXCHANGED_RATE: f64 = 0.02;
         // Correlation below which two channels are not the same quantity, and the factor between
         // them beyond which they are not.
         const OTHER_CORRELATION: f64 = 0.5;
@@ -366,6 +367,8 @@ impl Sizes {
     }
 
     fn missing_bends(&self) -> Option<Mismatch> {
+        // Windows with which a force is judged missing.
+        const ENOUGH_BENDS: f64 = 20.0;
         // Least lateral force of bends, by speed and yaw rate, beside which a force is missing
         // [m/s2], and the part of it below which it is.
         const LEAST_BENDS: f64 = 0.7;
@@ -392,6 +395,8 @@ struct MeanForce {
 
 impl MeanForce {
     fn take(&mut self, interval: f64, sample: &Sample) {
+        // Time constant of the mean force [s].
+        const GRAVITY_TIME: f64 = 1.0;
         // Largest distance of the mean vertical force from gravity [m/s2]: bumps, slopes and hard
         // driving.
         const GRAVITY_TOLERANCE: f64 = 4.0;

@@ -9,13 +9,6 @@ use moris_motorcycle::{Input, Model, Motorcycle, Output, Parameters};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Drawn large, because coordinates are whole pixels; shown at about half its size.
-const PICTURE_WIDTH: u32 = 1600;
-const PANEL_HEIGHT: u32 = 330;
-const LABEL_FONT: (&str, i32) = ("sans-serif", 26);
-const GRID_COLOUR: RGBColor = RGBColor(222, 222, 222);
-const CURVE_COLOURS: [RGBColor; 3] = [RGBColor(31, 119, 180), RGBColor(214, 100, 20), RGBColor(60, 140, 60)];
-
 /// A diagram: what it shows, what the axes say, and named curves.
 struct Panel {
     title: &'static str,
@@ -116,6 +109,9 @@ fn modes() -> Result<Vec<Panel>, Box<dyn Error>> {
 }
 
 fn draw(path: &Path, panels: &[Panel]) -> Result<(), Box<dyn Error>> {
+    // Drawn large, because coordinates are whole pixels; shown at about half its size.
+    const PICTURE_WIDTH: u32 = 1600;
+    const PANEL_HEIGHT: u32 = 330;
     let root = SVGBackend::new(path, (PICTURE_WIDTH, PANEL_HEIGHT * panels.len() as u32)).into_drawing_area();
     root.fill(&WHITE)?;
     for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
@@ -126,6 +122,9 @@ fn draw(path: &Path, panels: &[Panel]) -> Result<(), Box<dyn Error>> {
 }
 
 fn draw_panel(area: &DrawingArea<SVGBackend, Shift>, panel: &Panel) -> Result<(), Box<dyn Error>> {
+    const LABEL_FONT: (&str, i32) = ("sans-serif", 26);
+    const GRID_COLOUR: RGBColor = RGBColor(222, 222, 222);
+    const CURVE_COLOURS: [RGBColor; 3] = [RGBColor(31, 119, 180), RGBColor(214, 100, 20), RGBColor(60, 140, 60)];
     let points = || panel.curves.iter().flat_map(|(_, points)| points);
     let range = |value: fn(&(f64, f64)) -> f64| {
         points().map(value).fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)))

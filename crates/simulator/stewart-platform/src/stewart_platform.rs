@@ -131,6 +131,8 @@ impl Model for StewartPlatform {
     /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
     /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     fn step(&mut self, input: &Input, step: f64) {
+        // Range of the commanded velocities [m/s].
+        const VELOCITY_RANGE: (f64, f64) = bounds_of(Input::ROWS, "command[#].velocity");
         let end = std::array::from_fn(|i| {
             input.length[i] + step * input.velocity[i].clamp(VELOCITY_RANGE.0, VELOCITY_RANGE.1)
         });
@@ -401,11 +403,9 @@ fn ahead(motion: &PlatformMotion, time: f64) -> PlatformMotion {
     }
 }
 
-/// The ranges of the commanded velocities \[m/s\] and of the lean \[rad\].
-const VELOCITY_RANGE: (f64, f64) = bounds_of(Input::ROWS, "command[#].velocity");
-const LEAN_RANGE: (f64, f64) = bounds_of(Input::ROWS, "rider.lean");
-
 /// The lean within its range, or another where it is not a number.
 fn lean_or(lean: f64, other: f64) -> f64 {
+    // Range of the lean [rad].
+    const LEAN_RANGE: (f64, f64) = bounds_of(Input::ROWS, "rider.lean");
     if lean.is_nan() { other } else { lean.clamp(LEAN_RANGE.0, LEAN_RANGE.1) }
 }

@@ -5,15 +5,14 @@ use serde::Serialize;
 use crate::report::shared;
 use crate::ride::page::STYLE as MOTION;
 
-const PAGE_TEMPLATE: &str = include_str!("../page/live/live.html");
-const PAGE_STYLE: &str = include_str!("../page/live/live.css");
-const ENTRY_MODULE: &str = "live/live.js";
-
 /// The whole page as HTML, with the data of its start. It asks its own server alone.
 ///
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(subtitle: &str, data: &impl Serialize) -> String {
+    const PAGE_TEMPLATE: &str = include_str!("../page/live/live.html");
+    const PAGE_STYLE: &str = include_str!("../page/live/live.css");
+    const ENTRY_MODULE: &str = "live/live.js";
     let style = [MOTION, PAGE_STYLE].join("\n");
     let policy = "connect-src 'self'";
     let head = shared::Head { title: "Live", subtitle, style: &style, scripts: "", policy };

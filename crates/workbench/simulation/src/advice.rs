@@ -17,16 +17,8 @@ use crate::{Evaluated, Manoeuvre, Replay, Simulation, capitalised, measures};
 /// \[rad/s\].
 pub const FASTER_TILT: f64 = 6.0_f64.to_radians();
 const SLOWER_TILT: f64 = 2.0_f64.to_radians();
-/// Low-pass on the inputs that is tried against jolts \[rad/s\], and the soft limits' pace
-/// \[rad/s\].
-const SMOOTH_CUTOFF: f64 = 12.0;
+/// The soft limits' pace \[rad/s\].
 const SOFT_PACE: f64 = 5.0;
-/// Factor from one scale that is tried to the next, how many are tried, fewer where none is right
-/// in proportion, and the least scale.
-const SCALE_STEP: f64 = 0.85;
-const MAX_SCALES: usize = 8;
-const LESS_SCALES: usize = 3;
-const MIN_SCALE: f64 = 0.03;
 /// Longest part of a manoeuvre that the search for a scale goes through \[s\]: each scale is a
 /// simulation. What it finds is simulated on the whole.
 const MAX_SEARCHED: f64 = 120.0;
@@ -258,6 +250,8 @@ impl<'a> Advisor<'a> {
 
     /// The changes that are tried, simplest first.
     pub fn candidates(&self) -> Vec<Candidate> {
+        // Low-pass on the inputs that is tried against jolts [rad/s].
+        const SMOOTH_CUTOFF: f64 = 12.0;
         // Preview that is tried [s].
         const TRIED_PREVIEW: f64 = 1.0;
         let Parameters { structure, tilt, conditioning, soft_limit, automatic_scale, .. } = &self.parameters;
@@ -296,6 +290,9 @@ impl<'a> Advisor<'a> {
     /// # Errors
     /// The parameters cannot be used.
     pub fn best(&self, Candidate(changes, searched): Candidate) -> Result<Option<Alternative>, ParameterError> {
+        // Factor from one scale that is tried to the next, and the least scale.
+        const SCALE_STEP: f64 = 0.85;
+        const MIN_SCALE: f64 = 0.03;
         // Factors on the rates or on heave that are tried, the largest first.
         const SMALLER_PARTS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.15, 0.0];
         let with = |place: usize, factor: f64| Changes {
@@ -333,6 +330,9 @@ impl<'a> Advisor<'a> {
     /// tried from there on. Where no scale is right in proportion, too, one that is right in sign
     /// and on the whole; else the nearest alone.
     fn fitting_scale(&self, changes: &Changes) -> Result<(f64, usize), ParameterError> {
+        // Number of scales that are tried, and the same where none is right in proportion.
+        const MAX_SCALES: usize = 8;
+        const LESS_SCALES: usize = 3;
         let searched = self.part.as_ref().unwrap_or(self.manoeuvre);
         let preview = changes.preview.unwrap_or(self.preview);
         let parameters = changes.applied(&self.parameters);

@@ -21,9 +21,8 @@ const FAITHFUL_ERROR: f64 = 0.25;
 /// Relative error above which a channel is worse than on a platform at rest, whose own is 1: a
 /// scale of 0 is none.
 const WORSE_THAN_REST: f64 = 1.05;
-/// Fractions of the time with false cues that are worth a sentence, and a warning.
+/// Fraction of the time with false cues that is worth a sentence.
 const FALSE_CUES: f64 = 0.05;
-const MANY_FALSE_CUES: f64 = 0.1;
 
 /// Fraction of the time from which inverted cues are a warning, and the least correlation of a cue
 /// that is right in time and proportion.
@@ -290,6 +289,8 @@ impl ChannelFigures {
 
     /// A channel on which something is desired, felt, or falsely cued.
     fn finding(&self, tilt: &TiltParameters) -> Option<Finding> {
+        // Fraction of the time with false cues that is worth a warning.
+        const MANY_FALSE_CUES: f64 = 0.1;
         let Fidelity { rms_error, correlation, .. } = self.felt;
         let false_cues = self.cues.false_cues;
         let is_desired = self.is_desired();

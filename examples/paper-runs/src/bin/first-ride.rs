@@ -12,10 +12,9 @@ use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table};
 use moris_simulation::drives::runs::TOWN;
 
-/// Communication step \[s\].
-const COMMUNICATION_STEP: f64 = 0.001;
-
 fn main() -> Result<()> {
+    // Communication step [s].
+    const COMMUNICATION_STEP: f64 = 0.001;
     let ride = [simulate(&built()?, &TOWN, &RIDE, COMMUNICATION_STEP)?];
     println!("{}", force_table(&ride));
     println!("{}", platform_table(&ride));

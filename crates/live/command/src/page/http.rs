@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 use super::refusal::{Refusal, Status};
 
 /// Most bytes of a request's head, and of its body.
-const MOST_HEAD: usize = 16_384;
-const MOST_BODY: usize = 16_384;
+const MAX_PART_SIZE: usize = 16_384;
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 
@@ -80,7 +79,7 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Refusal> {
     let mut parsed = httparse::Request::new(&mut headers);
     let head = match parsed.parse(bytes) {
         Ok(httparse::Status::Complete(head)) => head,
-        Ok(httparse::Status::Partial) if bytes.len() < MOST_HEAD => return Ok(None),
+        Ok(httparse::Status::Partial) if bytes.len() < MAX_PART_SIZE => return Ok(None),
         Ok(httparse::Status::Partial) => return refused(Status::HeadTooLarge, "the request's head is too large"),
         Err(error) => return refused(Status::BadRequest, &error.to_string()),
     };
@@ -99,7 +98,7 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Refusal> {
             "origin" => request.origin = Some(value.into()),
             "x-token" => request.token = value.into(),
             "content-length" => match value.parse() {
-                Ok(count) if count <= MOST_BODY => length = count,
+                Ok(count) if count <= MAX_PART_SIZE => length = count,
                 _ => return refused(Status::TooLarge, "the request is too large"),
             },
             "transfer-encoding" => return refused(Status::LengthRequired, "the request has no length"),
@@ -229,7 +228,7 @@ mod tests {
     #[test]
     fn large_requests_are_refused() {
         let number = |text: String| parsed(text.as_bytes()).unwrap_err().number();
-        assert_eq!(number(format!("GET /{} HTTP/1.1", "a".repeat(MOST_HEAD))), 431);
+        assert_eq!(number(format!("GET /{} HTTP/1.1", "a".repeat(MAX_PART_SIZE))), 431);
         assert_eq!(number("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n".into()), 413);
         assert_eq!(number("POST / HTTP/1.1\r\nContent-Length: 16385\r\n\r\n".into()), 413);
         assert_eq!(number("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n".into()), 411);

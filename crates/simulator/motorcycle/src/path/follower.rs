@@ -144,6 +144,9 @@ impl Follower {
 
     /// Second derivative of the reference lean's tangent \[1/s2\].
     pub fn lean_control(&self, state: &State, ahead: &Ahead) -> f64 {
+        // Deviation [m] and heading [rad] of which the lean control takes account.
+        const LARGEST_DEVIATION: f64 = 1.5;
+        const LARGEST_HEADING: f64 = 0.3;
         let gains = self.rider.gains(state.speed);
         let (rider, place) = (&state.rider, &state.place);
         let lean = libm::tan(rider.lean);
@@ -165,6 +168,8 @@ impl Follower {
 
     /// Rate of the place beside the path: the kinematics of a point beside a curve.
     pub fn place_rate(&self, state: &State, feet: f64) -> PathState {
+        // Deviation that accumulates [m].
+        const LARGEST_ACCUMULATED: f64 = 0.3;
         // Least distance from the path's centre of curvature, relative to its radius.
         const MIN_RELATIVE_CURVATURE_DISTANCE: f64 = 0.1;
         let PathState { distance, deviation, integral, heading } = state.place;
@@ -182,9 +187,3 @@ impl Follower {
         }
     }
 }
-
-/// Deviation \[m\] and heading \[rad\] of which the lean control takes account, and deviation that
-/// accumulates.
-const LARGEST_DEVIATION: f64 = 1.5;
-const LARGEST_HEADING: f64 = 0.3;
-const LARGEST_ACCUMULATED: f64 = 0.3;

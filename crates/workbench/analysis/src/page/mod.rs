@@ -11,14 +11,12 @@ use crate::message::Words;
 use crate::outcome::{Outcome, listed};
 use crate::recording::Recording;
 
-/// Largest page without simulation, and with it \[bytes\].
-const MAX_PAGE_SIZE: usize = 3_000_000;
-const LARGEST_WITH_SIMULATION: usize = 4_200_000;
-
 /// The page of a recording with one or several sets of parameters, with as many
 /// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
 /// follow. `words` are for the remedies in warnings.
 pub fn html(recording: &Recording, outcomes: &[Outcome], command: &str, words: Words) -> String {
+    // Largest page without simulation [bytes].
+    const MAX_PAGE_SIZE: usize = 3_000_000;
     // Samples that fit into the largest page if their curves are smooth, and the least that are
     // worth showing, of all sets together.
     const MOST_SAMPLES: usize = 150_000;
@@ -41,6 +39,8 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: &str, words: W
 
 /// The page with as much of the recording's inputs as fit into it; `page` is it without simulation.
 fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> String {
+    // Largest page with simulation [bytes].
+    const LARGEST_WITH_SIMULATION: usize = 4_200_000;
     // Fewer samples of a recording are not worth simulating in its page.
     const LEAST_SIMULATED: usize = 1_000;
     let mut page_of = |samples: usize| {

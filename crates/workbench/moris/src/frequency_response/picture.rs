@@ -16,16 +16,11 @@ use super::table::{modulus, phase};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Size of one diagram: modulus, and phase below it.
-const DIAGRAM_SIZE: (u32, u32) = (600, 560);
-const MODULUS_HEIGHT: u32 = 310;
-const HEAD_HEIGHT: u32 = 44;
 const FONT_FAMILY: &str = "sans-serif";
 const TEXT_COLOUR: RGBColor = RGBColor(40, 46, 56);
 const GRID_COLOUR: RGBColor = RGBColor(226, 229, 233);
 const TEST_COLOUR: RGBColor = RGBColor(0, 114, 178);
 const SMALL_SIGNAL_COLOUR: RGBColor = RGBColor(213, 94, 0);
-const LIMIT_COLOUR: RGBColor = RGBColor(208, 222, 205);
 const LIMITED_COLOUR: RGBColor = RGBColor(255, 255, 255);
 
 /// The frequencies shown \[rad/s\].
@@ -45,6 +40,9 @@ pub fn draw(
     pairs: &[(Channel, Channel)],
     columns: usize,
 ) -> Result<()> {
+    // Size of one diagram: modulus, and phase below it.
+    const DIAGRAM_SIZE: (u32, u32) = (600, 560);
+    const HEAD_HEIGHT: u32 = 44;
     let rows = pairs.len().div_ceil(columns);
     let size = (DIAGRAM_SIZE.0 * columns as u32, DIAGRAM_SIZE.1 * rows as u32 + HEAD_HEIGHT);
     let root = SVGBackend::new(file, size).into_drawing_area();
@@ -79,6 +77,7 @@ fn draw_key(area: &Area) -> Result<()> {
 }
 
 fn draw_pair(area: &Area, measured: &Measured, limits: &[Limit], (input, output): (Channel, Channel)) -> Result<()> {
+    const MODULUS_HEIGHT: u32 = 310;
     let limits: Vec<&Limit> = limits.iter().filter(|limit| limit.input == input && limit.output == output).collect();
     let of = |responses: &[Response]| -> Vec<Response> {
         responses.iter().filter(|response| response.input == input).cloned().collect()
@@ -160,6 +159,7 @@ fn draw_limits<'a, C>(
 where
     C: CoordTranslate<From = (f64, f64)>,
 {
+    const LIMIT_COLOUR: RGBColor = RGBColor(208, 222, 205);
     for limit in limits.iter().filter(|limit| of(limit) != [None; 2]) {
         let [low, high] = of(limit);
         let [low, high] = [low.unwrap_or(ends[0]), high.unwrap_or(ends[1])].map(|end| end.clamp(ends[0], ends[1]));

@@ -9,16 +9,6 @@ use crate::bundle::bundle;
 use crate::report::data::Report;
 use crate::report::events::{Event, events};
 
-/// Every page: what stands before its own template, its heading, and what follows.
-const HEAD_TEMPLATE: &str = include_str!("../../page/shared/head.html");
-const HEADING_TEMPLATE: &str = include_str!("../../page/shared/heading.html");
-const END_TEMPLATE: &str = include_str!("../../page/shared/scripts.html");
-
-const PAGE_TEMPLATE: &str = include_str!("../../page/report/page.html");
-/// The style of every page, whose colours the scripts name.
-const SHARED_STYLE: &str = include_str!("../../page/shared/style.css");
-/// Runs before the other scripts, and says if one of them fails.
-const ALARM_SCRIPT: &str = include_str!("../../page/shared/alarm.js");
 /// The source of scripts for a page with a WebAssembly.
 pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
@@ -39,6 +29,10 @@ pub struct Head<'a> {
 impl Head<'_> {
     /// All up to the body of a page with these scripts. No other script and style can run.
     pub(crate) fn html(&self, scripts: &[&str]) -> String {
+        // What stands before the template of every page.
+        const HEAD_TEMPLATE: &str = include_str!("../../page/shared/head.html");
+        // The style of every page, whose colours the scripts name.
+        const SHARED_STYLE: &str = include_str!("../../page/shared/style.css");
         let style = format!("\n{SHARED_STYLE}{}", self.style);
         let sources: String = scripts.iter().map(|script| format!("{} ", hash(script))).collect();
         let policy = format!("script-src {sources}{}; {}", self.scripts, self.policy);
@@ -71,6 +65,7 @@ struct Page<'a> {
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(report: &Report) -> String {
+    const PAGE_TEMPLATE: &str = include_str!("../../page/report/page.html");
     // The modules that a report and its worker begin with.
     const ENTRY_MODULE: &str = "report/main.js";
     const WORKER_MODULE: &str = "report/worker.js";
@@ -95,6 +90,11 @@ pub fn html(report: &Report) -> String {
 /// # Panics
 /// The template names another text than the heading, or there is no such module.
 pub fn assembled(head: &Head, template: &str, data: &impl Serialize, entry: &str) -> String {
+    // The heading of every page, and what follows its template.
+    const HEADING_TEMPLATE: &str = include_str!("../../page/shared/heading.html");
+    const END_TEMPLATE: &str = include_str!("../../page/shared/scripts.html");
+    // Runs before the other scripts, and says if one of them fails.
+    const ALARM_SCRIPT: &str = include_str!("../../page/shared/alarm.js");
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(data).expect("plain data serialise").replace('<', "\\u003c");
     let script = format!("\n(async () => {{\n\"use strict\";\n{}\n}})();\n", bundle(entry));

@@ -3,10 +3,8 @@
 use crate::report::{Parameter, Rig, shared};
 use serde::Serialize;
 
-const PAGE_TEMPLATE: &str = include_str!("../../page/ride/ride.html");
 /// The style of a page with curves, a platform and lamps.
 pub(crate) const STYLE: &str = include_str!("../../page/shared/motion.css");
-const ENTRY_MODULE: &str = "ride/main.js";
 
 /// The WebAssembly of the ride, `modules/ride.rs`; empty where it was not compiled.
 pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
@@ -31,6 +29,8 @@ pub struct Page {
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(page: &Page) -> String {
+    const PAGE_TEMPLATE: &str = include_str!("../../page/ride/ride.html");
+    const ENTRY_MODULE: &str = "ride/main.js";
     let head =
         shared::Head { title: "Ride", subtitle: &page.subtitle, style: STYLE, scripts: shared::COMPILED, policy: "" };
     shared::assembled(&head, PAGE_TEMPLATE, page, ENTRY_MODULE)

@@ -10,9 +10,8 @@ use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 use super::smooth::{Change, changes, changes_integral};
 use crate::Manoeuvre;
 
-/// Time between samples \[s\], and integration steps to each.
+/// Time between samples \[s\].
 pub const STEP: f64 = 0.01;
-const STEPS_PER_SAMPLE: usize = 10;
 /// Speed below which the tyres' equations are those at it \[m/s\]; they are singular at rest.
 const MIN_TYRE_SPEED: f64 = 3.0;
 
@@ -137,6 +136,8 @@ impl Course {
 
     /// The motion of the driver's head, in axes that roll with the body.
     pub fn manoeuvre(&self) -> Manoeuvre {
+        // Integration steps to a sample.
+        const STEPS_PER_SAMPLE: usize = 10;
         let count = (self.duration / STEP).round() as usize;
         let mut state = State::default();
         let inputs = (0..=count).map(|k| {

@@ -27,9 +27,6 @@ pub struct Response {
     pub settled: bool,
 }
 
-/// After so long it is not waited for any more, but for at least [`FEWEST_BLOCKS`] \[s\].
-const LONGEST_WAIT: f64 = 300.0;
-const FEWEST_BLOCKS: usize = 4;
 /// A filter at its limits need not repeat itself from period to period. Up to this fraction of the
 /// input that is no matter.
 pub const SETTLED: f64 = 1e-2;
@@ -66,6 +63,9 @@ pub fn response_on(
     amplitude: f64,
     gravity_turns: bool,
 ) -> Response {
+    // Longest wait for blocks that agree [s], unless there are fewer than `FEWEST_BLOCKS`.
+    const LONGEST_WAIT: f64 = 300.0;
+    const FEWEST_BLOCKS: usize = 4;
     // A block of whole periods is at least so long [s].
     const SHORTEST_BLOCK: f64 = 10.0;
     // No further block is needed when the last two differ in what is felt by less than this

@@ -67,26 +67,18 @@ struct Subject {
 impl Subject {
     /// Its name on an axis.
     fn title(&self, axis: usize) -> String {
+        const AXIS_NAMES: Axes<&str> = ["x", "y", "z"];
         if self.axes == 0 { self.name.to_owned() } else { format!("{} {}", self.name, AXIS_NAMES[axis]) }
     }
 }
 
-const AXIS_NAMES: Axes<&str> = ["x", "y", "z"];
 const DEGREES_PER_RADIAN: f64 = 180.0 / std::f64::consts::PI;
 
 /// Entry for a measure that needs no source.
 const COMMON_USAGE: &str = "common usage";
 const VESTIBULAR_SOURCE: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
     Approaches, NASA/CR-2005-213747";
-const COMFORT_SOURCE: &str = "docs/measures.md, comfort";
-const SICKNESS_SOURCE: &str = "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering Motion Perception, \
-    SAE Technical Paper 2023-01-0176";
-const DOSE_SOURCE: &str = "ISO 2631-1";
-const INCONGRUENCE_SOURCE: &str = "docs/measures.md, incongruence";
 const SHAPE_SOURCE: &str = "docs/measures.md, shape; threshold: Reid, Nahon, UTIAS Report 296, 1985";
-const BOUND_SOURCE: &str = "docs/measures.md, the bound; an interior-point method after Rao, Wright, Rawlings 1998";
-const THRESHOLDS_SOURCE: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
-    1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
 
 /// Measures of one source, a row each: name, unit, the better of two values, value, definition.
 macro_rules! measures {
@@ -122,7 +114,8 @@ macro_rules! fidelity {
 /// False and missing cues of a signal.
 macro_rules! cues {
     ($signal:ident) => {
-        measures! { THRESHOLDS_SOURCE;
+        measures! { "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
+        1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
             "sensed in the vehicle" ["%"] Neither: |of, k| Some(100.0 * of.$signal[k].desired),
                 "Fraction of the run in which the vehicle's motion is above the threshold.";
             "false cues" ["%"] Less: |of, k| Some(100.0 * of.$signal[k].false_cues),
@@ -161,7 +154,7 @@ const SUBJECT_GROUPS: [&[Subject]; 4] = [
             name: "specific force",
             axes: 3,
             is_present: |of, k| of.comfort[k].is_some(),
-            measures: measures! { COMFORT_SOURCE;
+            measures: measures! { "docs/measures.md, comfort";
                 "shake" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.shake.as_ref()?.value),
                     "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
                      undefined up to 16 samples a second and for runs of 15 samples or less.";
@@ -223,7 +216,8 @@ const SUBJECT_GROUPS: [&[Subject]; 4] = [
             name: "rider",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { SICKNESS_SOURCE;
+            measures: measures! { "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering Motion Perception, \
+            SAE Technical Paper 2023-01-0176";
                 "sick in the vehicle" ["%"] Neither: |of, _| Some(of.rider.sick[0]),
                     "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
                      vertical; without vision, from data of passengers.";
@@ -235,7 +229,7 @@ const SUBJECT_GROUPS: [&[Subject]; 4] = [
             name: "rider",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { DOSE_SOURCE;
+            measures: measures! { "ISO 2631-1";
                 "sickness dose in the vehicle" ["m/s^1.5"] Neither: |of, _| Some(of.rider.dose[0]),
                     "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.";
                 "sickness dose on the platform" ["m/s^1.5"] Less: |of, _| Some(of.rider.dose[1]),
@@ -246,7 +240,7 @@ const SUBJECT_GROUPS: [&[Subject]; 4] = [
             name: "rider",
             axes: 0,
             is_present: |_, _| true,
-            measures: measures! { INCONGRUENCE_SOURCE;
+            measures: measures! { "docs/measures.md, incongruence";
                 "incongruence" ["%"] Less: |of, _| Some(100.0 * of.rider.incongruence.as_ref()?.value),
                     "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
                      that of a platform at rest.";
@@ -283,7 +277,7 @@ const SUBJECT_GROUPS: [&[Subject]; 4] = [
 /// \[m/s2\].
 type BoundValues = [f64; 3];
 
-const BOUND_MEASURES: &[Measure<BoundValues>] = measures! { BOUND_SOURCE;
+const BOUND_MEASURES: &[Measure<BoundValues>] = measures! { "docs/measures.md, the bound; an interior-point method after Rao, Wright, Rawlings 1998";
     "bound" ["m/s²"] Neither: |[_, _, bound], _| Some(*bound),
         "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
          same limits of tilt, tilt rate, travel, speed and acceleration.";

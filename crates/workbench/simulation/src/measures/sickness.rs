@@ -23,11 +23,7 @@
 use moris_washout::interface::STANDARD_GRAVITY;
 use nalgebra::{SMatrix, SVector, Vector3};
 
-const KA: f64 = 0.1;
-const KW: f64 = 0.1;
-const KWC: f64 = 10.0;
 const KVC: f64 = 5.0;
-const KAC: f64 = 0.5;
 
 /// Share of people who are sick after half an hour of such motion \[%\].
 ///
@@ -77,6 +73,10 @@ fn at_rest() -> State {
 
 /// The state's derivative in a motion of the head.
 fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
+    const KA: f64 = 0.1;
+    const KW: f64 = 0.1;
+    const KWC: f64 = 10.0;
+    const KAC: f64 = 0.5;
     // Time constants of the canals [s].
     const CANAL_TIME_CONSTANTS: [f64; 2] = [7.0, 190.0];
     // Time constant of the sensed vertical [s].

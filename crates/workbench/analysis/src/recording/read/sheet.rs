@@ -16,7 +16,6 @@ use crate::recording::message::RecordingError;
 
 /// Lines that show a form.
 const SHOWN: usize = 3;
-const LINES_OF_FORM: usize = 20;
 
 /// True for fields of the lines below a header that are of a form.
 type IsOfForm = fn(&[Vec<String>]) -> bool;
@@ -115,6 +114,8 @@ impl Sheet {
 
     /// The way to convert the file, where its columns are not found because of its form.
     pub fn form(&self) -> Option<&'static str> {
+        // Lines in which a form is looked for.
+        const LINES_OF_FORM: usize = 20;
         let records = reader(&self.body, self.delimiter).into_records().filter_map(Result::ok).take(LINES_OF_FORM);
         let lines: Vec<Vec<String>> = records.map(|record| record.iter().map(str::to_owned).collect()).collect();
         FORMS.iter().find(|(is_of, _)| is_of(&lines)).map(|(_, remedy)| *remedy)

@@ -27,9 +27,8 @@ use crate::recording::signal::{centred, integral, is_constant, median, relation,
 /// unit may be larger.
 const WEAK_FRACTION: f64 = 0.01;
 /// Least rates that are compared with an angle's derivative, as root mean squares \[rad/s\]: for
-/// its sign and delay, for exchanged axes, and where the other may be missing.
+/// its sign and delay, and where the other may be missing.
 const MIN_RATE: f64 = 0.005;
-const MIN_EXCHANGED_RATE: f64 = 0.002;
 const MIN_MISSED_RATE: f64 = 0.02;
 /// Ratio of two signals that should be equal, up to which they are taken as equal: slopes and bias
 /// change the force.
@@ -240,6 +239,8 @@ pub fn exchanged_forces(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// Two axes of which the angle of each goes with the rate of the other.
 pub fn exchanged_rates(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    // Least rates where axes may be exchanged, as root mean squares [rad/s].
+    const MIN_EXCHANGED_RATE: f64 = 0.002;
     let [one, other] = pair_of_axes(quantity)?;
     let has_angles = [one, other].iter().all(|&axis| channels.has(Quantity::Angle(axis)));
     if !channels.has_body_rates() || !has_angles {

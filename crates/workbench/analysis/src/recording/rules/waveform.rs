@@ -16,9 +16,8 @@ use crate::recording::signal::{integral, is_constant, median, root_mean_square, 
 const MIN_STOP_TIME: f64 = 2.0;
 /// Times that each value is repeated, from which the steps are felt.
 const MIN_REPETITIONS: usize = 3;
-/// Least number of steps that are looked at, and the part of the samples that they must be.
+/// Least number of steps that are looked at.
 const MIN_STEPS: usize = 20;
-const REPEATED_FRACTION: f64 = 0.6;
 
 /// Lines that are repeated for seconds, after which several channels jump. Computed rides that are
 /// steady end so smoothly.
@@ -105,6 +104,8 @@ pub fn coarse(channels: &Channels, quantity: Quantity) -> Option<Message> {
 /// Channels whose values come several times in a row: they were sampled at a lower rate than they
 /// are written.
 pub fn repeated(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Part of the samples that the steps must be.
+    const REPEATED_FRACTION: f64 = 0.6;
     // Part of the steps that are as long as the usual one.
     const EVEN_FRACTION: f64 = 0.9;
     let table = channels.whole;
