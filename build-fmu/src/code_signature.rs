@@ -15,7 +15,7 @@ const SHA_256: u8 = 2;
 /// Renews the hashes of the pages after a change of the library; does nothing with a
 /// library that has none.
 pub fn renew(library: &mut [u8]) {
-    for directory in directories(library).unwrap_or_default() {
+    for directory in code_directories(library).unwrap_or_default() {
         for page in 0..directory.pages {
             let hash = directory.hash(library, page);
             library[directory.hashes + page * 32..][..32].copy_from_slice(&hash);
@@ -41,7 +41,7 @@ impl Directory {
 }
 
 /// The directories of a signed library; none of any other file, or of one that ends too early.
-fn directories(library: &[u8]) -> Option<Vec<Directory>> {
+fn code_directories(library: &[u8]) -> Option<Vec<Directory>> {
     // Size of the file's header, after which the load commands stand [bytes].
     const HEADER_SIZE: usize = 32;
     let little = |place: usize| library.get(place..)?.first_chunk().map(|bytes| u32::from_le_bytes(*bytes));

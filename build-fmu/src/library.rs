@@ -61,7 +61,7 @@ pub fn examine(
     if let object::File::Elf64(elf) = &file {
         read_elf(elf, &mut info)?;
     } else {
-        info.needs = file.imports()?.iter().map(|import| text(import.library())).collect();
+        info.needs = file.imports()?.iter().map(|import| lossy_text(import.library())).collect();
     }
     Ok(info)
 }
@@ -71,7 +71,7 @@ fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), LibraryE
     // On macOS every name of C has an underscore before it.
     let prefix = if matches!(file, object::File::MachO64(_)) { "_" } else { "" };
     let name = |bytes| {
-        let name = text(bytes);
+        let name = lossy_text(bytes);
         name.strip_prefix(prefix).map(str::to_owned).unwrap_or(name)
     };
     let exported: BTreeSet<String> = file.exports()?.iter().map(|export| name(export.name())).collect();
@@ -109,7 +109,7 @@ fn read_elf(elf: &ElfFile64, info: &mut LibraryInfo) -> Result<(), LibraryError>
             match entry.tag32(endian) {
                 Some(DT_RPATH | DT_RUNPATH) => return Err(LibraryError::SearchPath),
                 Some(DT_NEEDED) => {
-                    info.needs.insert(text(entry.string(endian, strings)?));
+                    info.needs.insert(lossy_text(entry.string(endian, strings)?));
                 }
                 _ => {}
             }
@@ -119,14 +119,14 @@ fn read_elf(elf: &ElfFile64, info: &mut LibraryInfo) -> Result<(), LibraryError>
         let strings = sections.strings(endian, data, link)?;
         while let Some((_, mut versions)) = files.next()? {
             while let Some(version) = versions.next()? {
-                info.glibc = info.glibc.take().max(Version::of_glibc(&text(version.name(endian, strings)?)));
+                info.glibc = info.glibc.take().max(Version::of_glibc(&lossy_text(version.name(endian, strings)?)));
             }
         }
     }
     Ok(())
 }
 
-fn text(bytes: &[u8]) -> String {
+fn lossy_text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 

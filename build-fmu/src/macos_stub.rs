@@ -14,11 +14,11 @@ use crate::{Error, Platform, tools, workspace};
 pub fn development_kit(platform: Platform) -> Result<PathBuf, Error> {
     let list = tools::zig_library(platform)?.join("libc/darwin/libSystem.tbd");
     let text = fs::read_to_string(&list).map_err(|reason| Error::Read { file: list, reason })?;
-    let stub = stub(&names(&text));
+    let stub = stub_text(&listed_names(&text));
     let kit = workspace::target_directory().join("apple-names");
     // The names that rustc asks for; on a Mac all three are the same library.
     for library in ["System", "c", "m"] {
-        write(&kit.join(format!("usr/lib/lib{library}.tbd")), &stub)?;
+        write_stub(&kit.join(format!("usr/lib/lib{library}.tbd")), &stub)?;
     }
     Ok(kit)
 }
@@ -28,13 +28,13 @@ pub fn development_kit(platform: Platform) -> Result<PathBuf, Error> {
 ///
 /// The system's library is an umbrella over many, each with its own document and processors. A
 /// linker does not distinguish them.
-fn names(text: &str) -> BTreeSet<&str> {
+fn listed_names(text: &str) -> BTreeSet<&str> {
     let lists = text.split("symbols:").skip(1).filter_map(|rest| rest.split_once('[')?.1.split_once(']'));
     lists.flat_map(|(list, _)| list.split(',')).map(str::trim).filter(|name| !name.is_empty()).collect()
 }
 
 /// A stub file for the system's library with these names.
-fn stub(names: &BTreeSet<&str>) -> String {
+fn stub_text(names: &BTreeSet<&str>) -> String {
     let names = names.iter().copied().collect::<Vec<_>>().join(", ");
     format!(
         "--- !tapi-tbd\ntbd-version: 4\ntargets: [ x86_64-macos, arm64-macos ]\n\
@@ -43,7 +43,7 @@ fn stub(names: &BTreeSet<&str>) -> String {
     )
 }
 
-fn write(file: &Path, text: &str) -> Result<(), Error> {
+fn write_stub(file: &Path, text: &str) -> Result<(), Error> {
     let directory = file.parent().unwrap_or(Path::new("."));
     let written = fs::create_dir_all(directory).and_then(|()| fs::write(file, text));
     written.map_err(|reason| Error::Write { file: file.to_owned(), reason })
@@ -59,7 +59,7 @@ mod tests {
                     symbols: [ _malloc, 'R8289209$_close',\n  _free ]\n    weak-symbols: [ _weak ]\n--- !tapi-tbd\n\
                     exports:\n  - targets: [ arm64-macos ]\n    symbols: [ _free, __tlv_bootstrap ]\n...\n";
         let expected = ["'R8289209$_close'", "__tlv_bootstrap", "_free", "_malloc", "_weak"];
-        assert_eq!(names(text), BTreeSet::from(expected));
-        assert_eq!(names(&stub(&names(text))), BTreeSet::from(expected));
+        assert_eq!(listed_names(text), BTreeSet::from(expected));
+        assert_eq!(listed_names(&stub_text(&listed_names(text))), BTreeSet::from(expected));
     }
 }

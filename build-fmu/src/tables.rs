@@ -22,13 +22,13 @@ pub struct Table {
 /// Every table.
 pub const TABLES: &[Table] = &[
     Table { page: "docs/parameter-sets.md", name: "parameter sets", text: |_| parameter_sets() },
-    Table { page: "docs/fmu.md", name: "enumerations", text: |_| enumerations() },
-    Table { page: "docs/motorcycle.md", name: "path.course", text: items },
-    Table { page: "docs/tuning-by-search.md", name: "tuned parameters", text: |_| tuned() },
-    Table { page: "docs/strategies/adaptive.md", name: "adaptive", text: parameters },
-    Table { page: "docs/strategies/optimal.md", name: "optimal", text: parameters },
-    Table { page: "docs/strategies/robust.md", name: "robust", text: parameters },
-    Table { page: "docs/strategies/predictive.md", name: "predictive", text: parameters },
+    Table { page: "docs/fmu.md", name: "enumerations", text: |_| enumeration_table() },
+    Table { page: "docs/motorcycle.md", name: "path.course", text: enumeration_items },
+    Table { page: "docs/tuning-by-search.md", name: "tuned parameters", text: |_| tuned_table() },
+    Table { page: "docs/strategies/adaptive.md", name: "adaptive", text: parameter_table },
+    Table { page: "docs/strategies/optimal.md", name: "optimal", text: parameter_table },
+    Table { page: "docs/strategies/robust.md", name: "robust", text: parameter_table },
+    Table { page: "docs/strategies/predictive.md", name: "predictive", text: parameter_table },
 ];
 
 impl Table {
@@ -51,9 +51,10 @@ fn parameter_sets() -> String {
     let identity = &WASHOUT.functions.identity;
     let sets: Vec<_> = SETS[1..].iter().map(|(name, set)| (name, presets::values(set))).collect();
     let names: Vec<String> = sets.iter().map(|(name, _)| format!("`{name}`")).collect();
-    let mut text =
-        line(&[&["variable", "unit", "start"][..], &names.iter().map(String::as_str).collect::<Vec<_>>()].concat());
-    text += &line(&vec!["---"; 3 + sets.len()]);
+    let mut text = table_line(
+        &[&["variable", "unit", "start"][..], &names.iter().map(String::as_str).collect::<Vec<_>>()].concat(),
+    );
+    text += &table_line(&vec!["---"; 3 + sets.len()]);
     for slot in identity.listed_slots() {
         let (name, own) = (identity.variable_name(slot), start.slots()[slot]);
         let values: Vec<String> = sets
@@ -64,18 +65,18 @@ fn parameter_sets() -> String {
             })
             .collect();
         if values.iter().any(|value| !value.is_empty()) {
-            let cells = [format!("`{name}`"), unit(identity.row(slot)).to_owned(), own.to_string()];
-            text += &line(&cells.iter().chain(&values).map(String::as_str).collect::<Vec<_>>());
+            let cells = [format!("`{name}`"), unit_cell(identity.row(slot)).to_owned(), own.to_string()];
+            text += &table_line(&cells.iter().chain(&values).map(String::as_str).collect::<Vec<_>>());
         }
     }
     text
 }
 
 /// The items of every enumeration with their numbers.
-fn enumerations() -> String {
-    let mut text = line(&["model", "variable", "items"]) + &line(&["---"; 3]);
+fn enumeration_table() -> String {
+    let mut text = table_line(&["model", "variable", "items"]) + &table_line(&["---"; 3]);
     for model in MODELS {
-        for (row, start) in rows(model) {
+        for (row, start) in parameter_rows(model) {
             let Kind::Enumeration(enumeration) = row.kind else { continue };
             let items: Vec<String> = enumeration
                 .items
@@ -86,20 +87,23 @@ fn enumerations() -> String {
                     format!("{number} `{}`{note}", item.name)
                 })
                 .collect();
-            text += &line(&[&format!("`{}`", model.name), &format!("`{}`", row.name), &items.join(", ")]);
+            text += &table_line(&[&format!("`{}`", model.name), &format!("`{}`", row.name), &items.join(", ")]);
         }
     }
     text
 }
 
 /// The items of the motorcycle's enumeration of this name, with their numbers.
-fn items(name: &str) -> String {
-    let mut text = line(&["number", "item", "meaning"]) + &line(&["---"; 3]);
-    for (row, _) in rows(&MOTORCYCLE).filter(|(row, _)| row.name == name) {
+fn enumeration_items(name: &str) -> String {
+    let mut text = table_line(&["number", "item", "meaning"]) + &table_line(&["---"; 3]);
+    for (row, _) in parameter_rows(&MOTORCYCLE).filter(|(row, _)| row.name == name) {
         if let Kind::Enumeration(enumeration) = row.kind {
             for (item, number) in enumeration.items.iter().zip(1..) {
-                text +=
-                    &line(&[&number.to_string(), &format!("`{}`", item.name), item.text.trim().trim_end_matches('.')]);
+                text += &table_line(&[
+                    &number.to_string(),
+                    &format!("`{}`", item.name),
+                    item.text.trim().trim_end_matches('.'),
+                ]);
             }
         }
     }
@@ -107,29 +111,29 @@ fn items(name: &str) -> String {
 }
 
 /// The washout's parameters of this group, with start values.
-fn parameters(group: &str) -> String {
-    let mut text = line(&["parameter", "start", "meaning"]) + &line(&["---"; 3]);
+fn parameter_table(group: &str) -> String {
+    let mut text = table_line(&["parameter", "start", "meaning"]) + &table_line(&["---"; 3]);
     let group = format!("{group}.");
-    for (row, start) in rows(&WASHOUT).filter(|(row, _)| row.name.starts_with(&group)) {
+    for (row, start) in parameter_rows(&WASHOUT).filter(|(row, _)| row.name.starts_with(&group)) {
         let value = match row.kind {
             Kind::Enumeration(enumeration) => format!("`{}`", enumeration.items[start as usize - 1].name),
-            _ => format!("{start} {}", unit(row)),
+            _ => format!("{start} {}", unit_cell(row)),
         };
-        text += &line(&[&format!("`{}`", row.name), value.trim(), row.text().trim_end_matches('.')]);
+        text += &table_line(&[&format!("`{}`", row.name), value.trim(), row.text().trim_end_matches('.')]);
     }
     text
 }
 
 /// The washout's parameters that may be tuned, by group and usual range.
-fn tuned() -> String {
-    let mut text = line(&["`--tune`", "parameters", "range"]) + &line(&["---"; 3]);
+fn tuned_table() -> String {
+    let mut text = table_line(&["`--tune`", "parameters", "range"]) + &table_line(&["---"; 3]);
     for group in TuningGroup::ALL {
         let mut ranges: Vec<(String, Vec<String>)> = Vec::new();
-        for (row, _) in rows(&WASHOUT).filter(|(row, _)| row.group == Some(group.name())) {
+        for (row, _) in parameter_rows(&WASHOUT).filter(|(row, _)| row.group == Some(group.name())) {
             let Some((least, greatest)) = row.usual.or(row.range.filter(|_| row.kind == Kind::Integer)) else {
                 continue;
             };
-            let range = format!("{} to {} {}", shown(least), shown(greatest), unit(row));
+            let range = format!("{} to {} {}", shown(least), shown(greatest), unit_cell(row));
             let name = format!("`{}`", row.name);
             match ranges.iter_mut().find(|(known, _)| *known == range) {
                 Some((_, names)) => names.push(name),
@@ -137,14 +141,14 @@ fn tuned() -> String {
             }
         }
         for (range, names) in ranges {
-            text += &line(&[&format!("`{}`", group.name()), &names.join(", "), range.trim()]);
+            text += &table_line(&[&format!("`{}`", group.name()), &names.join(", "), range.trim()]);
         }
     }
     text
 }
 
 /// A model's rows of parameters, and the start value of the first variable of each.
-fn rows(model: &FmuModel) -> impl Iterator<Item = (&'static Row, f64)> {
+fn parameter_rows(model: &FmuModel) -> impl Iterator<Item = (&'static Row, f64)> {
     let start = Start::own(model);
     let mut slot = 0;
     model.functions.identity.rows.iter().filter_map(move |row| {
@@ -154,13 +158,13 @@ fn rows(model: &FmuModel) -> impl Iterator<Item = (&'static Row, f64)> {
     })
 }
 
-fn unit(row: &Row) -> &'static str {
+fn unit_cell(row: &Row) -> &'static str {
     match row.kind {
         Kind::Real(unit) => unit.name,
         _ => "",
     }
 }
 
-fn line(cells: &[&str]) -> String {
+fn table_line(cells: &[&str]) -> String {
     format!("| {} |\n", cells.join(" | "))
 }

@@ -34,7 +34,7 @@ pub fn xml(model: &FmuModel, fmi: FmiVersion) -> String {
             .with("matchingRule", "plug")
             .with("terminalKind", terminal.kind)
             .with("description", terminal.text)
-            .containing(terminal.members.iter().flat_map(|&(row, member)| members(identity, fmi, row, member)))
+            .containing(terminal.members.iter().flat_map(|&(row, member)| row_members(identity, fmi, row, member)))
     };
     let terminals = Element::new("Terminals").containing(model.terminals.iter().map(element));
     // The version of FMI that defines the file, whatever version the FMU has.
@@ -42,7 +42,7 @@ pub fn xml(model: &FmuModel, fmi: FmiVersion) -> String {
 }
 
 /// The variables of a row, each as a member: `length[1]` to `length[6]`, say, or an array `length`.
-fn members(identity: &Identity, fmi: FmiVersion, row_name: &str, member: &str) -> Vec<Element> {
+fn row_members(identity: &Identity, fmi: FmiVersion, row_name: &str, member: &str) -> Vec<Element> {
     let row = identity.rows.iter().find(|row| row.array_name() == row_name);
     let row = row.unwrap_or_else(|| panic!("{} has no {row_name}", identity.name));
     let signal = |variable: String, member: String| {
@@ -52,14 +52,14 @@ fn members(identity: &Identity, fmi: FmiVersion, row_name: &str, member: &str) -
             .with("variableKind", "signal")
     };
     let scalars = || {
-        let scalar = |element| signal(row.variable_name(element), format!("{member}{}", suffix(row, element)));
+        let scalar = |element| signal(row.variable_name(element), format!("{member}{}", element_suffix(row, element)));
         (0..row.slots()).map(scalar).collect()
     };
     fmi.choose_names(scalars(), vec![signal(row.array_name(), member.to_owned())])
 }
 
 /// Index and component of a row's scalar number `element`, as far as the row has them.
-fn suffix(row: &Row, element: usize) -> String {
+fn element_suffix(row: &Row, element: usize) -> String {
     let (index, component) = (element / row.components.len() + 1, row.components[element % row.components.len()]);
     let index = if row.count > 1 { format!("[{index}]") } else { String::new() };
     let component = if component.is_empty() { String::new() } else { format!(".{component}") };

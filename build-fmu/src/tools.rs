@@ -14,7 +14,7 @@ use crate::{Error, Platform, workspace, write_whole};
 /// # Errors
 /// The first that is missing.
 pub fn zigbuild(platform: Platform) -> Result<(), Error> {
-    if !runs("cargo-zigbuild", &["--version"]) {
+    if !program_runs("cargo-zigbuild", &["--version"]) {
         let install = "cargo install --locked cargo-zigbuild".to_owned();
         return Err(Error::Missing { platform, what: "cargo-zigbuild", install });
     }
@@ -58,7 +58,7 @@ fn library_directory(environment: &str) -> Option<PathBuf> {
 /// # Errors
 /// It is missing.
 pub fn mingw(platform: Platform) -> Result<(), Error> {
-    if runs("x86_64-w64-mingw32-gcc", &["--version"]) {
+    if program_runs("x86_64-w64-mingw32-gcc", &["--version"]) {
         return Ok(());
     }
     let install = "apt-get install gcc-mingw-w64-x86-64 (Debian, Ubuntu), brew install mingw-w64 (macOS)".to_owned();
@@ -121,11 +121,11 @@ pub fn wasm2c(target: &str, version: &str) -> Result<(), Error> {
 /// Where cargo-zigbuild looks for zig.
 fn has_zig() -> bool {
     std::env::var_os("CARGO_ZIGBUILD_ZIG_PATH").is_some()
-        || runs("zig", &["version"])
-        || runs("python3", &["-m", "ziglang", "version"])
+        || program_runs("zig", &["version"])
+        || program_runs("python3", &["-m", "ziglang", "version"])
 }
 
-fn runs(program: &str, arguments: &[&str]) -> bool {
+fn program_runs(program: &str, arguments: &[&str]) -> bool {
     let status = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
     status.is_ok_and(|status| status.success())
 }

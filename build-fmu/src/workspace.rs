@@ -58,12 +58,12 @@ pub fn private_paths() -> Result<Vec<(PathBuf, &'static str)>, Error> {
 /// # Errors
 /// rustc cannot be asked.
 pub fn sysroot() -> Result<PathBuf, Error> {
-    let asked = Command::new(rustc()).args(["--print", "sysroot"]).output();
+    let asked = Command::new(rustc_path()).args(["--print", "sysroot"]).output();
     let answer = asked.map_err(|reason| Error::Run { program: "rustc".to_owned(), reason })?;
     Ok(PathBuf::from(String::from_utf8_lossy(&answer.stdout).trim()))
 }
 
 /// The rustc that cargo uses.
-fn rustc() -> std::ffi::OsString {
+fn rustc_path() -> std::ffi::OsString {
     env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
 }

@@ -14,7 +14,7 @@ fn main() -> ExitCode {
     for model in MODELS {
         for &fmi in FmiVersion::SCALARS {
             let file = workspace::root().join(model.checked_in_description(fmi));
-            if let Err(error) = write(&file, &model.model_description(fmi, &Start::own(model))) {
+            if let Err(error) = write_in_folder(&file, &model.model_description(fmi, &Start::own(model))) {
                 eprintln!("cannot write {}: {error}", file.display());
                 return ExitCode::FAILURE;
             }
@@ -22,7 +22,7 @@ fn main() -> ExitCode {
         }
     }
     for table in TABLES {
-        if let Err(error) = renew(table) {
+        if let Err(error) = renew_table(table) {
             eprintln!("cannot write the table {} into {}: {error}", table.name, table.page);
             return ExitCode::FAILURE;
         }
@@ -31,13 +31,13 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn renew(table: &Table) -> io::Result<()> {
+fn renew_table(table: &Table) -> io::Result<()> {
     let page = workspace::root().join(table.page);
     let text = table.within(&fs::read_to_string(&page)?);
     fs::write(page, text.ok_or_else(|| io::Error::other("the page has no place for it"))?)
 }
 
-fn write(file: &Path, text: &str) -> io::Result<()> {
+fn write_in_folder(file: &Path, text: &str) -> io::Result<()> {
     fs::create_dir_all(file.parent().unwrap_or(Path::new(".")))?;
     fs::write(file, text)
 }

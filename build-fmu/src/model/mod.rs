@@ -184,7 +184,7 @@ const POSE_MEMBERS: &[(&str, &str)] = &[
     ("platform.angularVelocity", "angularVelocity"),
 ];
 
-const fn terminal(
+const fn row_terminal(
     name: &'static str,
     (kind, text): (&'static str, &'static str),
     members: &'static [(&'static str, &'static str)],

@@ -8,7 +8,7 @@ use moris_motorcycle::path::table::from_csv;
 use moris_setup::{NamedValues, changed};
 
 use super::{
-    FmuModel, ModelFns, PREVIEW, PREVIEW_MEMBERS, RIDER, VEHICLE, VEHICLE_MEMBERS, example, section, terminal,
+    FmuModel, ModelFns, PREVIEW, PREVIEW_MEMBERS, RIDER, VEHICLE, VEHICLE_MEMBERS, example, row_terminal, section,
 };
 use crate::Error;
 
@@ -23,9 +23,9 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
     sections: &[section!("Motorcycle", "what", "Overview"), section!("Motorcycle", "connect", "Connections")],
     wording: &[example!("Motorcycle")],
     terminals: &[
-        terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
-        terminal("preview", PREVIEW, PREVIEW_MEMBERS),
-        terminal("rider", RIDER, &[("rider.lean", "lean")]),
+        row_terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
+        row_terminal("preview", PREVIEW, PREVIEW_MEMBERS),
+        row_terminal("rider", RIDER, &[("rider.lean", "lean")]),
     ],
     icon: include_bytes!("../../icons/Motorcycle.png"),
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),

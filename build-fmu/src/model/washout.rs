@@ -5,7 +5,7 @@ use moris_washout::Washout;
 
 use super::{
     ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, PREVIEW, PREVIEW_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording,
-    example, section, terminal,
+    example, row_terminal, section,
 };
 
 /// The washout's FMU.
@@ -36,10 +36,10 @@ pub const WASHOUT: FmuModel = FmuModel {
         example!("MorisWashout"),
     ],
     terminals: &[
-        terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
-        terminal("preview", PREVIEW, PREVIEW_MEMBERS),
-        terminal("actuators", ACTUATORS, &[("actuator.length", "length"), ("actuator.velocity", "velocity")]),
-        terminal("platform", POSE, POSE_MEMBERS),
+        row_terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
+        row_terminal("preview", PREVIEW, PREVIEW_MEMBERS),
+        row_terminal("actuators", ACTUATORS, &[("actuator.length", "length"), ("actuator.velocity", "velocity")]),
+        row_terminal("platform", POSE, POSE_MEMBERS),
     ],
     icon: include_bytes!("../../icons/MorisWashout.png"),
     reference_input: include_str!("../../reference/MorisWashout_in.csv"),

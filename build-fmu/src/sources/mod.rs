@@ -65,18 +65,18 @@ impl Sources {
         tools::wasm2c(WEBASSEMBLY_TARGET, WASM2C_VERSION)?;
         let directory = workspace::target_directory().join(WEBASSEMBLY_TARGET).join(compile::WEBASSEMBLY_PROFILE);
         let module = directory.join(format!("{}.wasm", model.library(fmi)));
-        compile(model, fmi)?;
+        compile_to_webassembly(model, fmi)?;
         let bytes = fs::read(&module).map_err(|reason| Error::Read { file: module.clone(), reason })?;
         library::check_paths(&bytes, &workspace::private_paths()?)
             .map_err(|reason| Error::Sources { reason: reason.to_string() })?;
         let code = directory.join(model.library(fmi)).join("module.c");
-        translate(model, &module, &code)?;
+        translate_to_c(model, &module, &code)?;
         let read =
             |file: &Path| fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason });
         // ISO C does not let a function without a result return one.
         let free = fmi.choose("w2c_fmi2FreeInstance(", "w2c_fmi3FreeInstance(");
-        let code = changed(read(&code)?, CODE_CHANGES)?;
-        let code = changed(code, &[(&format!("return {free}"), free)])?;
+        let code = changed_code(read(&code)?, CODE_CHANGES)?;
+        let code = changed_code(code, &[(&format!("return {free}"), free)])?;
         Ok(Sources { declarations: read(&directory.join(model.library(fmi)).join("module.h"))?, code })
     }
 
@@ -144,7 +144,7 @@ impl Sources {
 }
 
 /// Compiles the model's library to WebAssembly.
-fn compile(model: &FmuModel, fmi: FmiVersion) -> Result<(), Error> {
+fn compile_to_webassembly(model: &FmuModel, fmi: FmiVersion) -> Result<(), Error> {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args([
         "build",
@@ -158,24 +158,24 @@ fn compile(model: &FmuModel, fmi: FmiVersion) -> Result<(), Error> {
     ]);
     cargo.arg(workspace::target_directory()).current_dir(workspace::root());
     cargo.env("CARGO_ENCODED_RUSTFLAGS", compile::encoded(&compile::path_flags()?));
-    run(cargo, "cargo")
+    run_program(cargo, "cargo")
 }
 
 /// Turns a module into C, under the model's name.
-fn translate(model: &FmuModel, module: &Path, code: &Path) -> Result<(), Error> {
+fn translate_to_c(model: &FmuModel, module: &Path, code: &Path) -> Result<(), Error> {
     let directory = code.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(directory).map_err(|reason| Error::Write { file: directory.to_owned(), reason })?;
     let mut wasm2c = Command::new("wasm2c");
     wasm2c.args(["--no-debug-names", "--module-name", model.name, "--output"]).arg(code).arg(module);
-    run(wasm2c, "wasm2c")
+    run_program(wasm2c, "wasm2c")
 }
 
-fn run(mut command: Command, program: &str) -> Result<(), Error> {
+fn run_program(mut command: Command, program: &str) -> Result<(), Error> {
     let status = command.status().map_err(|reason| Error::Run { program: program.to_owned(), reason })?;
     if status.success() { Ok(()) } else { Err(Error::Sources { reason: format!("{program} failed") }) }
 }
 
-fn changed(code: String, changes: &[(&str, &str)]) -> Result<String, Error> {
+fn changed_code(code: String, changes: &[(&str, &str)]) -> Result<String, Error> {
     changes.iter().try_fold(code, |code, (from, to)| {
         if code.contains(from) {
             Ok(code.replace(from, to))
@@ -255,8 +255,8 @@ mod tests {
     fn code_of_another_kind_is_refused() {
         let nothing = Sources { declarations: String::new(), code: "int x;".to_owned() };
         assert_eq!(nothing.embedded(&WASHOUT), Err(SectionError::Missing));
-        let error = changed("a b".to_owned(), &[("a", "c"), ("d", "e")]).unwrap_err();
+        let error = changed_code("a b".to_owned(), &[("a", "c"), ("d", "e")]).unwrap_err();
         assert!(error.to_string().contains("has no \"d\""));
-        assert_eq!(changed("a b a".to_owned(), &[("a", "c")]).unwrap(), "c b c");
+        assert_eq!(changed_code("a b a".to_owned(), &[("a", "c")]).unwrap(), "c b c");
     }
 }

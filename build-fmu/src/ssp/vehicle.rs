@@ -81,7 +81,7 @@ impl Vehicle {
         let outputs: Vec<&Variable> = model.variables.all.iter().filter(is_real_output).collect();
         let is_output = |name: &str| outputs.iter().any(|output| output.name == name);
         let (_, base) = MOTORCYCLE_SIMULATOR.flat[0];
-        let links = links(base);
+        let links = vehicle_links(base);
         let washout_inputs: Vec<&str> =
             links.iter().filter(|(element, _)| *element == "washout").map(|(_, input)| *input).collect();
         let mut connections: Vec<(&str, &str)> = Vec::new();
@@ -106,32 +106,39 @@ impl Vehicle {
         if let Some(open) = REQUIRED_INPUTS.iter().find(is_open) {
             return Err(refused(format!("has no output {open}; name its own with --connect OUTPUT={open}")));
         }
-        let description = description(base, &links, &outputs, &connections);
+        let description = vehicle_description(base, &links, &outputs, &connections);
         let connections = connections.iter().map(|(output, input)| format!("{output} -> {input}")).collect();
         Ok(Vehicle { bytes: unpacked.bytes, description, connections })
     }
 }
 
 /// Components and their inputs that take the vehicle's motion.
-fn links(base: &str) -> Vec<(&str, &str)> {
+fn vehicle_links(base: &str) -> Vec<(&str, &str)> {
     let of_vehicle = base.lines().filter(|line| line.contains(&format!("startElement=\"{REPLACED_COMPONENT}\"")));
-    of_vehicle.filter_map(|line| Some((attribute(line, "endElement")?, attribute(line, "endConnector")?))).collect()
+    of_vehicle
+        .filter_map(|line| Some((attribute_value(line, "endElement")?, attribute_value(line, "endConnector")?)))
+        .collect()
 }
 
 /// The value of an attribute in a line of the system's description.
-fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
+fn attribute_value<'a>(line: &'a str, name: &str) -> Option<&'a str> {
     line.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 
 /// The system's description with the vehicle in the place of the motorcycle, without the parameters
 /// that are made for a motorcycle. Inputs that nothing is connected to lose their connectors: FMPy
 /// takes none.
-fn description(base: &str, links: &[(&str, &str)], outputs: &[&Variable], connections: &[(&str, &str)]) -> String {
+fn vehicle_description(
+    base: &str,
+    links: &[(&str, &str)],
+    outputs: &[&Variable],
+    connections: &[(&str, &str)],
+) -> String {
     let (mut text, mut skipped) = (String::new(), None);
     let mut is_connected = false;
     let is_open = |line: &str| {
-        attribute(line, "kind") == Some("input")
-            && attribute(line, "name").is_some_and(|name| {
+        attribute_value(line, "kind") == Some("input")
+            && attribute_value(line, "name").is_some_and(|name| {
                 links.iter().any(|(_, input)| *input == name) && connections.iter().all(|(_, input)| *input != name)
             })
     };
@@ -140,7 +147,7 @@ fn description(base: &str, links: &[(&str, &str)], outputs: &[&Variable], connec
         if let Some(end) = skipped {
             skipped = (trimmed != end).then_some(end);
         } else if trimmed.starts_with(&format!("<ssd:Component name=\"{REPLACED_COMPONENT}\"")) {
-            text += &component(outputs);
+            text += &vehicle_component(outputs);
             skipped = Some("</ssd:Component>");
         } else if is_open(trimmed) {
             skipped = Some("</ssd:Connector>");
@@ -164,7 +171,7 @@ fn description(base: &str, links: &[(&str, &str)], outputs: &[&Variable], connec
     text
 }
 
-fn component(outputs: &[&Variable]) -> String {
+fn vehicle_component(outputs: &[&Variable]) -> String {
     let connector = |variable: &&Variable| {
         let unit = variable.real.as_ref().and_then(|real| real.unit.as_deref());
         let unit = unit.map_or_else(String::new, |unit| format!(" unit=\"{}\"", escape(unit)));

@@ -246,7 +246,7 @@ impl<M: Model> Instance<M> {
             None => Some(self.no_such_variable(slot)),
             Some(info) => (!S::is(info.value_type)).then(|| self.wrong_type::<S>(slot)),
         });
-        first(errors)
+        first_error(errors)
     }
 
     /// The first wrong slot or, where all are right, the first wrong value.
@@ -257,7 +257,7 @@ impl<M: Model> Instance<M> {
             variables.with_values(values).filter_map(|(slot, values)| self.why_slot_not_settable(slot, values));
         let about_values =
             one_by_one(variables, values).filter_map(|(slot, value)| self.why_value_rejected(slot, value.to_slot()));
-        first(about_slots.chain(about_values))
+        first_error(about_slots.chain(about_values))
     }
 
     /// True if a parameter gets the values that it has while steps are made. Hosts write all their
@@ -310,6 +310,6 @@ fn one_by_one<S>(variables: impl Variables, values: &[S]) -> impl Iterator<Item 
 }
 
 /// The first of some errors, of which there is one.
-fn first(mut errors: impl Iterator<Item = CallError>) -> CallError {
+fn first_error(mut errors: impl Iterator<Item = CallError>) -> CallError {
     errors.next().unwrap_or_else(|| CallError::error("the call was refused"))
 }

@@ -20,11 +20,11 @@ pub fn silence() {
 /// then be half changed.
 #[inline]
 pub fn contain<R>(body: impl FnOnce() -> R) -> Result<R, CallError> {
-    catch_unwind(AssertUnwindSafe(body)).map_err(|payload| error(payload.as_ref()))
+    catch_unwind(AssertUnwindSafe(body)).map_err(|payload| panic_error(payload.as_ref()))
 }
 
 #[cold]
-fn error(payload: &(dyn Any + Send)) -> CallError {
+fn panic_error(payload: &(dyn Any + Send)) -> CallError {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given");
     CallError::error(format!("internal error, please report it: {text}"))

@@ -20,7 +20,7 @@ impl<M: Model> InstanceState<M> {
         let body = postcard::to_allocvec(self)
             .map_err(|error| CallError::error(format!("the state cannot be serialized: {error}")))?;
         let length = (body.len() as u64).to_le_bytes();
-        let checksum = checksum(&body).to_le_bytes();
+        let checksum = byte_checksum(&body).to_le_bytes();
         let parts: [&[u8]; 6] = [&FORMAT_MARK, &FORMAT_VERSION.to_le_bytes(), guid, &length, &checksum, &body];
         Ok(parts.concat())
     }
@@ -36,19 +36,19 @@ impl<M: Model> InstanceState<M> {
             ))
         };
         let truncated = || refuse("it is truncated");
-        if take(&mut bytes).ok_or_else(truncated)? != FORMAT_MARK {
+        if take_bytes(&mut bytes).ok_or_else(truncated)? != FORMAT_MARK {
             return Err(refuse("it is not the state of an instance"));
         }
-        if u32::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != FORMAT_VERSION {
+        if u32::from_le_bytes(take_bytes(&mut bytes).ok_or_else(truncated)?) != FORMAT_VERSION {
             return Err(refuse("it comes from another version of this FMU"));
         }
-        if take(&mut bytes).ok_or_else(truncated)? != *tables.guid {
+        if take_bytes(&mut bytes).ok_or_else(truncated)? != *tables.guid {
             return Err(refuse("it comes from another model, or another version of this one"));
         }
-        if u64::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != bytes.len().saturating_sub(8) as u64 {
+        if u64::from_le_bytes(take_bytes(&mut bytes).ok_or_else(truncated)?) != bytes.len().saturating_sub(8) as u64 {
             return Err(refuse("its length is wrong"));
         }
-        if u64::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != checksum(bytes) {
+        if u64::from_le_bytes(take_bytes(&mut bytes).ok_or_else(truncated)?) != byte_checksum(bytes) {
             return Err(refuse("it is damaged"));
         }
         match postcard::take_from_bytes::<Self>(bytes) {
@@ -71,7 +71,7 @@ impl<M: Model> InstanceState<M> {
 }
 
 /// The first `N` bytes, which are then gone from `bytes`.
-fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+fn take_bytes<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
     let (first, rest) = bytes.split_first_chunk()?;
     *bytes = rest;
     Some(*first)
@@ -79,6 +79,6 @@ fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
 
 /// FNV-1a in 64 bits. Each byte's step is one-to-one, so that no change of a
 /// single byte goes unnoticed.
-fn checksum(bytes: &[u8]) -> u64 {
+fn byte_checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }

@@ -36,7 +36,7 @@ impl<const N: usize> StartSection<N> {
     pub const fn own() -> Self {
         let values = [MODEL_START_VALUE; N];
         let (format, slots) = (LAYOUT_VERSION.to_le(), (N as u64).to_le());
-        StartSection { mark: SECTION_MARK, format, slots, checksum: checksum(&values).to_le(), values }
+        StartSection { mark: SECTION_MARK, format, slots, checksum: word_checksum(&values).to_le(), values }
     }
 
     /// The values in place of the model's own, as they are in the library's file.
@@ -48,12 +48,12 @@ impl<const N: usize> StartSection<N> {
         // values for those with which it compiled the library.
         let word = |word: &u64| u64::from_le(unsafe { ptr::read_volatile(word) });
         let values = self.values.each_ref().map(word);
-        if word(&self.checksum) != checksum(&values) {
+        if word(&self.checksum) != word_checksum(&values) {
             return Err(CallError::error(
                 "the start values in the shared library are damaged; unpack the FMU again, or pack it again",
             ));
         }
-        Ok(overrides(values))
+        Ok(section_overrides(values))
     }
 }
 
@@ -73,12 +73,12 @@ pub enum SectionError {
 /// # Errors
 /// The library has no place for them, one of another version, or damaged values.
 pub fn embedded(library: &[u8], slots: usize) -> Result<Overrides, SectionError> {
-    let first = *places(library, slots)?.first().ok_or(SectionError::Missing)?;
+    let first = *section_places(library, slots)?.first().ok_or(SectionError::Missing)?;
     let words = &library[first + HEADER_SIZE..][..slots * size_of::<u64>()];
     let values: Vec<u64> = words.as_chunks().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect();
     let stated =
         library[first + HEADER_SIZE - size_of::<u64>()..].first_chunk().map(|bytes| u64::from_le_bytes(*bytes));
-    if stated == Some(checksum(&values)) { Ok(overrides(values)) } else { Err(SectionError::Damaged) }
+    if stated == Some(word_checksum(&values)) { Ok(section_overrides(values)) } else { Err(SectionError::Damaged) }
 }
 
 /// Writes start values into a library's file, in place of those that are there.
@@ -93,9 +93,9 @@ pub fn embed(library: &mut [u8], slots: usize, start: &[(usize, f64)]) -> Result
     for &(slot, value) in start {
         values[slot] = value.to_bits();
     }
-    let words: Vec<u8> = [checksum(&values)].iter().chain(&values).flat_map(|word| word.to_le_bytes()).collect();
+    let words: Vec<u8> = [word_checksum(&values)].iter().chain(&values).flat_map(|word| word.to_le_bytes()).collect();
     // One for each version of FMI that the library exports.
-    for place in places(library, slots)? {
+    for place in section_places(library, slots)? {
         let from = place + HEADER_SIZE - size_of::<u64>();
         library[from..from + words.len()].copy_from_slice(&words);
     }
@@ -103,7 +103,7 @@ pub fn embed(library: &mut [u8], slots: usize, start: &[(usize, f64)]) -> Result
 }
 
 /// Where in the file the places begin.
-fn places(library: &[u8], slots: usize) -> Result<Vec<usize>, SectionError> {
+fn section_places(library: &[u8], slots: usize) -> Result<Vec<usize>, SectionError> {
     let is_mark = |&place: &usize| library[place..].starts_with(&SECTION_MARK);
     let places: Vec<usize> = (0..library.len()).filter(is_mark).collect();
     if places.is_empty() {
@@ -118,14 +118,14 @@ fn places(library: &[u8], slots: usize) -> Result<Vec<usize>, SectionError> {
 }
 
 /// The values that are not the model's own.
-fn overrides(values: impl IntoIterator<Item = u64>) -> Overrides {
+fn section_overrides(values: impl IntoIterator<Item = u64>) -> Overrides {
     let of_slot = |(slot, value)| (value != MODEL_START_VALUE).then_some((slot, f64::from_bits(value)));
     values.into_iter().enumerate().filter_map(of_slot).collect()
 }
 
 /// FNV-1a in 64 bits, word by word. Each word's step is one-to-one, so that no change of a
 /// single word goes unnoticed.
-const fn checksum(values: &[u64]) -> u64 {
+const fn word_checksum(values: &[u64]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut slot = 0;
     while slot < values.len() {
@@ -144,7 +144,7 @@ mod tests {
 
     /// A library that is nothing but the place, with something around it.
     fn library() -> Vec<u8> {
-        let words = [LAYOUT_VERSION, SLOTS as u64, checksum(&[MODEL_START_VALUE; SLOTS])]
+        let words = [LAYOUT_VERSION, SLOTS as u64, word_checksum(&[MODEL_START_VALUE; SLOTS])]
             .into_iter()
             .chain([MODEL_START_VALUE; SLOTS]);
         let place: Vec<u8> = SECTION_MARK.into_iter().chain(words.flat_map(u64::to_le_bytes)).collect();

@@ -95,7 +95,15 @@ impl VariableInfo {
         let (lower, upper) = row.bounds();
         let row_slots = if element == 0 { row.slots() as u32 } else { 0 };
         let whole = !matches!(row.kind, Kind::Real(_));
-        VariableInfo { value_type, role: role(row), row_slots, settable: settable(row), lower, upper, whole }
+        VariableInfo {
+            value_type,
+            role: variable_role(row),
+            row_slots,
+            settable: settable_modes(row),
+            lower,
+            upper,
+            whole,
+        }
     }
 
     /// The same access through the functions for reals.
@@ -128,7 +136,7 @@ impl VariableInfo {
     }
 }
 
-const fn role(row: &Row) -> Role {
+const fn variable_role(row: &Row) -> Role {
     let continuous = matches!(row.variability, Variability::Continuous) && matches!(row.kind, Kind::Real(_));
     match row.causality {
         Causality::Independent => Role::Time,
@@ -140,7 +148,7 @@ const fn role(row: &Row) -> Role {
 
 /// The modes in which the row's variables can be set. Inputs can be set before
 /// initialization too, as tools do.
-const fn settable(row: &Row) -> Modes {
+const fn settable_modes(row: &Row) -> Modes {
     match (row.causality, row.variability) {
         (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => {
             Modes::of(&[Mode::Instantiated, Mode::Initialization, Mode::StepComplete])

@@ -30,7 +30,7 @@ pub(crate) fn read(path: &Path) -> Result<String, HostError> {
 
 /// Where the shared library for this platform lies in an unpacked FMU.
 pub(crate) fn library_path(directory: &Path, model_identifier: &str) -> Result<PathBuf, HostError> {
-    library_path_of(directory, &platform(), model_identifier)
+    library_path_of(directory, &platform_directory(), model_identifier)
 }
 
 /// The same for a platform of this name.
@@ -47,7 +47,7 @@ pub(crate) fn platform3() -> String {
 }
 
 /// The name of this platform's directory of binaries.
-fn platform() -> String {
+fn platform_directory() -> String {
     let (system, bits) = match std::env::consts::OS {
         "windows" => ("win", usize::BITS),
         "macos" => ("darwin", usize::BITS),

@@ -119,38 +119,40 @@ impl Description {
             };
             match element.name().as_ref() {
                 b"fmiModelDescription" => {
-                    description.is_fmi3 = attribute(&element, "fmiVersion")?.starts_with("3.");
+                    description.is_fmi3 = required_attribute(&element, "fmiVersion")?.starts_with("3.");
                     let name = if description.is_fmi3 { "instantiationToken" } else { "guid" };
-                    description.guid = attribute(&element, name)?;
+                    description.guid = required_attribute(&element, name)?;
                 }
                 b"CoSimulation" => {
-                    description.model_identifier = attribute(&element, "modelIdentifier")?;
+                    description.model_identifier = required_attribute(&element, "modelIdentifier")?;
                     description.interpolates_inputs =
-                        matches!(optional(&element, "canInterpolateInputs")?.as_deref(), Some("true" | "1"));
+                        matches!(optional_attribute(&element, "canInterpolateInputs")?.as_deref(), Some("true" | "1"));
                 }
                 b"ScalarVariable" => {
-                    let causality = causality(&element)?;
-                    variable = Some((attribute(&element, "name")?, value_reference(&element)?, causality));
+                    let causality = variable_causality(&element)?;
+                    variable = Some((required_attribute(&element, "name")?, value_reference(&element)?, causality));
                 }
-                b"SimpleType" => declared_type = Some(attribute(&element, "name")?),
+                b"SimpleType" => declared_type = Some(required_attribute(&element, "name")?),
                 name if description.is_fmi3 && name.ends_with(b"Type") => {
-                    if let Some(unit) = optional(&element, "unit")? {
-                        units.insert(attribute(&element, "name")?, unit);
+                    if let Some(unit) = optional_attribute(&element, "unit")? {
+                        units.insert(required_attribute(&element, "name")?, unit);
                     }
                 }
                 b"Dimension" if description.is_fmi3 => {
                     let declaration = last.as_ref().and_then(|name| description.declarations.get_mut(name));
                     if let Some(declaration) = declaration {
-                        declaration.dimensions.push(optional(&element, "start")?.and_then(|size| size.parse().ok()));
+                        declaration
+                            .dimensions
+                            .push(optional_attribute(&element, "start")?.and_then(|size| size.parse().ok()));
                     }
                 }
                 name if description.is_fmi3 => {
-                    let Some(kind) = kind3(name) else { continue };
-                    let (name, element_name) = (attribute(&element, "name")?, text(name));
+                    let Some(kind) = fmi3_kind(name) else { continue };
+                    let (name, element_name) = (required_attribute(&element, "name")?, name_text(name));
                     let variable = Variable { value_reference: value_reference(&element)?, kind };
                     let declaration = Declaration {
-                        causality: causality(&element)?,
-                        unit: unit(&element, &units)?,
+                        causality: variable_causality(&element)?,
+                        unit: variable_unit(&element, &units)?,
                         element: element_name,
                         dimensions: Vec::new(),
                     };
@@ -159,15 +161,16 @@ impl Description {
                     last = Some(name);
                 }
                 name => {
-                    let Some(kind) = kind(name) else { continue };
+                    let Some(kind) = fmi2_kind(name) else { continue };
                     let Some((variable, value_reference, causality)) = variable.take() else {
-                        if let (Some(name), Some(unit)) = (declared_type.take(), optional(&element, "unit")?) {
+                        if let (Some(name), Some(unit)) = (declared_type.take(), optional_attribute(&element, "unit")?)
+                        {
                             units.insert(name, unit);
                         }
                         continue;
                     };
-                    let unit = unit(&element, &units)?;
-                    let declaration = Declaration { causality, unit, element: text(name), dimensions: Vec::new() };
+                    let unit = variable_unit(&element, &units)?;
+                    let declaration = Declaration { causality, unit, element: name_text(name), dimensions: Vec::new() };
                     description.declarations.insert(variable.clone(), declaration);
                     description.variables.insert(variable, Variable { value_reference, kind });
                 }
@@ -180,7 +183,7 @@ impl Description {
     }
 }
 
-fn kind(element_name: &[u8]) -> Option<VariableKind> {
+fn fmi2_kind(element_name: &[u8]) -> Option<VariableKind> {
     match element_name {
         b"Real" => Some(VariableKind::Real),
         b"Integer" => Some(VariableKind::Integer),
@@ -192,23 +195,23 @@ fn kind(element_name: &[u8]) -> Option<VariableKind> {
 }
 
 /// Of the types of FMI 3.0, those that a host of numbers needs.
-fn kind3(element_name: &[u8]) -> Option<VariableKind> {
+fn fmi3_kind(element_name: &[u8]) -> Option<VariableKind> {
     match element_name {
         b"Float64" | b"Float32" => Some(VariableKind::Real),
         b"Int8" | b"UInt8" | b"Int16" | b"UInt16" | b"Int32" | b"UInt32" | b"Int64" | b"UInt64" => {
             Some(VariableKind::Integer)
         }
-        name => kind(name).filter(|kind| matches!(kind, VariableKind::Boolean | VariableKind::Enumeration)),
+        name => fmi2_kind(name).filter(|kind| matches!(kind, VariableKind::Boolean | VariableKind::Enumeration)),
     }
 }
 
 fn value_reference(element: &BytesStart) -> Result<u32, HostError> {
-    let text = attribute(element, "valueReference")?;
+    let text = required_attribute(element, "valueReference")?;
     text.parse().map_err(|error| HostError::Description(format!("value reference '{text}': {error}")))
 }
 
-fn causality(element: &BytesStart) -> Result<Causality, HostError> {
-    Ok(match optional(element, "causality")?.as_deref() {
+fn variable_causality(element: &BytesStart) -> Result<Causality, HostError> {
+    Ok(match optional_attribute(element, "causality")?.as_deref() {
         Some("input") => Causality::Input,
         Some("output") => Causality::Output,
         Some("parameter" | "structuralParameter") => Causality::Parameter,
@@ -217,21 +220,22 @@ fn causality(element: &BytesStart) -> Result<Causality, HostError> {
 }
 
 /// The unit of a variable: its own, or that of its declared type.
-fn unit(element: &BytesStart, of_types: &HashMap<String, String>) -> Result<Option<String>, HostError> {
-    let own = optional(element, "unit")?;
-    let of_type = optional(element, "declaredType")?.and_then(|name| of_types.get(&name).cloned());
+fn variable_unit(element: &BytesStart, of_types: &HashMap<String, String>) -> Result<Option<String>, HostError> {
+    let own = optional_attribute(element, "unit")?;
+    let of_type = optional_attribute(element, "declaredType")?.and_then(|name| of_types.get(&name).cloned());
     Ok(own.or(of_type).filter(|unit| !unit.is_empty()))
 }
 
-fn text(name: &[u8]) -> String {
+fn name_text(name: &[u8]) -> String {
     String::from_utf8_lossy(name).into_owned()
 }
 
-fn attribute(element: &BytesStart, name: &str) -> Result<String, HostError> {
-    optional(element, name)?.ok_or_else(|| HostError::Description(format!("an element has no attribute '{name}'")))
+fn required_attribute(element: &BytesStart, name: &str) -> Result<String, HostError> {
+    optional_attribute(element, name)?
+        .ok_or_else(|| HostError::Description(format!("an element has no attribute '{name}'")))
 }
 
-fn optional(element: &BytesStart, name: &str) -> Result<Option<String>, HostError> {
+fn optional_attribute(element: &BytesStart, name: &str) -> Result<Option<String>, HostError> {
     let describe = |error: &dyn std::fmt::Display| HostError::Description(error.to_string());
     let Some(found) = element.try_get_attribute(name).map_err(|error| describe(&error))? else { return Ok(None) };
     Ok(Some(found.unescape_value().map_err(|error| describe(&error))?.into_owned()))

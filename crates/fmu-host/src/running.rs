@@ -31,7 +31,7 @@ impl Running {
             return Ok(Running::Fmi3(Box::new(Running3::start(description, directory, values)?)));
         }
         let mut instance = Fmu::open(path)?.instantiate(INSTANCE_NAME)?;
-        accepted(instance.initialize(values, None))?;
+        accept_warning(instance.initialize(values, None))?;
         Ok(Running::Fmi2(Box::new(Running2 { instance, description })))
     }
 
@@ -52,7 +52,7 @@ impl Running {
     /// The FMU rejects the value, or there is no such variable.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
         match self {
-            Running::Fmi2(running) => accepted(running.instance.set(name, value)),
+            Running::Fmi2(running) => accept_warning(running.instance.set(name, value)),
             Running::Fmi3(running) => running.set(name, value),
         }
     }
@@ -69,7 +69,7 @@ impl Running {
             return Err(HostError::NoSuchVariable(name.into()));
         };
         let status = running.instance.set_real_input_derivatives(&[variable.value_reference], &[slope]);
-        accepted(running.instance.expect_ok("fmi2SetRealInputDerivatives", status))
+        accept_warning(running.instance.expect_ok("fmi2SetRealInputDerivatives", status))
     }
 
     /// A step from `time` by `step` \[s\].
@@ -78,7 +78,7 @@ impl Running {
     /// The FMU does not make the step.
     pub fn step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
         match self {
-            Running::Fmi2(running) => accepted(running.instance.step(time, step)),
+            Running::Fmi2(running) => accept_warning(running.instance.step(time, step)),
             Running::Fmi3(running) => running.step(time, step),
         }
     }
@@ -121,7 +121,7 @@ impl Running {
 }
 
 /// A call that ends with a warning is one that has been done.
-fn accepted(result: Result<(), HostError>) -> Result<(), HostError> {
+fn accept_warning(result: Result<(), HostError>) -> Result<(), HostError> {
     match result {
         Err(HostError::Call { status: Status::Warning, .. }) => Ok(()),
         result => result,

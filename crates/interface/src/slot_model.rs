@@ -15,7 +15,7 @@ pub trait SlotModel: Model {
     fn start_slots(slots: &mut [f64]) {
         Time::START.write(&mut Writer::new(slots));
         Self::Input::START.write(&mut Writer::new(&mut slots[FIRST_INPUT_SLOT..]));
-        Self::Parameters::START.write(&mut Writer::new(&mut slots[parameters::<Self>()..]));
+        Self::Parameters::START.write(&mut Writer::new(&mut slots[first_parameter_slot::<Self>()..]));
         if let Ok(model) = Self::new(&Self::Parameters::START, &Self::Input::START) {
             model.write_outputs(slots);
         }
@@ -26,17 +26,17 @@ pub trait SlotModel: Model {
     /// # Errors
     /// As [`Model::new`].
     fn from_slots(slots: &[f64]) -> Result<Self, ParameterError> {
-        Self::new(&Self::parameters_in(slots), &read(slots, FIRST_INPUT_SLOT))
+        Self::new(&Self::parameters_in(slots), &read_group(slots, FIRST_INPUT_SLOT))
     }
 
     /// The parameters in `slots`.
     fn parameters_in(slots: &[f64]) -> Self::Parameters {
-        read(slots, parameters::<Self>())
+        read_group(slots, first_parameter_slot::<Self>())
     }
 
     /// Doubts about the parameters and inputs in `slots`, in sentences.
     fn warnings_in(slots: &[f64]) -> Vec<String> {
-        Self::warnings(&Self::parameters_in(slots), &read(slots, FIRST_INPUT_SLOT))
+        Self::warnings(&Self::parameters_in(slots), &read_group(slots, FIRST_INPUT_SLOT))
     }
 
     /// Changes tunable parameters to those in `slots`. On an error nothing has changed.
@@ -50,11 +50,11 @@ pub trait SlotModel: Model {
     /// Advances by `step` seconds from the inputs in `slots`. `derivatives` has a slot for each of
     /// `slots`, with the inputs' time derivatives, zero where the host gives none.
     fn step_slots(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64) {
-        let start = read(slots, FIRST_INPUT_SLOT);
+        let start = read_group(slots, FIRST_INPUT_SLOT);
         match derivatives {
             None => self.step(&start, step),
             Some(derivatives) => {
-                let end = Self::input_after(&start, &read(derivatives, FIRST_INPUT_SLOT), step);
+                let end = Self::input_after(&start, &read_group(derivatives, FIRST_INPUT_SLOT), step);
                 self.step_between(&start, &end, step);
             }
         }
@@ -62,12 +62,12 @@ pub trait SlotModel: Model {
 
     /// Writes the outputs into their slots.
     fn write_outputs(&self, slots: &mut [f64]) {
-        self.output().write(&mut Writer::new(&mut slots[output::<Self>()..]));
+        self.output().write(&mut Writer::new(&mut slots[first_output_slot::<Self>()..]));
     }
 
     /// Writes the outputs' time derivatives into the outputs' slots.
     fn write_output_derivatives(&self, slots: &mut [f64]) {
-        self.output_derivative().write(&mut Writer::new(&mut slots[output::<Self>()..]));
+        self.output_derivative().write(&mut Writer::new(&mut slots[first_output_slot::<Self>()..]));
     }
 }
 
@@ -75,14 +75,14 @@ impl<M: Model> SlotModel for M {}
 
 /// The slots at which the groups begin.
 const FIRST_INPUT_SLOT: usize = slot_count(Time::ROWS);
-const fn output<M: Model>() -> usize {
+const fn first_output_slot<M: Model>() -> usize {
     const { FIRST_INPUT_SLOT + slot_count(M::Input::ROWS) }
 }
-const fn parameters<M: Model>() -> usize {
-    const { output::<M>() + slot_count(M::Output::ROWS) }
+const fn first_parameter_slot<M: Model>() -> usize {
+    const { first_output_slot::<M>() + slot_count(M::Output::ROWS) }
 }
 
 /// The group that begins at this slot.
-fn read<G: Group>(slots: &[f64], begin: usize) -> G {
+fn read_group<G: Group>(slots: &[f64], begin: usize) -> G {
     G::read(&mut Reader::new(&slots[begin..]))
 }

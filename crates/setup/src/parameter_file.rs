@@ -27,24 +27,24 @@ pub fn read(text: &str, source_name: &str, rows: &[Row]) -> Result<NamedValues, 
     let remedy = "a parameter file is TOML; moris parameters prints one";
     let table: Table = text.parse().map_err(|error| Error::toml(source_name, &error, remedy))?;
     let read = |(name, value): (String, &Value)| {
-        let row = parameter(&name, source_name, rows)?;
+        let row = parameter_row(&name, source_name, rows)?;
         let value = slot_value(row, value).map_err(|reason| Error::wrong_value(source_name, &name, reason))?;
         Ok((name, value))
     };
-    flattened("", &table).into_iter().map(read).collect()
+    flattened_table("", &table).into_iter().map(read).collect()
 }
 
 /// The values of tables within tables, whose keys are parts of names.
-fn flattened<'a>(prefix: &str, table: &'a Table) -> Vec<(String, &'a Value)> {
+fn flattened_table<'a>(prefix: &str, table: &'a Table) -> Vec<(String, &'a Value)> {
     let of_key = |(key, value): (&String, &'a Value)| match value {
-        Value::Table(inner) => flattened(&format!("{prefix}{key}."), inner),
+        Value::Table(inner) => flattened_table(&format!("{prefix}{key}."), inner),
         value => vec![(format!("{prefix}{key}"), value)],
     };
     table.iter().flat_map(of_key).collect()
 }
 
 /// The row of the parameter of this name.
-fn parameter<'a>(name: &str, source_name: &str, rows: &'a [Row]) -> Result<&'a Row, Error> {
+fn parameter_row<'a>(name: &str, source_name: &str, rows: &'a [Row]) -> Result<&'a Row, Error> {
     let parameters = || rows.iter().filter(|row| row.causality == Causality::Parameter);
     let has_name = |row: &&Row| (0..row.slots()).any(|element| row.variable_name(element) == name);
     parameters().find(has_name).ok_or_else(|| {
@@ -69,7 +69,7 @@ fn slot_value(row: &Row, value: &Value) -> Result<f64, String> {
             let place = enumeration.items.iter().position(|known| known.name == item);
             place
                 .map(|place| place as f64 + 1.0)
-                .ok_or_else(|| format!("is \"{item}\", but must be one of {}", items(enumeration)))
+                .ok_or_else(|| format!("is \"{item}\", but must be one of {}", item_list(enumeration)))
         }
         (Kind::Enumeration(_), Value::Integer(number)) => in_range(row, *number as f64),
         (kind, value) => Err(format!("is {value}, but must be {}", what_it_takes(kind))),
@@ -86,11 +86,11 @@ fn what_it_takes(kind: Kind) -> String {
         Kind::Real(unit) => format!("a number, in {}", unit.name),
         Kind::Integer => "a whole number".to_owned(),
         Kind::Boolean => "true or false".to_owned(),
-        Kind::Enumeration(enumeration) => format!("one of {}, in quotes, or its number", items(enumeration)),
+        Kind::Enumeration(enumeration) => format!("one of {}, in quotes, or its number", item_list(enumeration)),
     }
 }
 
-fn items(enumeration: &Enumeration) -> String {
+fn item_list(enumeration: &Enumeration) -> String {
     enumeration.items.iter().map(|item| item.name).collect::<Vec<_>>().join(", ")
 }
 
@@ -109,26 +109,26 @@ pub fn write(heading: &str, values: &[(String, f64)], rows: &[Row]) -> String {
             let name = row.variable_name(element);
             let Some((_, value)) = values.iter().rev().find(|(other, _)| *other == name) else { continue };
             if !described {
-                text += &format!("\n# {}\n", description(row));
+                text += &format!("\n# {}\n", row_description(row));
                 described = true;
             }
-            text += &format!("\"{name}\" = {}\n", written(row, *value));
+            text += &format!("\"{name}\" = {}\n", written_value(row, *value));
         }
     }
     text
 }
 
 /// The row's sentence with its unit, or its items.
-fn description(row: &Row) -> String {
+fn row_description(row: &Row) -> String {
     match row.kind {
         Kind::Real(unit) if !unit.name.is_empty() => format!("{} [{}]", row.text(), unit.name),
-        Kind::Enumeration(enumeration) => format!("{} One of {}.", row.text(), items(enumeration)),
+        Kind::Enumeration(enumeration) => format!("{} One of {}.", row.text(), item_list(enumeration)),
         _ => row.text().to_owned(),
     }
 }
 
 /// A slot's value in the notation of a file.
-fn written(row: &Row, value: f64) -> String {
+fn written_value(row: &Row, value: f64) -> String {
     match row.kind {
         Kind::Real(_) => Value::Float(value).to_string(),
         Kind::Integer => Value::Integer(value as i64).to_string(),

@@ -191,7 +191,7 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
     let toml_error = |error| Error::toml(source_name, &error, "a rig file is TOML; copy examples/rigs/default.toml");
     let table: toml::Table = text.parse().map_err(toml_error)?;
     // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
-    if let Some(name) = keys(&table).find(|key| !RIG_FILE_KEYS.split(' ').any(|known| known == *key)) {
+    if let Some(name) = dotted_keys(&table).find(|key| !RIG_FILE_KEYS.split(' ').any(|known| known == *key)) {
         return Err(Error::UnknownName {
             source_name: source_name.to_owned(),
             what: "key",
@@ -221,7 +221,7 @@ fn is_other_kind(key: &str) -> bool {
 }
 
 /// The keys of a table, those of tables within it after its name.
-fn keys(table: &toml::Table) -> impl Iterator<Item = String> {
+fn dotted_keys(table: &toml::Table) -> impl Iterator<Item = String> {
     table.iter().flat_map(|(key, value)| match value {
         toml::Value::Table(inner) => inner.keys().map(|inner| format!("{key}.{inner}")).collect(),
         _ => vec![key.clone()],

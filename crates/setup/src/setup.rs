@@ -78,7 +78,7 @@ pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
         let nearest = nearest(&name, RIGS.iter().map(|(known, _)| *known));
         return Err(Error::NoSuchRig { name, nearest });
     }
-    rig_file::read(&text(file)?, &name)
+    rig_file::read(&file_text(file)?, &name)
 }
 
 /// True for a name that can only be meant as that of something shipped.
@@ -100,10 +100,10 @@ pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
         let nearest = nearest(name, SETS.iter().map(|(known, _)| *known));
         return Err(Error::NoSuchSet { name: name.to_owned(), nearest });
     }
-    parameter_file::read(&text(file)?, name, rows)
+    parameter_file::read(&file_text(file)?, name, rows)
 }
 
-fn text(file: &Path) -> Result<String, Error> {
+fn file_text(file: &Path) -> Result<String, Error> {
     moris_fmu_host::files::text(file, TEXT).map_err(|reason| Error::Read { file: file.to_owned(), reason })
 }
 

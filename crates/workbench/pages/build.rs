@@ -43,28 +43,28 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("page_simulation", "", "the report's page will not simulate"),
         ("page_ride", "ride", "there will be no ride"),
     ];
-    let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?).join("../../..");
-    let out = PathBuf::from(variable("OUT_DIR")?);
+    let root = PathBuf::from(build_variable("CARGO_MANIFEST_DIR")?).join("../../..");
+    let out = PathBuf::from(build_variable("OUT_DIR")?);
     for source in SOURCE_DIRECTORIES {
         println!("cargo::rerun-if-changed={}", root.join(source).display());
     }
     println!("cargo::rerun-if-changed={}", root.join("crates/workbench/pages/page").display());
-    fs::write(out.join("scripts.rs"), scripts(&root.join("crates/workbench/pages/page"))?)?;
-    let version = variable("CARGO_PKG_VERSION")?;
-    let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
+    fs::write(out.join("scripts.rs"), script_array(&root.join("crates/workbench/pages/page"))?)?;
+    let version = build_variable("CARGO_PKG_VERSION")?;
+    let version = source_commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
     // The modules themselves are compiled with this package, too.
-    let is_wanted = variable("TARGET")? != WEBASSEMBLY_TARGET && (is_installed()? || is_added()?);
+    let is_wanted = build_variable("TARGET")? != WEBASSEMBLY_TARGET && (is_installed()? || is_added()?);
     for (name, feature, missing) in WEBASSEMBLY_MODULES {
         let is_wanted = is_wanted && (feature.is_empty() || env::var_os("CARGO_FEATURE_RIDE").is_some());
-        let module = if is_wanted { compile(&root, &out, [name, feature], missing)? } else { Vec::new() };
+        let module = if is_wanted { compile_module(&root, &out, [name, feature], missing)? } else { Vec::new() };
         fs::write(out.join(name).with_extension("wasm"), module)?;
     }
     Ok(())
 }
 
 /// An array of the path of each script below `pages`, and of its text.
-fn scripts(pages: &Path) -> Result<String, Box<dyn Error>> {
+fn script_array(pages: &Path) -> Result<String, Box<dyn Error>> {
     let mut paths = Vec::new();
     for folder in fs::read_dir(pages)? {
         for file in fs::read_dir(folder?.path())? {
@@ -81,12 +81,12 @@ fn scripts(pages: &Path) -> Result<String, Box<dyn Error>> {
     Ok(format!("[\n{}]", paths.iter().map(listed).collect::<String>()))
 }
 
-fn variable(name: &str) -> Result<String, String> {
+fn build_variable(name: &str) -> Result<String, String> {
     env::var(name).map_err(|error| format!("{name}: {error}"))
 }
 
 /// The commit of the sources; none outside their own git repository. A new commit is noticed.
-fn commit(root: &Path) -> Option<String> {
+fn source_commit(root: &Path) -> Option<String> {
     let git = |arguments: &[&str]| -> Option<String> {
         let output = Command::new("git").current_dir(root).args(arguments).output().ok()?;
         let printed = String::from_utf8(output.stdout).ok()?;
@@ -113,7 +113,7 @@ fn is_installed() -> Result<bool, Box<dyn Error>> {
 
 /// A directory that the compiler prints.
 fn rustc_directory(what: &[&str]) -> Result<PathBuf, Box<dyn Error>> {
-    let output = Command::new(variable("RUSTC")?).args(what).output()?;
+    let output = Command::new(build_variable("RUSTC")?).args(what).output()?;
     Ok(PathBuf::from(String::from_utf8(output.stdout)?.trim()))
 }
 
@@ -143,12 +143,17 @@ fn is_added() -> Result<bool, Box<dyn Error>> {
 
 /// A module, compiled in a directory of its own, because this build holds the lock of its
 /// own. All profiles share it.
-fn compile(root: &Path, out: &Path, [name, feature]: [&str; 2], missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+fn compile_module(
+    root: &Path,
+    out: &Path,
+    [name, feature]: [&str; 2],
+    missing: &str,
+) -> Result<Vec<u8>, Box<dyn Error>> {
     const MODULE_PACKAGE: &str = "moris-pages";
     const MODULE_PROFILE: &str = "page-simulation";
     // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
     let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
-    let mut command = Command::new(variable("CARGO")?);
+    let mut command = Command::new(build_variable("CARGO")?);
     command.current_dir(root).args([
         "rustc",
         "--locked",

@@ -89,13 +89,13 @@ fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
     };
     let (whole, second) = area.split_horizontally((100.0 * WHOLE_WIDTH_FRACTION).percent_width());
     draw_diagram(&whole, panel, 0.0..end)?;
-    let part = |curve: &Curve| Curve { points: within(&curve.points, from, from + 1.0), ..curve.clone() };
+    let part = |curve: &Curve| Curve { points: points_within(&curve.points, from, from + 1.0), ..curve.clone() };
     let curves = panel.curves.iter().map(part).collect();
     let title = "The roughest second".to_owned();
     draw_diagram(&second, &Panel { title, curves, enlarged: None, ..panel.clone() }, from..from + 1.0)
 }
 
-fn within(points: &[(f64, f64)], from: f64, to: f64) -> Vec<(f64, f64)> {
+fn points_within(points: &[(f64, f64)], from: f64, to: f64) -> Vec<(f64, f64)> {
     points.iter().copied().filter(|&(time, _)| from <= time && time <= to).collect()
 }
 
@@ -125,8 +125,8 @@ fn draw_diagram(area: &Area, panel: &Panel, times: Range<f64>) -> Result<()> {
         .y_desc(if is_part { "" } else { panel.quantity })
         .x_labels(if is_part { 5 } else { 12 })
         .y_labels(7)
-        .x_label_formatter(&|value| tick(*value))
-        .y_label_formatter(&|value| tick(*value))
+        .x_label_formatter(&|value| tick_label(*value))
+        .y_label_formatter(&|value| tick_label(*value))
         .bold_line_style(GRID_COLOUR)
         .light_line_style(TRANSPARENT)
         .axis_style(TEXT_COLOUR)
@@ -195,7 +195,7 @@ fn legend_entries(panel: &Panel) -> Vec<(&str, RGBColor, Stroke)> {
 }
 
 /// A tick's label, without trailing zeros, with a true minus sign.
-fn tick(value: f64) -> String {
+fn tick_label(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.replace('-', "−") }
@@ -207,9 +207,9 @@ mod tests {
 
     #[test]
     fn ticks_are_short() {
-        assert_eq!(tick(-0.0001), "0");
-        assert_eq!(tick(1.250), "1.25");
-        assert_eq!(tick(-10.0), "−10");
+        assert_eq!(tick_label(-0.0001), "0");
+        assert_eq!(tick_label(1.250), "1.25");
+        assert_eq!(tick_label(-10.0), "−10");
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::trace::{Sample, Trace};
 pub fn write_curves(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>> {
     let write = |trace: &Trace| {
         let path = directory.join(format!("{}.csv", file_stem(trace)));
-        fs::write(&path, table(trace)).with_context(|| format!("cannot write {}", path.display()))?;
+        fs::write(&path, trace_table(trace)).with_context(|| format!("cannot write {}", path.display()))?;
         Ok(path)
     };
     traces.iter().map(write).collect()
@@ -28,7 +28,7 @@ fn file_stem(trace: &Trace) -> String {
     words.collect::<Vec<_>>().join("-").to_lowercase()
 }
 
-fn table(trace: &Trace) -> String {
+fn trace_table(trace: &Trace) -> String {
     // Time between the rows [s], if the run's steps are shorter.
     const MIN_ROW_INTERVAL: f64 = 0.01;
     const COLUMN_TITLES: &str = "time [s],desired force x [m/s2],desired force y [m/s2],desired force z [m/s2],felt force x [m/s2],\
@@ -64,7 +64,7 @@ mod tests {
         let samples = (0..=30).map(sample).collect();
         let trace = Trace { run: "a brisk", parameters: "paper + preaction", step: 0.001, samples, ..Trace::default() };
         assert_eq!(file_stem(&trace), "run-a-brisk-paper-preaction");
-        let text = table(&trace);
+        let text = trace_table(&trace);
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
         assert_eq!(rows.len(), 5);
         assert!(rows.iter().all(|row| row.len() == rows[0].len()));

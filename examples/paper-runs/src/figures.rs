@@ -22,15 +22,15 @@ const PANEL_HEIGHT: u32 = 560;
 /// # Errors
 /// A run is missing from the traces, or a file cannot be written.
 pub fn write_figures(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>> {
-    let a = runs(traces, A.name)?;
-    let b = runs(traces, B.name)?;
-    let c = runs(traces, C.name)?;
+    let a = traces_of_run(traces, A.name)?;
+    let b = traces_of_run(traces, B.name)?;
+    let c = traces_of_run(traces, C.name)?;
     let figures = [
-        ("figure-5.svg", vec![force("Figure 5 (a)", &a, 0), force("Figure 5 (b)", &a, 2)]),
-        ("figure-6.svg", vec![rate("Figure 6 (a)", &a, 1), legs("Figure 6 (b)", a[0])]),
-        ("figure-7.svg", vec![force("Figure 7 (a)", &b, 0), force("Figure 7 (b)", &b, 1)]),
-        ("figure-8.svg", vec![force("Figure 8 (a)", &b, 2), rate("Figure 8 (b)", &b, 0)]),
-        ("figure-9.svg", vec![force("Figure 9", &c, 0)]),
+        ("figure-5.svg", vec![force_panel("Figure 5 (a)", &a, 0), force_panel("Figure 5 (b)", &a, 2)]),
+        ("figure-6.svg", vec![rate_panel("Figure 6 (a)", &a, 1), leg_panel("Figure 6 (b)", a[0])]),
+        ("figure-7.svg", vec![force_panel("Figure 7 (a)", &b, 0), force_panel("Figure 7 (b)", &b, 1)]),
+        ("figure-8.svg", vec![force_panel("Figure 8 (a)", &b, 2), rate_panel("Figure 8 (b)", &b, 0)]),
+        ("figure-9.svg", vec![force_panel("Figure 9", &c, 0)]),
     ];
     let write = |(name, panels): &(&str, Vec<Panel>)| {
         let path = directory.join(name);
@@ -45,9 +45,9 @@ pub fn write_figures(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>>
 /// # Errors
 /// One of these runs is missing from the traces, or the file cannot be written.
 pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
-    let (c, town) = (runs(traces, C.name)?, runs(traces, TOWN.name)?);
+    let (c, town) = (traces_of_run(traces, C.name)?, traces_of_run(traces, TOWN.name)?);
     let panels = [("a", &c, 0), ("b", &town, 0), ("c", &town, 1)]
-        .map(|(letter, runs, axis)| with_roughest_second(force(&format!("Strategies ({letter})"), runs, axis)));
+        .map(|(letter, runs, axis)| with_roughest_second(force_panel(&format!("Strategies ({letter})"), runs, axis)));
     draw(path, &panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
@@ -57,24 +57,24 @@ pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
 /// The ride is missing from the traces, or the file cannot be written.
 pub fn write_ride(path: &Path, traces: &[Trace]) -> Result<()> {
     const RIDE_PANEL_HEIGHT: u32 = 360;
-    let ride = runs(traces, TOWN.name)?;
+    let ride = traces_of_run(traces, TOWN.name)?;
     let surge = "Surge: what the vehicle asks for, and what the rider feels".to_owned();
     let panels = [
-        with_roughest_second(Panel { title: surge, ..force("", &ride, 0) }),
-        with_roughest_second(Panel { title: "Sway".to_owned(), ..force("", &ride, 1) }),
-        Panel { title: "What the six legs do for it".to_owned(), ..legs("", ride[0]) },
+        with_roughest_second(Panel { title: surge, ..force_panel("", &ride, 0) }),
+        with_roughest_second(Panel { title: "Sway".to_owned(), ..force_panel("", &ride, 1) }),
+        Panel { title: "What the six legs do for it".to_owned(), ..leg_panel("", ride[0]) },
     ];
     draw(path, &panels, RIDE_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// The traces of one run, at least one.
-fn runs<'a>(traces: &'a [Trace], run: &str) -> Result<Vec<&'a Trace>> {
+fn traces_of_run<'a>(traces: &'a [Trace], run: &str) -> Result<Vec<&'a Trace>> {
     let runs: Vec<_> = traces.iter().filter(|trace| trace.run == run).collect();
     anyhow::ensure!(!runs.is_empty(), "run {run} has not been made");
     Ok(runs)
 }
 
-fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
+fn force_panel(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     const FORCE_LABEL: &str = "specific force [m/s²]";
     let quantity = format!("specific force along {}_H", ["x", "y", "z"][axis]);
     Panel {
@@ -85,7 +85,7 @@ fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     }
 }
 
-fn rate(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
+fn rate_panel(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     const RATE_LABEL: &str = "angular velocity [deg/s]";
     let quantity = format!("ω_{} at the head", ["x", "y", "z"][axis]);
     Panel {
@@ -129,7 +129,7 @@ fn felt_against_desired(
 ) -> Vec<Curve> {
     const COLOUR_VERMILION: RGBColor = RGBColor(213, 94, 0);
     const COLOUR_GREY: RGBColor = RGBColor(170, 170, 170);
-    let mut curves = vec![curve("desired", COLOUR_GREY, Stroke::Broad, runs[0], desired)];
+    let mut curves = vec![trace_curve("desired", COLOUR_GREY, Stroke::Broad, runs[0], desired)];
     let colours = [COLOUR_BLUE, COLOUR_VERMILION, COLOUR_GREEN, COLOUR_PURPLE, BLACK];
     assert!(runs.len() <= colours.len(), "no colour for each of {} curves", runs.len());
     for (run, colour) in runs.iter().zip(colours) {
@@ -139,14 +139,14 @@ fn felt_against_desired(
             // So that the legend fits into a row.
             _ => run.parameters.into(),
         };
-        curves.push(curve(&label, colour, Stroke::Fine, run, &felt));
+        curves.push(trace_curve(&label, colour, Stroke::Fine, run, &felt));
     }
     curves
 }
 
 /// The six legs. In a straight run legs 2, 6 and 5 do as 1, 3 and 4 do, and are dashed on top of
 /// them to show it.
-fn legs(figure: &str, run: &Trace) -> Panel {
+fn leg_panel(figure: &str, run: &Trace) -> Panel {
     const COLOUR_SKY: RGBColor = RGBColor(86, 180, 233);
     const COLOUR_ORANGE: RGBColor = RGBColor(230, 159, 0);
     let styles = [
@@ -157,7 +157,7 @@ fn legs(figure: &str, run: &Trace) -> Panel {
         (BLACK, Stroke::Dashed),
         (COLOUR_PURPLE, Stroke::Dashed),
     ];
-    let leg = |(i, (colour, stroke))| curve(&format!("leg {}", i + 1), colour, stroke, run, |s| s.legs[i]);
+    let leg = |(i, (colour, stroke))| trace_curve(&format!("leg {}", i + 1), colour, stroke, run, |s| s.legs[i]);
     Panel {
         title: format!("{figure}: actuators' lengths, run {}", run.run),
         quantity: "length [m]",
@@ -167,7 +167,7 @@ fn legs(figure: &str, run: &Trace) -> Panel {
     }
 }
 
-fn curve(label: &str, colour: RGBColor, stroke: Stroke, trace: &Trace, value: impl Fn(&Sample) -> f64) -> Curve {
+fn trace_curve(label: &str, colour: RGBColor, stroke: Stroke, trace: &Trace, value: impl Fn(&Sample) -> f64) -> Curve {
     let points = trace.samples.iter().map(|sample| (sample.time, value(sample))).collect();
     Curve { label: label.into(), colour, stroke, points }
 }

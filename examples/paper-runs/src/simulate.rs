@@ -79,7 +79,7 @@ impl References {
         let motion = run.motion(time);
         let mut set = |references: &[u32], values: &[f64]| {
             let status = instance.set_real(references, values);
-            check(instance, status)
+            check_status(instance, status)
         };
         set(&self.desired_force, &motion.specific_force())?;
         set(&self.desired_rate, &motion.angular_velocity())?;
@@ -89,18 +89,18 @@ impl References {
     fn sample(&self, instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<Sample> {
         let mut flags = [0; STATUS_FLAGS.len()];
         let status = instance.get_boolean(&self.flags, &mut flags);
-        check(instance, status)?;
+        check_status(instance, status)?;
         let [tilt, soft, safety, actuator] = flags.map(|flag| flag != 0);
         let motion = run.motion(time);
         Ok(Sample {
             time,
             desired_force: motion.specific_force(),
             desired_rate: motion.angular_velocity(),
-            felt_force: reals(instance, &self.felt_force)?,
-            felt_rate: reals(instance, &self.felt_rate)?,
-            legs: reals(instance, &self.legs)?,
-            position: reals(instance, &self.position)?,
-            tilt_rate: reals(instance, &self.tilt_rate)?,
+            felt_force: get_reals(instance, &self.felt_force)?,
+            felt_rate: get_reals(instance, &self.felt_rate)?,
+            legs: get_reals(instance, &self.legs)?,
+            position: get_reals(instance, &self.position)?,
+            tilt_rate: get_reals(instance, &self.tilt_rate)?,
             limited: Limits { tilt, soft, safety, actuator },
         })
     }
@@ -115,15 +115,15 @@ fn value_references<const N: usize>(fmu: &Fmu, names: [impl AsRef<str>; N]) -> R
     Ok(references)
 }
 
-fn reals<const N: usize>(instance: &mut Instance, references: &[u32; N]) -> Result<[f64; N]> {
+fn get_reals<const N: usize>(instance: &mut Instance, references: &[u32; N]) -> Result<[f64; N]> {
     let mut values = [0.0; N];
     let status = instance.get_real(references, &mut values);
-    check(instance, status)?;
+    check_status(instance, status)?;
     Ok(values)
 }
 
 /// An error with the FMU's last message, unless the status is OK.
-fn check(instance: &Instance, status: Status) -> Result<()> {
+fn check_status(instance: &Instance, status: Status) -> Result<()> {
     let message = || instance.messages().last().map_or_else(String::new, |message| message.text.clone());
     ensure!(status == Status::Ok, "the FMU returned {status:?}: {}", message());
     Ok(())

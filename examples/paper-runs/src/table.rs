@@ -71,13 +71,13 @@ fn fidelity_table(
     let row = |trace: &Trace, axis: usize| {
         let [desired, felt] = [0, 1].map(|which| trace.series(|sample| on_axis(sample, axis)[which]));
         let fidelity = fidelity(&desired, &felt, trace.step)?;
-        let mut row = labels(trace);
+        let mut row = trace_labels(trace);
         row.extend([
             AXIS_NAMES[axis].to_string(),
-            number(fidelity.rms_error, 3),
-            number(fidelity.peak_error, 3),
-            fidelity.correlation.map_or(UNDEFINED_MARK.into(), |correlation| number(correlation, 4)),
-            fidelity.delay.map_or(UNDEFINED_MARK.into(), |delay| number(1000.0 * delay, 1)),
+            number_text(fidelity.rms_error, 3),
+            number_text(fidelity.peak_error, 3),
+            fidelity.correlation.map_or(UNDEFINED_MARK.into(), |correlation| number_text(correlation, 4)),
+            fidelity.delay.map_or(UNDEFINED_MARK.into(), |delay| number_text(1000.0 * delay, 1)),
         ]);
         Some(row)
     };
@@ -93,15 +93,15 @@ fn fidelity_table(
 pub fn platform_table(traces: &[Trace]) -> Table {
     let row = |trace: &Trace| {
         let effort = trace.effort();
-        let mut row = labels(trace);
+        let mut row = trace_labels(trace);
         row.extend([
-            number(effort.shortest_leg, 3),
-            number(effort.longest_leg, 3),
-            number(effort.largest_tilt_rate.to_degrees(), 3),
-            number(100.0 * effort.limited.tilt, 1),
-            number(100.0 * effort.limited.safety, 1),
-            number(100.0 * effort.limited.actuator, 1),
-            number(1000.0 * effort.final_distance, 2),
+            number_text(effort.shortest_leg, 3),
+            number_text(effort.longest_leg, 3),
+            number_text(effort.largest_tilt_rate.to_degrees(), 3),
+            number_text(100.0 * effort.limited.tilt, 1),
+            number_text(100.0 * effort.limited.safety, 1),
+            number_text(100.0 * effort.limited.actuator, 1),
+            number_text(1000.0 * effort.final_distance, 2),
         ]);
         row
     };
@@ -123,12 +123,12 @@ pub fn platform_table(traces: &[Trace]) -> Table {
     }
 }
 
-fn labels(trace: &Trace) -> Vec<String> {
+fn trace_labels(trace: &Trace) -> Vec<String> {
     vec![trace.run.to_string(), trace.parameters.to_string()]
 }
 
 /// A number with so many decimals, never a negative zero.
-fn number(value: f64, decimals: usize) -> String {
+fn number_text(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
     if is_zero { text.trim_start_matches('-').to_string() } else { text }
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn there_is_no_negative_zero() {
-        assert_eq!(number(-0.0001, 2), "0.00");
-        assert_eq!(number(-0.011, 2), "-0.01");
+        assert_eq!(number_text(-0.0001, 2), "0.00");
+        assert_eq!(number_text(-0.011, 2), "-0.01");
     }
 }

@@ -85,13 +85,13 @@ pub(crate) fn name_html(row: &Row) -> String {
 
 /// A name in which a line may break after a dot.
 pub(crate) fn breakable(name: &str) -> String {
-    escape(name).replace('.', ".<wbr>")
+    escaped_text(name).replace('.', ".<wbr>")
 }
 
 fn unit_html(kind: Kind) -> String {
     match kind {
         Kind::Real(unit) if unit.name.is_empty() => "1".to_owned(),
-        Kind::Real(unit) => escape(unit.name).replace("s2", "s<sup>2</sup>"),
+        Kind::Real(unit) => escaped_text(unit.name).replace("s2", "s<sup>2</sup>"),
         _ => String::new(),
     }
 }
@@ -108,7 +108,7 @@ fn start_html(row: &Row, start: &[f64]) -> String {
 
 fn value_html(kind: Kind, value: f64) -> String {
     match kind {
-        Kind::Real(_) => rounded(value),
+        Kind::Real(_) => rounded_text(value),
         Kind::Integer => format!("{value}"),
         Kind::Boolean => format!("{}", value != 0.0),
         Kind::Enumeration(enumeration) => format!("<code>{}</code>", enumeration.items[value as usize - 1].name),
@@ -117,7 +117,7 @@ fn value_html(kind: Kind, value: f64) -> String {
 
 /// A number for reading, with a true minus sign: six decimals at most. The exact value is in
 /// modelDescription.xml.
-fn rounded(value: f64) -> String {
+fn rounded_text(value: f64) -> String {
     let digits = if value == 0.0 {
         "0".to_owned()
     } else if value.abs() < 1e-4 {
@@ -129,15 +129,15 @@ fn rounded(value: f64) -> String {
 }
 
 fn range_html(row: &Row) -> String {
-    row.range.map_or(String::new(), |(min, max)| format!("{}…{}", rounded(min), rounded(max)))
+    row.range.map_or(String::new(), |(min, max)| format!("{}…{}", rounded_text(min), rounded_text(max)))
 }
 
 fn meaning_html(row: &Row) -> String {
-    let mut html = escape(row.text());
+    let mut html = escaped_text(row.text());
     if let Kind::Enumeration(enumeration) = row.kind {
         html.push_str("<dl>");
         for (item, value) in enumeration.items.iter().zip(1..) {
-            let (name, text) = (escape(item.name), escape(item.text.trim()));
+            let (name, text) = (escaped_text(item.name), escaped_text(item.text.trim()));
             html += &format!("<dt>{value}: <code>{name}</code></dt><dd>{text}</dd>");
         }
         html.push_str("</dl>");
@@ -145,6 +145,6 @@ fn meaning_html(row: &Row) -> String {
     html
 }
 
-fn escape(text: &str) -> String {
+fn escaped_text(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -70,11 +70,11 @@ impl Serialize for Element {
 /// Numbers are written in the shortest form that reads back as the very same number.
 pub fn to_xml(description: &Element) -> String {
     const XML_DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
-    let body = indented(description).expect("every part of a model description has an XML form");
+    let body = indented_xml(description).expect("every part of a model description has an XML form");
     format!("{XML_DECLARATION}\n{}\n", one_variable_a_line(&body))
 }
 
-fn indented(description: &Element) -> Result<String, SeError> {
+fn indented_xml(description: &Element) -> Result<String, SeError> {
     let mut text = String::new();
     let mut serializer = Serializer::with_root(&mut text, Some(description.name))?;
     serializer.indent(' ', 2);

@@ -76,17 +76,17 @@ fn scalar_variable(identity: &Identity, slot: usize, start: f64, types: Types) -
     let row = identity.row(slot);
     let start = parts::has_start(row).then_some(start);
     let (text, values) = match types {
-        Types::Own => (row.text().to_owned(), values(row, start)),
-        Types::Reals => (text_with_values(row), number(row, start)),
+        Types::Own => (row.text().to_owned(), type_values(row, start)),
+        Types::Reals => (text_with_values(row), real_type(row, start)),
     };
     parts::variable("ScalarVariable", &identity.variable_name(slot), slot, &text, row).containing([values])
 }
 
 /// A variable's type, with what that type's values have.
-fn values(row: &Row, start: Option<f64>) -> Element {
+fn type_values(row: &Row, start: Option<f64>) -> Element {
     let (min, max) = row.range.unzip();
     match row.kind {
-        Kind::Real(_) => number(row, start),
+        Kind::Real(_) => real_type(row, start),
         Kind::Integer => Element::new("Integer")
             .with_some("min", min.map(|min| min as i32))
             .with_some("max", max.map(|max| max as i32))
@@ -101,7 +101,7 @@ fn values(row: &Row, start: Option<f64>) -> Element {
 }
 
 /// The type Real, of any row.
-fn number(row: &Row, start: Option<f64>) -> Element {
+fn real_type(row: &Row, start: Option<f64>) -> Element {
     let (unit, range) = match row.kind {
         Kind::Real(unit) => (unit, row.range),
         Kind::Integer => (&ONE, row.range),

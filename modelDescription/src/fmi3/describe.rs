@@ -18,7 +18,7 @@ pub fn describe<M: Model>(layout: Layout) -> Element {
 /// variable's first slot. The parts are in the order that the schema prescribes.
 pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> Element {
     let identity = M::IDENTITY;
-    let variables = places(&identity, layout).into_iter().map(|place| variable(&place, start));
+    let variables = variable_places(&identity, layout).into_iter().map(|place| variable_element(&place, start));
     parts::root(&identity, "3.0", ("instantiationToken", layout.token(&guid_of::<M>(start))))
         .containing([co_simulation(&identity)])
         .containing(parts::unit_definitions(&identity))
@@ -75,7 +75,7 @@ struct Place {
     dimensions: Vec<usize>,
 }
 
-fn places(identity: &Identity, layout: Layout) -> Vec<Place> {
+fn variable_places(identity: &Identity, layout: Layout) -> Vec<Place> {
     let slots = identity.listed_slots().into_iter();
     match layout {
         Layout::Scalars => slots
@@ -97,7 +97,7 @@ fn places(identity: &Identity, layout: Layout) -> Vec<Place> {
 }
 
 /// A variable; the element's name is its type. It has a start value for each element, row by row.
-fn variable(place: &Place, start: &[f64]) -> Element {
+fn variable_element(place: &Place, start: &[f64]) -> Element {
     let Place { row, name, first_slot, dimensions } = place;
     let convert = |value: f64| match row.kind {
         Kind::Real(_) => value.to_string(),
@@ -115,7 +115,7 @@ fn variable(place: &Place, start: &[f64]) -> Element {
         let start = &start[*first_slot..first_slot + dimensions.iter().product::<usize>()];
         start.iter().map(|&value| convert(value)).collect::<Vec<_>>().join(" ")
     };
-    let text = description(row, !dimensions.is_empty());
+    let text = row_description(row, !dimensions.is_empty());
     parts::variable(element_type_name(row.kind), name, *first_slot, &text, row)
         .with_some("declaredType", declared_type)
         .with_some("min", min.map(convert))
@@ -126,7 +126,7 @@ fn variable(place: &Place, start: &[f64]) -> Element {
 
 /// The row's sentence and, for an array whose elements have components, their names: the array's
 /// name does not say them.
-fn description(row: &Row, is_array: bool) -> String {
+fn row_description(row: &Row, is_array: bool) -> String {
     match row.components {
         components if is_array && components.len() > 1 => {
             format!("{} Components: {}.", row.text(), components.join(", "))
@@ -153,7 +153,7 @@ pub(super) fn element_type_name(kind: Kind) -> &'static str {
 /// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation on
 /// what their rows say.
 fn model_structure(identity: &Identity, layout: Layout) -> Element {
-    let places = places(identity, layout);
+    let places = variable_places(identity, layout);
     let unknowns = |element: &'static str, dependencies: &dyn Fn(&Row) -> String| -> Vec<Element> {
         let outputs = places.iter().filter(|place| place.row.causality == Causality::Output);
         let unknown = |place: &Place| {

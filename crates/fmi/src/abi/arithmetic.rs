@@ -16,12 +16,12 @@ use control_word::{ControlWord, DEFAULT, FLAGS, read, write};
 #[inline]
 pub fn with_default<R>(body: impl FnOnce() -> R) -> R {
     let host = read();
-    if host & !FLAGS == DEFAULT { body() } else { replacing(host, body) }
+    if host & !FLAGS == DEFAULT { body() } else { with_control_word(host, body) }
 }
 
 #[cold]
 #[inline(never)]
-fn replacing<R>(host: ControlWord, body: impl FnOnce() -> R) -> R {
+fn with_control_word<R>(host: ControlWord, body: impl FnOnce() -> R) -> R {
     write(DEFAULT);
     // Opaque to the compiler, which must not compute any part of `body` before the default is set.
     let result = black_box(body)();

@@ -42,7 +42,7 @@ impl Owner {
 ///
 /// # Safety
 /// `pointer` is null or leads to memory that can be read.
-unsafe fn state<M: Model>(pointer: FmuState, owner: Owner) -> Result<*mut State<M>, CallError> {
+unsafe fn owned_state<M: Model>(pointer: FmuState, owner: Owner) -> Result<*mut State<M>, CallError> {
     let pointer = pointer.cast::<State<M>>();
     // SAFETY: the pointer is not null and is aligned where it is read. The caller guarantees
     // readable memory, and any bits are a valid `Owner`.
@@ -65,7 +65,7 @@ pub unsafe fn get<M: Model, H: Host>(component: &mut Component<M, H>, pointer: *
         *pointer = into_pointer(owner, component.instance.state.clone());
     } else {
         // SAFETY: the host's state, which is nobody else's during the call.
-        unsafe { &mut *state::<M>(*pointer, owner)? }.instance.clone_from(&component.instance.state);
+        unsafe { &mut *owned_state::<M>(*pointer, owner)? }.instance.clone_from(&component.instance.state);
     }
     Ok(())
 }
@@ -73,7 +73,7 @@ pub unsafe fn get<M: Model, H: Host>(component: &mut Component<M, H>, pointer: *
 /// `fmi3SetFMUState`
 pub unsafe fn set<M: Model, H: Host>(component: &mut Component<M, H>, pointer: FmuState) -> Result<(), CallError> {
     // SAFETY: the host's state, which nobody changes during the call.
-    let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
+    let state = unsafe { &*owned_state::<M>(pointer, Owner::of(component))? };
     component.instance.state.clone_from(&state.instance);
     Ok(())
 }
@@ -92,7 +92,7 @@ pub unsafe fn free<M: Model, H: Host>(
         return Ok(());
     }
     // SAFETY: the host's state.
-    let state = unsafe { state::<M>(*pointer, Owner::of(component))? };
+    let state = unsafe { owned_state::<M>(*pointer, Owner::of(component))? };
     // SAFETY: the state has this library's mark, so `into_pointer` made it. The mark is
     // cleared, so that its memory is no longer taken for a state. The write is volatile,
     // because the compiler sees no later read and would omit it.
@@ -110,7 +110,7 @@ pub unsafe fn serialized_size<M: Model, H: Host>(
     size: *mut usize,
 ) -> Result<(), CallError> {
     // SAFETY: the host's state, which nobody changes during the call.
-    let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
+    let state = unsafe { &*owned_state::<M>(pointer, Owner::of(component))? };
     let length = state.instance.to_bytes(component.instance.tables().guid)?.len();
     // SAFETY: the host's memory for the answer.
     unsafe { answer(size, length) }?;
@@ -125,7 +125,7 @@ pub unsafe fn serialize<M: Model, H: Host>(
     size: usize,
 ) -> Result<(), CallError> {
     // SAFETY: the host's state, which nobody changes during the call, and its memory for `size` bytes.
-    let (state, buffer) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, buffer(bytes, size)?) };
+    let (state, buffer) = unsafe { (&*owned_state::<M>(pointer, Owner::of(component))?, buffer(bytes, size)?) };
     let bytes = state.instance.to_bytes(component.instance.tables().guid)?;
     let (length, available) = (bytes.len(), buffer.len());
     let buffer = buffer.get_mut(..length).ok_or_else(|| {
@@ -150,7 +150,7 @@ pub unsafe fn deserialize<M: Model, H: Host>(
         *pointer = into_pointer(owner, instance);
     } else {
         // SAFETY: the host's state, which is nobody else's during the call.
-        unsafe { &mut *state::<M>(*pointer, owner)? }.instance = instance;
+        unsafe { &mut *owned_state::<M>(*pointer, owner)? }.instance = instance;
     }
     Ok(())
 }

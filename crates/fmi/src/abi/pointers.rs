@@ -24,7 +24,7 @@ pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], 
     if length == 0 {
         return Ok(&[]);
     }
-    check(pointer, length)?;
+    check_array(pointer, length)?;
     // SAFETY: not null, aligned, not longer than memory can be; for the rest the caller vouches.
     Ok(unsafe { std::slice::from_raw_parts(pointer, length) })
 }
@@ -42,7 +42,7 @@ pub unsafe fn buffer<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [M
     if length == 0 {
         return Ok(&mut []);
     }
-    check(pointer, length)?;
+    check_array(pointer, length)?;
     // SAFETY: as in `slice`; the elements need not be initialized.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), length) })
 }
@@ -55,7 +55,7 @@ pub unsafe fn buffer<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [M
 /// # Errors
 /// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 pub unsafe fn out_param<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray> {
-    check(pointer, 1)?;
+    check_array(pointer, 1)?;
     // SAFETY: not null and aligned; for the rest the caller vouches.
     Ok(unsafe { &mut *pointer })
 }
@@ -68,7 +68,7 @@ pub unsafe fn out_param<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray>
 /// # Errors
 /// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 pub unsafe fn answer<T>(pointer: *mut T, answer: T) -> Result<(), NotAnArray> {
-    check(pointer, 1)?;
+    check_array(pointer, 1)?;
     // SAFETY: not null and aligned; for the rest the caller vouches.
     unsafe { pointer.write(answer) };
     Ok(())
@@ -91,7 +91,7 @@ pub fn c_string(text: &str) -> CString {
 
 /// Checks that `pointer` can lead to `length` elements.
 #[inline]
-fn check<T>(pointer: *const T, length: usize) -> Result<(), NotAnArray> {
+fn check_array<T>(pointer: *const T, length: usize) -> Result<(), NotAnArray> {
     let is_array = !pointer.is_null() && pointer.is_aligned() && length <= isize::MAX as usize / size_of::<T>();
     if is_array { Ok(()) } else { Err(NotAnArray { length }) }
 }

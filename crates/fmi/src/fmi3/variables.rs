@@ -66,8 +66,8 @@ pub unsafe fn get_output_derivatives<M: Model>(
     let layout = component.logger.layout;
     check_length::<M>(layout, infos, references, value_count)?;
     let pairs = references.iter().zip(orders);
-    let requests =
-        pairs.flat_map(move |(&reference, &order)| slots(layout, infos, reference).map(move |slot| (slot, order)));
+    let requests = pairs
+        .flat_map(move |(&reference, &order)| variable_slots(layout, infos, reference).map(move |slot| (slot, order)));
     component.instance.get_output_derivatives(requests, values)
 }
 
@@ -101,7 +101,7 @@ fn total_length<M: Model>(infos: &[VariableInfo], references: &[fmi3ValueReferen
 }
 
 /// The slots of a variable. With arrays, the variable has to be there.
-fn slots(layout: Layout, infos: &[VariableInfo], reference: fmi3ValueReference) -> RangeInclusive<u32> {
+fn variable_slots(layout: Layout, infos: &[VariableInfo], reference: fmi3ValueReference) -> RangeInclusive<u32> {
     let others = match layout {
         Layout::Scalars => 0,
         Layout::Arrays => infos[reference as usize].row_slots - 1,

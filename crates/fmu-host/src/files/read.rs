@@ -16,12 +16,9 @@ pub const TEXT: u64 = 16_000_000;
 pub fn text(file: &Path, largest: u64) -> io::Result<String> {
     let mut bytes = Vec::new();
     // A part at a time: a device of zeros is known by its first bytes.
-    read(
-        file,
-        largest,
-        &mut bytes,
-        |part| if part.contains(&0) { Some("it is no text: it has zero bytes") } else { None },
-    )?;
+    read_bounded(file, largest, &mut bytes, |part| {
+        if part.contains(&0) { Some("it is no text: it has zero bytes") } else { None }
+    })?;
     String::from_utf8(bytes).map_err(|_| refused("it is no text in UTF-8"))
 }
 
@@ -31,11 +28,11 @@ pub fn text(file: &Path, largest: u64) -> io::Result<String> {
 /// The file cannot be read, or is larger.
 pub fn bytes(file: &Path, largest: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    read(file, largest, &mut bytes, |_| None)?;
+    read_bounded(file, largest, &mut bytes, |_| None)?;
     Ok(bytes)
 }
 
-fn read(
+fn read_bounded(
     file: &Path,
     largest: u64,
     bytes: &mut Vec<u8>,

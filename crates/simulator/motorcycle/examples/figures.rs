@@ -20,16 +20,16 @@ struct Panel {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let directory = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("docs"), PathBuf::from);
-    for (name, panels) in [("motorcycle-ride.svg", ride()?), ("motorcycle-modes.svg", modes()?)] {
+    for (name, panels) in [("motorcycle-ride.svg", ride_panels()?), ("motorcycle-modes.svg", mode_panels()?)] {
         let path = directory.join(name);
-        draw(&path, &panels)?;
+        draw_picture(&path, &panels)?;
         println!("wrote {}", path.display());
     }
     Ok(())
 }
 
 /// Commands to the rider: accelerate, slalom, a long turn to the left, brake to a stop.
-fn command(time: f64) -> Input {
+fn rider_command(time: f64) -> Input {
     let during = |begin: f64, end: f64| f64::from(time >= begin && time < end);
     let slalom = 15.0_f64.to_radians() * (2.0 * std::f64::consts::PI * 0.25 * (time - 8.0)).sin();
     Input {
@@ -40,14 +40,14 @@ fn command(time: f64) -> Input {
     }
 }
 
-fn ride() -> Result<Vec<Panel>, Box<dyn Error>> {
+fn ride_panels() -> Result<Vec<Panel>, Box<dyn Error>> {
     let mut motorcycle = Motorcycle::new(&Parameters::default(), &Input::default())?;
     let mut recorded = Vec::new();
     for k in 0..36_000 {
         let time = f64::from(k) * 0.001;
-        motorcycle.step(&command(time), 0.001);
+        motorcycle.step(&rider_command(time), 0.001);
         if k % 50 == 49 {
-            recorded.push((time + 0.001, command(time), motorcycle.output()));
+            recorded.push((time + 0.001, rider_command(time), motorcycle.output()));
         }
     }
     let curve = |value: fn(&Input, &Output) -> f64| -> Vec<(f64, f64)> {
@@ -83,7 +83,7 @@ fn ride() -> Result<Vec<Panel>, Box<dyn Error>> {
     ])
 }
 
-fn modes() -> Result<Vec<Panel>, Box<dyn Error>> {
+fn mode_panels() -> Result<Vec<Panel>, Box<dyn Error>> {
     let motorcycle = Motorcycle::new(&Parameters::default(), &Input::default())?;
     let (mut free, mut ridden, mut frequencies) = (Vec::new(), Vec::new(), Vec::new());
     for k in 0..=50 {
@@ -108,7 +108,7 @@ fn modes() -> Result<Vec<Panel>, Box<dyn Error>> {
     ])
 }
 
-fn draw(path: &Path, panels: &[Panel]) -> Result<(), Box<dyn Error>> {
+fn draw_picture(path: &Path, panels: &[Panel]) -> Result<(), Box<dyn Error>> {
     // Drawn large, because coordinates are whole pixels; shown at about half its size.
     const PICTURE_WIDTH: u32 = 1600;
     const PANEL_HEIGHT: u32 = 330;

@@ -141,26 +141,26 @@ impl Lateral {
             constant: StateMatrix::zeros(),
             per_speed: StateMatrix::zeros(),
             hold: StateMatrix::zeros(),
-            torque: accelerations(inverse * steer_unit),
-            torso: accelerations(inverse * torso_weight),
-            torso_acceleration: accelerations(-inverse * torso_coupling),
-            wind: accelerations(inverse * Vector4::new(1.0, design.wind_x, design.wind_height, 0.0)),
+            torque: derivative_of(inverse * steer_unit),
+            torso: derivative_of(inverse * torso_weight),
+            torso_acceleration: derivative_of(-inverse * torso_coupling),
+            wind: derivative_of(inverse * Vector4::new(1.0, design.wind_x, design.wind_height, 0.0)),
         };
-        add(&mut lateral.per_speed, 0, &(-inverse * gyroscopic_matrix(&t, sin, cos)));
+        add_accelerations(&mut lateral.per_speed, 0, &(-inverse * gyroscopic_matrix(&t, sin, cos)));
         // The acceleration of the contact is y'' = velocity' + speed yaw rate.
         lateral.per_speed[(VELOCITY, YAW_RATE)] -= 1.0;
         lateral.constant[(LEAN, LEAN_RATE)] = 1.0;
         lateral.constant[(STEER, STEER_RATE)] = 1.0;
-        add(&mut lateral.constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
+        add_accelerations(&mut lateral.constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
         for (place, stiffness) in [(LEAN, k0.column(0)), (STEER, k0.column(1))] {
             let moments = Vector4::new(0.0, 0.0, stiffness[0], stiffness[1]);
-            add(&mut lateral.constant, place, &(-inverse * moments));
+            add_accelerations(&mut lateral.constant, place, &(-inverse * moments));
         }
         for contact in design.contacts() {
             lateral.add_tyre(&contact, &inverse);
             // Half of the critical damping of half the mass on the tyre's lateral spring.
             let damping = libm::sqrt(contact.tyre.cornering / contact.tyre.relaxation * 0.5 * t.m_t);
-            add(&mut lateral.hold, 0, &(-inverse * contact.arms * contact.arms.transpose() * damping));
+            add_accelerations(&mut lateral.hold, 0, &(-inverse * contact.arms * contact.arms.transpose() * damping));
         }
         lateral.add_feet_and_hands(&t, &k0, &inverse);
         Some(lateral)
@@ -171,7 +171,7 @@ impl Lateral {
     fn add_tyre(&mut self, contact: &Contact, inverse: &Matrix4<f64>) {
         let Contact { force, arms, steer_slip, steer_camber, tyre } = contact;
         let force = *force;
-        add(&mut self.constant, force, &(inverse * arms));
+        add_accelerations(&mut self.constant, force, &(inverse * arms));
         for (place, arm) in arms.iter().enumerate() {
             self.constant[(force, place)] = -tyre.cornering * arm / tyre.relaxation;
         }
@@ -191,8 +191,8 @@ impl Lateral {
         let hands = (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll);
         for (row, angle, rate, stiffness, inertia) in [feet, hands] {
             let damping = 2.0 * libm::sqrt(stiffness * inertia);
-            add(&mut self.hold, angle, &(inverse.column(row) * -stiffness));
-            add(&mut self.hold, rate, &(inverse.column(row) * -damping));
+            add_accelerations(&mut self.hold, angle, &(inverse.column(row) * -stiffness));
+            add_accelerations(&mut self.hold, rate, &(inverse.column(row) * -damping));
         }
     }
 
@@ -363,12 +363,16 @@ pub fn static_loads(bicycle: &Bicycle, gravity: f64) -> Wheels {
 }
 
 /// Adds accelerations to the first four rows of columns from this one on.
-fn add<const COLUMNS: usize>(matrix: &mut StateMatrix, column: usize, accelerations: &SMatrix<f64, 4, COLUMNS>) {
+fn add_accelerations<const COLUMNS: usize>(
+    matrix: &mut StateMatrix,
+    column: usize,
+    accelerations: &SMatrix<f64, 4, COLUMNS>,
+) {
     let mut place = matrix.fixed_view_mut::<4, COLUMNS>(0, column);
     place += accelerations;
 }
 
 /// Accelerations as a derivative of the state.
-fn accelerations(accelerations: Vector4<f64>) -> State {
+fn derivative_of(accelerations: Vector4<f64>) -> State {
     accelerations.fixed_resize::<SIZE, 1>(0.0)
 }

@@ -144,8 +144,8 @@ impl Longitudinal {
         let brake = now.brake * p.brake_force;
 
         let held = Wheels {
-            front: held(self.friction * now.loads.front, now.lateral.front),
-            rear: held(self.friction * now.loads.rear, now.lateral.rear),
+            front: held_friction(self.friction * now.loads.front, now.lateral.front),
+            rear: held_friction(self.friction * now.loads.rear, now.lateral.rear),
         };
         let demand = Wheels { front: -p.brake_front_share * brake, rear: drive - (1.0 - p.brake_front_share) * brake };
         let on_tyres = Wheels { front: within(demand.front, held.front), rear: within(demand.rear, held.rear) };
@@ -204,12 +204,12 @@ impl Longitudinal {
         let whole = forces.front + forces.rear;
         if whole > 0.0 {
             let most = force_for(self.static_loads.front - reserve).max(0.0);
-            let fraction = (most / whole).min(light(loads.front, reserve));
+            let fraction = (most / whole).min(load_fraction(loads.front, reserve));
             return (Wheels { rear: forces.rear - (1.0 - fraction.min(1.0)) * whole, ..forces }, fraction < 1.0);
         }
         if whole < 0.0 {
             let least = force_for(reserve - self.static_loads.rear).min(0.0);
-            let fraction = (least / whole).min(light(loads.rear, reserve)).min(1.0);
+            let fraction = (least / whole).min(load_fraction(loads.rear, reserve)).min(1.0);
             return (Wheels { front: fraction * forces.front, rear: fraction * forces.rear }, fraction < 1.0);
         }
         (forces, false)
@@ -217,7 +217,7 @@ impl Longitudinal {
 }
 
 /// Fraction of a force that a load permits: 1 above the reserve, decreasing to 0 with the load.
-fn light(load: f64, reserve: f64) -> f64 {
+fn load_fraction(load: f64, reserve: f64) -> f64 {
     if load < reserve { load / reserve } else { 1.0 }
 }
 
@@ -238,6 +238,6 @@ fn pitch_inertia(bicycle: &Bicycle, frame_yy: f64) -> f64 {
 }
 
 /// Longitudinal friction left by a lateral force: the friction circle.
-fn held(friction: f64, lateral: f64) -> f64 {
+fn held_friction(friction: f64, lateral: f64) -> f64 {
     libm::sqrt((friction * friction - lateral * lateral).max(0.0))
 }

@@ -157,7 +157,7 @@ impl Model for Motorcycle {
         let steps = libm::ceil((step / longest - 1e-6).max(1.0));
         let size = step / steps;
         for k in 0..steps as u32 {
-            let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
+            let at = |t: f64| input_between(&start, &end, (f64::from(k) + t) / steps);
             let inputs = [at(0.0), at(0.5), at(1.0)];
             self.run = self.advanced(&self.run, &inputs, size);
             self.look_ahead(&inputs[2], size);
@@ -225,7 +225,7 @@ impl Motorcycle {
         let mut run = RunState { state: end.flush_small(), ..*run };
         run.state.speed = run.state.speed.max(0.0);
         if let Some(limits) = last.grip {
-            (run.state.lateral, _) = held(&run.state.lateral, limits);
+            (run.state.lateral, _) = held_state(&run.state.lateral, limits);
             run.grip_limited = last.grip_limited;
             run.stage = self.stage(&run);
         }
@@ -303,7 +303,7 @@ impl Motorcycle {
             // Limits depend on loads, and these on the acceleration within the limits.
             for _ in 0..GRIP_PASSES {
                 let limited = self.grip_limits(&state.lateral, &loads);
-                let (within, any) = held(&state.lateral, limited);
+                let (within, any) = held_state(&state.lateral, limited);
                 (limits, grip_limited, on_tyres) = (Some(limited), any, within);
                 if !any {
                     break;
@@ -313,7 +313,7 @@ impl Motorcycle {
                 loads = self.suspension.loads(&state.suspension, extra_weight);
             }
             if stage == Stage::Fallen {
-                lateral = fallen(&state.lateral);
+                lateral = fallen_derivative(&state.lateral);
                 extra_weight = self.extra_weight(&state.lateral, &lateral, speed);
             }
             loads = self.normal_loads(&on_tyres, &loads);
@@ -332,7 +332,7 @@ impl Motorcycle {
         if stage == Stage::Fallen {
             accelerations.speed =
                 if speed > 0.0 { -grip::SLIDING_FRICTION_FRACTION * p.tyres.friction * p.run.gravity } else { 0.0 };
-            (heave, accelerations.pitch) = settling(&state.suspension);
+            (heave, accelerations.pitch) = settling_accelerations(&state.suspension);
         }
 
         let (sin, cos) = libm::sincos(state.heading);
@@ -416,7 +416,7 @@ impl Motorcycle {
     /// Addition of leaning and cornering to gravity along the vertical of the motorcycle's plane
     /// \[m/s2\].
     fn extra_weight(&self, state: &lateral::State, derivative: &lateral::State, speed: f64) -> f64 {
-        let roll = roll(state, derivative);
+        let roll = roll_motion(state, derivative);
         let (sin, cos) = libm::sincos(roll.position);
         let to_right = derivative[place::VELOCITY] + speed * state[place::YAW_RATE];
         self.parameters.run.gravity * (cos - 1.0) + to_right * sin
@@ -492,7 +492,7 @@ impl Motorcycle {
             acceleration: derivative.suspension.velocity[k],
         };
         self.geometry.head(&Moving {
-            roll: roll(&state.lateral, &derivative.lateral),
+            roll: roll_motion(&state.lateral, &derivative.lateral),
             pitch: component(1),
             yaw: Motion {
                 position: state.heading,
@@ -518,7 +518,7 @@ impl Motorcycle {
 }
 
 /// A lateral state with the tyres' forces within these limits, and whether any was beyond.
-fn held(state: &lateral::State, limits: (grip::Limits, grip::Limits)) -> (lateral::State, bool) {
+fn held_state(state: &lateral::State, limits: (grip::Limits, grip::Limits)) -> (lateral::State, bool) {
     let (mut held, mut any) = (*state, false);
     for (tyre, (least, most)) in [(place::FRONT_FORCE, limits.0), (place::REAR_FORCE, limits.1)] {
         held[tyre] = held[tyre].max(least).min(most);
@@ -528,7 +528,7 @@ fn held(state: &lateral::State, limits: (grip::Limits, grip::Limits)) -> (latera
 }
 
 /// The derivative of a fallen motorcycle's lateral state: all rates end, and the tyres' forces.
-fn fallen(state: &lateral::State) -> lateral::State {
+fn fallen_derivative(state: &lateral::State) -> lateral::State {
     let mut derivative = -state / grip::FALLEN_SETTLING_TIME;
     derivative[place::LEAN] = state[place::LEAN_RATE];
     derivative[place::STEER] = state[place::STEER_RATE];
@@ -536,14 +536,14 @@ fn fallen(state: &lateral::State) -> lateral::State {
 }
 
 /// Accelerations of a fallen motorcycle's heave and pitch: back to rest, without overshoot.
-fn settling(state: &suspension::State) -> (f64, f64) {
+fn settling_accelerations(state: &suspension::State) -> (f64, f64) {
     let rate = 1.0 / grip::FALLEN_SETTLING_TIME;
     let back = -(state.velocity * 2.0 + state.position * rate) * rate;
     (back.x, back.y)
 }
 
 /// The roll angle, whose tangent the lateral equations' lean is, and its derivatives.
-fn roll(state: &lateral::State, derivative: &lateral::State) -> Motion {
+fn roll_motion(state: &lateral::State, derivative: &lateral::State) -> Motion {
     let tangent = state[place::LEAN];
     let cos2 = 1.0 / (1.0 + tangent * tangent);
     let velocity = cos2 * state[place::LEAN_RATE];
@@ -555,7 +555,7 @@ fn roll(state: &lateral::State, derivative: &lateral::State) -> Motion {
 }
 
 /// Linear interpolation between two inputs, `t` from 0 to 1.
-fn between(start: &Input, end: &Input, t: f64) -> Input {
+fn input_between(start: &Input, end: &Input, t: f64) -> Input {
     let number = |from: f64, to: f64| from + t * (to - from);
     Input {
         throttle: number(start.throttle, end.throttle),

@@ -9,7 +9,7 @@ type Values = [f64; slot_count(Output::ROWS)];
 /// The mean rate of the outputs while they went from one to another in `step` seconds; false for
 /// those that are true or false, and zero for counts.
 pub fn mean_rate(before: &Output, after: &Output, step: f64) -> Output {
-    let (before, after) = (values(before), values(after));
+    let (before, after) = (output_values(before), output_values(after));
     let rate: Values = std::array::from_fn(|k| (after[k] - before[k]) / step);
     without_flags(&rate)
 }
@@ -19,7 +19,7 @@ pub fn rest_rate() -> Output {
     without_flags(&[0.0; slot_count(Output::ROWS)])
 }
 
-fn values(output: &Output) -> Values {
+fn output_values(output: &Output) -> Values {
     let mut values = [0.0; slot_count(Output::ROWS)];
     output.write(&mut Writer::new(&mut values));
     values

@@ -82,15 +82,16 @@ impl Geometry {
 
     /// The head's motion: f^H = R_H' (p_head'' - g).
     pub fn head(&self, moving: &Moving) -> Head {
-        let plane = turning([moving.roll, Motion::at_rest(0.0), moving.yaw]);
-        let chassis = turning([moving.roll, moving.pitch, moving.yaw]);
+        let plane = turning_motion([moving.roll, Motion::at_rest(0.0), moving.yaw]);
+        let chassis = turning_motion([moving.roll, moving.pitch, moving.yaw]);
         let heave = moving.heave;
         let axis = Point {
             position: self.pitch_axis + Vector3::z() * heave.position,
             velocity: Vector3::z() * heave.velocity,
             acceleration: Vector3::z() * heave.acceleration,
         };
-        let point = moving.contact + carried(&plane, &axis) + carried(&chassis, &self.head_from_axis(moving.torso));
+        let point =
+            moving.contact + carried_point(&plane, &axis) + carried_point(&chassis, &self.head_from_axis(moving.torso));
         let felt = point.acceleration + Vector3::z() * self.gravity;
         let in_chassis = chassis.orientation.rotation.transpose() * felt;
         let (sin, cos) = libm::sincos(moving.torso.position);
@@ -118,7 +119,7 @@ impl Geometry {
 }
 
 /// Motion in the reference frame of a point that moves in a frame that rotates about the origin.
-fn carried(frame: &RotationalMotion, point: &Point) -> Point {
+fn carried_point(frame: &RotationalMotion, point: &Point) -> Point {
     let rotation = frame.orientation.rotation;
     let (position, velocity) = (rotation * point.position, rotation * point.velocity);
     let (angular_velocity, angular_acceleration) = (frame.velocity, frame.acceleration);
@@ -145,6 +146,6 @@ impl std::ops::Add for Point {
 }
 
 /// Rotation by roll, pitch and yaw with these motions.
-fn turning(angles: [Motion; 3]) -> RotationalMotion {
+fn turning_motion(angles: [Motion; 3]) -> RotationalMotion {
     RotationalMotion::new(&Motion::from_axes(|k| angles[k]))
 }

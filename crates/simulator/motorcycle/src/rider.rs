@@ -218,7 +218,7 @@ impl Rider {
     /// The matrix of the closed loop of lateral state and accumulated error at a speed \[m/s\].
     pub fn closed_loop(&self, lateral: &Lateral, speed: f64) -> SMatrix<f64, PLANT_SIZE, PLANT_SIZE> {
         let gains = self.gains(speed);
-        let (a, torque) = plant(lateral, speed, self.parameters.feet_speed);
+        let (a, torque) = lean_plant(lateral, speed, self.parameters.feet_speed);
         a - torque * gains.gain.push(gains.error_gain).transpose()
     }
 }
@@ -237,7 +237,7 @@ pub(crate) fn within(value: f64, limit: f64) -> f64 {
 /// / 0.2, steer rate / 2, accumulated error / 0.1 and torque / weight.
 fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<GainSet> {
     let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
-    let (a, torque) = plant(lateral, speed, limits.feet_speed);
+    let (a, torque) = lean_plant(lateral, speed, limits.feet_speed);
     let unit = lateral::units::<PLANT_SIZE>();
     let (scale, inverse) = (SMatrix::from_diagonal(&unit), SMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
     let mut cost = SVector::<f64, PLANT_SIZE>::zeros();
@@ -285,7 +285,7 @@ fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lat
 ///
 /// The first part is the matrix of the lateral state and the accumulated error of the lean, the
 /// second the effect of a torque.
-fn plant(
+fn lean_plant(
     lateral: &Lateral,
     speed: f64,
     feet_speed: f64,

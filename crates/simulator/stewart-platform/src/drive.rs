@@ -57,7 +57,7 @@ impl Drive {
             velocity: slope + rate_after,
             acceleration: self.acceleration(offset_after, rate_after),
         };
-        if self.acceleration(offset, rate).abs() <= self.limits.acceleration && allowed(&self.limits, &motion) {
+        if self.acceleration(offset, rate).abs() <= self.limits.acceleration && is_allowed(&self.limits, &motion) {
             return DriveTarget { motion, limited: false };
         }
         DriveTarget { motion: self.limited(length, velocity, motion.velocity), limited: true }
@@ -82,7 +82,7 @@ impl Drive {
 }
 
 /// Test of a leg's motion: within all limits, and able to stop ahead of the ends.
-fn allowed(limits: &Limits, motion: &Motion) -> bool {
+fn is_allowed(limits: &Limits, motion: &Motion) -> bool {
     let Motion { position, velocity, acceleration } = *motion;
     let ahead = if velocity > 0.0 { limits.max - position } else { position - limits.min };
     velocity.abs() <= limits.velocity

@@ -50,7 +50,7 @@ impl Dynamics {
             // parameters are refused.
             mobility: inertia.try_inverse().unwrap_or_else(Matrix6::zeros),
             inertia,
-            bias: stacked(force, moment),
+            bias: stacked_vectors(force, moment),
             drift: Vector6::from(leg_accelerations(geometry, &unaccelerated)),
         }
     }
@@ -94,6 +94,6 @@ fn spatial_inertia(mass: f64, arm: Vector3<f64>, about_origin: Matrix3<f64>) -> 
 }
 
 /// Two vectors as one.
-fn stacked(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {
+fn stacked_vectors(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> {
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }

@@ -236,7 +236,7 @@ impl StewartPlatform {
         let next = self.free_step(&targets, step).unwrap_or_else(|| self.constrained_step(&targets, step));
 
         let geometry = Geometry::from(&self.parameters.rig);
-        let guess = ahead(&motion, step).pose();
+        let guess = motion_ahead(&motion, step).pose();
         // A valid rig has a pose for every combination of leg lengths.
         let reached = motion_of_legs(&geometry, &next.legs, &[0.0; 6], &guess)
             .unwrap_or_else(|_| PlatformMotion::at_rest(motion.pose()));
@@ -275,7 +275,7 @@ impl StewartPlatform {
             return None;
         }
         let mean = Vector6::from_fn(|i, _| (targets[i].motion.velocity - self.now.legs.velocity[i]) / step);
-        let force = self.dynamics(&ahead(&self.now.motion, 0.5 * step)).forces(&mean);
+        let force = self.dynamics(&motion_ahead(&self.now.motion, 0.5 * step)).forces(&mean);
         (force.amax() <= self.parameters.actuators.force_limit).then(|| Next {
             legs: Legs {
                 length: targets.map(|target| target.motion.position),
@@ -292,7 +292,7 @@ impl StewartPlatform {
     fn constrained_step(&self, targets: &[DriveTarget; 6], step: f64) -> Next {
         let (rig, limit) = (&self.parameters.rig, self.parameters.actuators.force_limit);
         let Legs { length, velocity } = self.now.legs;
-        let dynamics = self.dynamics(&ahead(&self.now.motion, 0.5 * step));
+        let dynamics = self.dynamics(&motion_ahead(&self.now.motion, 0.5 * step));
         let free = Vector6::from(velocity) + step * dynamics.leg_accelerations(&Vector6::zeros());
         let demand: [Leg; 6] = std::array::from_fn(|i| Leg {
             demand: targets[i].motion.velocity,
@@ -391,7 +391,7 @@ impl Instant {
 }
 
 /// The motion `time` seconds later if its accelerations stay: a guess of the second order.
-fn ahead(motion: &PlatformMotion, time: f64) -> PlatformMotion {
+fn motion_ahead(motion: &PlatformMotion, time: f64) -> PlatformMotion {
     let turning = motion.angular_velocity + 0.5 * time * motion.angular_acceleration;
     let angles = motion.orientation.angles.to_vector() + time * motion.orientation.rates(turning).to_vector();
     PlatformMotion {

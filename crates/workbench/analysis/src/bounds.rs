@@ -56,7 +56,7 @@ pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<A
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let desired: Vec<f64> = simulation.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();
         let bound = AxisBound {
-            bound: bound(&desired, simulation.step, &limits(&simulation.parameters, axis), interval)?,
+            bound: bound(&desired, simulation.step, &axis_limits(&simulation.parameters, axis), interval)?,
             desired,
         };
         Ok((bound.desired_rms() >= WORTH_BOUNDING).then_some(bound))
@@ -68,7 +68,7 @@ pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<A
 
 /// The limits that the washout keeps on an axis: the safety unit's, or the stroke along the axis
 /// alone where that is less.
-fn limits(parameters: &Parameters, axis: usize) -> AxisLimits {
+fn axis_limits(parameters: &Parameters, axis: usize) -> AxisLimits {
     let Parameters { safety, tilt, structure, rig, .. } = parameters;
     let reach = single_axis_range(rig, [Axis::Surge, Axis::Sway, Axis::Heave][axis]);
     let head = moris_washout::platform::LocationFrame::new(structure, 0.0).point;

@@ -57,8 +57,8 @@ pub fn load(file: &Path) -> Result<Laps> {
     if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
     }
-    let part = beside(file);
-    write(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(file))?;
+    let part = temporary_file(file);
+    write_whole(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(file))?;
     match moris_fmu_host::files::text(file, MAX_FILE_SIZE) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
@@ -76,8 +76,8 @@ pub fn save(file: &Path, laps: &Laps) -> Result<()> {
     // What a link points to is replaced, not the link.
     let target = file.canonicalize();
     let file = target.as_deref().unwrap_or(file);
-    let part = beside(file);
-    let written = write(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file));
+    let part = temporary_file(file);
+    let written = write_whole(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file));
     written
         .inspect_err(|_| {
             // Half of a road is of no use; if it cannot be removed, it stays beside the old one.
@@ -91,13 +91,13 @@ fn cannot_keep(file: &Path) -> String {
 }
 
 /// A file in the same folder, so that it can take the other's place.
-fn beside(file: &Path) -> PathBuf {
+fn temporary_file(file: &Path) -> PathBuf {
     let mut name = file.file_name().map_or_else(OsString::new, OsString::from);
     name.push(format!(".{}.part", std::process::id()));
     file.with_file_name(name)
 }
 
-fn write(file: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_whole(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(file)?;
     file.write_all(bytes)?;
     file.sync_all()

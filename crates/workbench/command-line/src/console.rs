@@ -22,7 +22,7 @@ static LINES: OnceLock<SyncSender<Line>> = OnceLock::new();
 
 /// Prints a line. It neither waits nor fails.
 pub fn line(text: &str) {
-    let lines = LINES.get_or_init(|| begin(stderr()));
+    let lines = LINES.get_or_init(|| start_writer(stderr()));
     let _ = lines.try_send(Line::Text(format!("{text}\n")));
 }
 
@@ -48,14 +48,14 @@ fn wait_for(lines: &SyncSender<Line>) -> bool {
 }
 
 /// The thread that writes. Nobody joins it: a reader that does not read may stop it for ever.
-fn begin(out: impl Write + Send + 'static) -> SyncSender<Line> {
+fn start_writer(out: impl Write + Send + 'static) -> SyncSender<Line> {
     let (lines, received) = sync_channel(MAX_WAITING_LINES);
     // Without a thread nothing is printed, and the session goes on.
-    let _ = thread::Builder::new().name("console".to_owned()).spawn(move || write(out, &received));
+    let _ = thread::Builder::new().name("console".to_owned()).spawn(move || write_lines(out, &received));
     lines
 }
 
-fn write(mut out: impl Write, lines: &Receiver<Line>) {
+fn write_lines(mut out: impl Write, lines: &Receiver<Line>) {
     while let Ok(line) = lines.recv() {
         match line {
             // The reader may be gone.
@@ -102,7 +102,7 @@ mod tests {
     fn a_reader_that_is_gone_or_blocks_stops_nobody() {
         for blocks in [false, true] {
             let taken = Arc::default();
-            let lines = begin(Reader { taken: Arc::clone(&taken), room: 8, blocks });
+            let lines = start_writer(Reader { taken: Arc::clone(&taken), room: 8, blocks });
             let begin = Instant::now();
             for _ in 0..3 * MAX_WAITING_LINES {
                 let _ = lines.try_send(Line::Text("line\n".to_owned()));

@@ -15,7 +15,7 @@ pub fn exit_status(result: Result<ExitCode>, out: &mut dyn Write) -> ExitCode {
         Err(error) if nobody_reads_on(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // The reader may be gone.
-            let _ = writeln!(stderr(), "error: {}", shortened(&with_causes(&error)));
+            let _ = writeln!(stderr(), "error: {}", shortened_lines(&with_causes(&error)));
             ExitCode::FAILURE
         }
     }
@@ -34,7 +34,7 @@ fn with_causes(error: &anyhow::Error) -> String {
 }
 
 /// The text with its lines cut at a length: some errors quote a line of a file.
-fn shortened(text: &str) -> String {
+fn shortened_lines(text: &str) -> String {
     const LONGEST: usize = 2000;
     let cut = |line: &str| match line.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{} ...", &line[..end]),

@@ -56,7 +56,7 @@ pub fn schema(kind: FileKind) -> Result<Value> {
     Ok(match kind {
         FileKind::Rig => serde_json::to_value(schema_for!(RigFile))?,
         FileKind::Conventions => serde_json::to_value(schema_for!(ConventionOptions))?,
-        FileKind::Parameters => parameters(),
+        FileKind::Parameters => parameter_schema(),
         FileKind::Simulation => {
             let settings = SchemaSettings::draft2020_12().for_serialize();
             serde_json::to_value(settings.into_generator().into_root_schema_for::<Vec<SimulatedRecording>>())?
@@ -65,9 +65,10 @@ pub fn schema(kind: FileKind) -> Result<Value> {
 }
 
 /// The schema of parameter files: every parameter with its unit, range and description.
-fn parameters() -> Value {
+fn parameter_schema() -> Value {
     let rows = Parameters::ROWS.iter().filter(|row| row.causality == Causality::Parameter);
-    let named = rows.flat_map(|row| (0..row.slots()).map(move |element| (row.variable_name(element), property(row))));
+    let named =
+        rows.flat_map(|row| (0..row.slots()).map(move |element| (row.variable_name(element), parameter_property(row))));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Parameters",
@@ -78,7 +79,7 @@ fn parameters() -> Value {
     })
 }
 
-fn property(row: &Row) -> Value {
+fn parameter_property(row: &Row) -> Value {
     let mut property = match row.kind {
         Kind::Real(_) => json!({ "type": "number" }),
         Kind::Integer => json!({ "type": "integer" }),

@@ -20,9 +20,9 @@ fn main() {
     };
     let directory = Path::new(&directory);
     let written = std::fs::create_dir_all(directory).and_then(|()| {
-        write(directory, "two-runs", &two_runs())?;
-        write(directory, "hostile", &hostile())?;
-        write(directory, "long", &long())
+        write_page(directory, "two-runs", &two_runs())?;
+        write_page(directory, "hostile", &hostile_report())?;
+        write_page(directory, "long", &long_report())
     });
     if let Err(error) = written {
         eprintln!("error: {}: {error}", directory.display());
@@ -30,7 +30,7 @@ fn main() {
     }
 }
 
-fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
+fn write_page(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
     std::fs::write(directory.join(format!("{name}.html")), html(report))?;
     let runs: Vec<_> = report
         .runs
@@ -58,21 +58,21 @@ fn two_runs() -> Report {
         vehicle: Vehicle::Motorcycle,
         title: "Out of town and a brusque stop".into(),
         subtitle: "A computed ride of 60 s on the default rig, with the shipped parameters and two others".into(),
-        findings: vec![finding(Weight::Note, "The ride is computed.")],
+        findings: vec![new_finding(Weight::Note, "The ride is computed.")],
         provenance: vec![("ride".into(), "computed".into()), ("step".into(), "0.01 s".into())],
         rig: (&shipped).into(),
         runs: vec![
             Run {
-                findings: vec![finding(Weight::Good, "No leg comes to the end of its stroke.")],
-                ..simulated("default", &shipped, 60.0, 0.01)
+                findings: vec![new_finding(Weight::Good, "No leg comes to the end of its stroke.")],
+                ..simulated_run("default", &shipped, 60.0, 0.01)
             },
             Run {
-                findings: vec![finding(Weight::Note, "The brusque stop is felt for four seconds less.")],
-                ..simulated("soft", &soft, 60.0, 0.01)
+                findings: vec![new_finding(Weight::Note, "The brusque stop is felt for four seconds less.")],
+                ..simulated_run("soft", &soft, 60.0, 0.01)
             },
             Run {
-                findings: vec![finding(Weight::Warning, "The safety units hold the platform back.")],
-                ..simulated("small-motions", &small_motions, 60.0, 0.01)
+                findings: vec![new_finding(Weight::Warning, "The safety units hold the platform back.")],
+                ..simulated_run("small-motions", &small_motions, 60.0, 0.01)
             },
         ],
         selected: 0,
@@ -81,15 +81,15 @@ fn two_runs() -> Report {
     }
 }
 
-fn finding(weight: Weight, text: &str) -> Finding {
+fn new_finding(weight: Weight, text: &str) -> Finding {
     Finding { weight, text: text.into() }
 }
 
-fn hostile() -> Report {
+fn hostile_report() -> Report {
     // Text that would run a script, end an element, or break out of a string if it were not
     // escaped.
     const HOSTILE: &str = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \"&lt;' {{data}} \u{2028} ?";
-    let mut run = simulated(HOSTILE, &Parameters::default(), 5.0, 0.01);
+    let mut run = simulated_run(HOSTILE, &Parameters::default(), 5.0, 0.01);
     run.measures.push(Row {
         subject: HOSTILE.into(),
         name: HOSTILE,
@@ -110,7 +110,7 @@ fn hostile() -> Report {
         vehicle: Vehicle::Car,
         title: HOSTILE.into(),
         subtitle: HOSTILE.into(),
-        findings: vec![finding(Weight::Warning, HOSTILE)],
+        findings: vec![new_finding(Weight::Warning, HOSTILE)],
         provenance: vec![(HOSTILE.into(), HOSTILE.into())],
         rig: (&Parameters::default()).into(),
         runs: vec![run.clone(), run],
@@ -121,28 +121,28 @@ fn hostile() -> Report {
 }
 
 /// Two minutes at 1 kHz.
-fn long() -> Report {
+fn long_report() -> Report {
     let parameters = Parameters::default();
     Report {
         title: "Two minutes at 1 kHz".into(),
         rig: (&parameters).into(),
-        runs: vec![simulated("default", &parameters, 120.0, 0.001)],
+        runs: vec![simulated_run("default", &parameters, 120.0, 0.001)],
         ..Report::default()
     }
 }
 
 /// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].
-fn rise(t: f64, start: f64, duration: f64) -> f64 {
+fn smooth_rise(t: f64, start: f64, duration: f64) -> f64 {
     let x = ((t - start) / duration).clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }
 
 /// Accelerate, bends and bumps, and an abrupt stop at 40 s.
-fn input(t: f64) -> Input {
+fn ride_input(t: f64) -> Input {
     const GRAVITY: f64 = 9.80665;
-    let surge = 2.2 * (rise(t, 1.0, 3.0) - rise(t, 10.0, 3.0));
-    let brake = if t < 40.0 { -3.5 * rise(t, 32.0, 4.0) } else { 0.0 };
-    let bends = rise(t, 14.0, 2.0) - rise(t, 28.0, 2.0);
+    let surge = 2.2 * (smooth_rise(t, 1.0, 3.0) - smooth_rise(t, 10.0, 3.0));
+    let brake = if t < 40.0 { -3.5 * smooth_rise(t, 32.0, 4.0) } else { 0.0 };
+    let bends = smooth_rise(t, 14.0, 2.0) - smooth_rise(t, 28.0, 2.0);
     let sway = 0.8 * bends * (TAU * 0.25 * t).sin();
     let bumps = 0.6 * bends * (TAU * 1.5 * t).sin() + if (35.0..35.05).contains(&t) { 25.0 } else { 0.0 };
     let mut input = Input::default();
@@ -156,8 +156,8 @@ fn input(t: f64) -> Input {
 }
 
 /// The ride with these parameters, in this step \[s\], with a few rows for the table.
-fn simulated(name: &str, parameters: &Parameters, duration: f64, step: f64) -> Run {
-    let manoeuvre = Manoeuvre::sampled(step, duration, input);
+fn simulated_run(name: &str, parameters: &Parameters, duration: f64, step: f64) -> Run {
+    let manoeuvre = Manoeuvre::sampled(step, duration, ride_input);
     let simulation = Simulation::of(&Replay::new(&manoeuvre), parameters, || ()).expect("the parameters are good");
     let measures = moris_simulation::measures(&simulation).expect("a ride has more than one sample");
     let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds: [None; 3], advice: None };

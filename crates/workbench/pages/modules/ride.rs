@@ -77,17 +77,17 @@ pub extern "C" fn view() -> *const f64 {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn road() -> *const f64 {
-    write(with_ride(|ride| points(ride)).into_iter())
+    write(with_ride(|ride| road_points(ride)).into_iter())
 }
 
 /// Number of the road's points.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn road_length() -> usize {
-    with_ride(|ride| points(ride).len() / 4)
+    with_ride(|ride| road_points(ride).len() / 4)
 }
 
-fn points(ride: &Ride) -> Vec<f64> {
+fn road_points(ride: &Ride) -> Vec<f64> {
     ride.course().points().flat_map(|(place, advised)| [place.x, place.y, place.yaw, advised]).collect()
 }
 

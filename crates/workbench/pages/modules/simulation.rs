@@ -99,7 +99,7 @@ pub extern "C" fn finish() -> bool {
 pub extern "C" fn check_rig() -> bool {
     respond(with_numbers(|numbers| {
         let given: Parameters = Parameters::read(&mut Reader::new(&numbers[1..]));
-        verdict(&given, Some(numbers[0]).filter(|diameter| diameter.is_finite()))
+        rig_verdict(&given, Some(numbers[0]).filter(|diameter| diameter.is_finite()))
     }))
 }
 
@@ -184,7 +184,7 @@ impl Recorded {
     }
 }
 
-fn verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> {
+fn rig_verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> {
     given.check_ranges().map_err(|error| error.to_string())?;
     // As the command has them: the rig's, all others the default's.
     let defaults = Parameters::default();

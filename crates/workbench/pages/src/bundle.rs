@@ -13,34 +13,34 @@ const PAGE_MODULES: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/scrip
 /// There is no such module, or none of a path that is imported.
 pub fn bundle(entry: &str) -> String {
     let mut paths = Vec::new();
-    add(entry, &mut paths);
-    let lines = paths.iter().flat_map(|path| text(path).lines()).filter(|line| imported(line).is_none());
+    add_module(entry, &mut paths);
+    let lines = paths.iter().flat_map(|path| module_text(path).lines()).filter(|line| imported_path(line).is_none());
     lines.map(|line| format!("{}\n", line.strip_prefix("export ").unwrap_or(line))).collect()
 }
 
 /// Adds a module after those that it imports.
-fn add(path: &str, paths: &mut Vec<String>) {
-    for from in text(path).lines().filter_map(imported) {
-        let imported = resolved(path, from);
+fn add_module(path: &str, paths: &mut Vec<String>) {
+    for from in module_text(path).lines().filter_map(imported_path) {
+        let imported = resolved_path(path, from);
         if !paths.contains(&imported) {
-            add(&imported, paths);
+            add_module(&imported, paths);
         }
     }
     paths.push(path.to_owned());
 }
 
-fn text(path: &str) -> &'static str {
+fn module_text(path: &str) -> &'static str {
     let found = PAGE_MODULES.iter().find(|(known, _)| *known == path);
     found.unwrap_or_else(|| panic!("no page has a module {path}")).1
 }
 
 /// The path that a line imports from.
-fn imported(line: &str) -> Option<&str> {
+fn imported_path(line: &str) -> Option<&str> {
     line.strip_prefix("import ")?.strip_suffix("\";")?.split_once("from \"").map(|(_, path)| path)
 }
 
 /// A path relative to that of a module, from `page/` on.
-fn resolved(module: &str, path: &str) -> String {
+fn resolved_path(module: &str, path: &str) -> String {
     let folder = module.split_once('/').map_or("", |(folder, _)| folder);
     match (path.strip_prefix("../"), path.strip_prefix("./")) {
         (Some(elsewhere), _) => elsewhere.to_owned(),
@@ -79,7 +79,7 @@ mod tests {
     /// True if a text has a name outside of its imports.
     fn uses(text: &str, name: &str) -> bool {
         text.lines()
-            .filter(|line| imported(line).is_none())
+            .filter(|line| imported_path(line).is_none())
             .any(|line| line.split(|letter: char| !letter.is_alphanumeric() && letter != '_').any(|word| word == name))
     }
 
@@ -88,9 +88,10 @@ mod tests {
         let mut imports = HashSet::new();
         for (path, text) in PAGE_MODULES {
             for line in text.lines().filter(|line| line.starts_with("import ")) {
-                let from = resolved(path, imported(line).unwrap_or_else(|| panic!("{path}: {line}")));
+                let from = resolved_path(path, imported_path(line).unwrap_or_else(|| panic!("{path}: {line}")));
                 for name in names(line) {
-                    let exported = super::text(&from).lines().filter_map(declared).any(|one| one == (name, true));
+                    let exported =
+                        super::module_text(&from).lines().filter_map(declared).any(|one| one == (name, true));
                     assert!(exported, "{path}: {from} does not export {name}");
                     assert!(uses(text, name), "{path} does not use {name}");
                     imports.insert((from.clone(), name));
@@ -110,7 +111,7 @@ mod tests {
         let mut reached = HashSet::from([ALONE.to_owned()]);
         for entry in ENTRIES {
             let mut paths = Vec::new();
-            add(entry, &mut paths);
+            add_module(entry, &mut paths);
             assert_eq!(paths.iter().collect::<HashSet<_>>().len(), paths.len(), "{entry}: {paths:?}");
             reached.extend(paths);
             let script = bundle(entry);
@@ -126,8 +127,8 @@ mod tests {
     #[test]
     fn shared_modules_import_from_each_other_alone() {
         for (path, text) in PAGE_MODULES.iter().filter(|(path, _)| path.starts_with("shared/")) {
-            for from in text.lines().filter_map(imported) {
-                assert!(resolved(path, from).starts_with("shared/"), "{path}: {from}");
+            for from in text.lines().filter_map(imported_path) {
+                assert!(resolved_path(path, from).starts_with("shared/"), "{path}: {from}");
             }
         }
     }

@@ -7,7 +7,7 @@ use moris_setup::{Error, NamedValues};
 use pyo3::prelude::*;
 
 /// An exception of `moris._errors` with these arguments.
-fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+fn new_exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
     let made = py.import("moris._errors").and_then(|module| module.getattr(class)?.call1(arguments));
     made.map_or_else(|error| error, PyErr::from_value)
 }
@@ -16,7 +16,7 @@ fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCa
 pub fn refused(py: Python, error: &ParameterError, values: &NamedValues) -> PyErr {
     let ParameterError { variable, reason } = error;
     let value = values.iter().find(|(name, _)| name == variable).map(|(_, value)| *value);
-    exception(py, "ParameterError", (format!("{variable} {reason}"), variable, value))
+    new_exception(py, "ParameterError", (format!("{variable} {reason}"), variable, value))
 }
 
 /// A rig or parameters that cannot be used.
@@ -30,11 +30,13 @@ pub fn setup(py: Python, error: &Error) -> PyErr {
                 near => format!("did you mean {}?", near.join(" or ")),
             };
             let message = format!("there is no {what} {name}; {remedy}");
-            exception(py, "ParameterError", (message, name, None::<f64>, nearest.clone()))
+            new_exception(py, "ParameterError", (message, name, None::<f64>, nearest.clone()))
         }
-        Error::WrongValue { name, reason, .. } => exception(py, "ParameterError", (format!("{name} {reason}"), name)),
+        Error::WrongValue { name, reason, .. } => {
+            new_exception(py, "ParameterError", (format!("{name} {reason}"), name))
+        }
         Error::NoSuchSet { name, nearest } | Error::NoSuchRig { name, nearest } => {
-            exception(py, "ParameterError", (error.to_string(), name, None::<f64>, nearest.clone()))
+            new_exception(py, "ParameterError", (error.to_string(), name, None::<f64>, nearest.clone()))
         }
         Error::Read { .. } | Error::Toml { .. } => plain(py, "ParameterError", error),
     }
@@ -42,15 +44,15 @@ pub fn setup(py: Python, error: &Error) -> PyErr {
 
 /// A recording or an argument that cannot be used.
 pub fn recording(py: Python, message: String) -> PyErr {
-    exception(py, "RecordingError", (message,))
+    new_exception(py, "RecordingError", (message,))
 }
 
 /// A bound that cannot be computed.
 pub fn bound(py: Python, reason: &dyn Display) -> PyErr {
-    exception(py, "BoundError", (format!("cannot compute the bound: {reason}"),))
+    new_exception(py, "BoundError", (format!("cannot compute the bound: {reason}"),))
 }
 
 /// An exception of `moris._errors` whose message is the reason alone.
 pub fn plain(py: Python, class: &str, reason: &dyn Display) -> PyErr {
-    exception(py, class, (reason.to_string(),))
+    new_exception(py, class, (reason.to_string(),))
 }

@@ -47,10 +47,10 @@ pub fn fit<'py>(
         py.detach(|| Search::new(manoeuvre, preview, Aims { error, inverted, ..Aims::default() }).fit(&parameters));
     let found = found.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
     let chosen = parameter_dict(py, &found.best.factors.applied(&setup.parameters))?;
-    Ok((fitted(&found.best), found.fits, found.curve.iter().map(fitted).collect(), chosen))
+    Ok((fitted_candidate(&found.best), found.fits, found.curve.iter().map(fitted_candidate).collect(), chosen))
 }
 
-fn fitted(candidate: &Candidate) -> Fitted {
+fn fitted_candidate(candidate: &Candidate) -> Fitted {
     let Candidate { factors, shape: Shape { error, axes, .. } } = candidate;
     let axes = axes.map(|axis| axis.map(|axis| [axis.shape, axis.inverted, axis.size]));
     ([factors.scale, factors.breaks, factors.heave], *error, axes)

@@ -22,16 +22,16 @@ pub fn motion(parts: &[Option<Bound<PyAny>>; 4], recording: &Recording) -> PyRes
     let [force, rate, pose, legs] = parts.each_ref().map(Option::as_ref);
     let mut notes = Vec::new();
     let motion = ForeignMotion {
-        force: part(force, &FORCE, recording, &mut notes)?,
-        rate: part(rate, &RATE, recording, &mut notes)?,
-        pose: part(pose, &POSE, recording, &mut notes)?,
-        legs: part(legs, &LEGS, recording, &mut notes)?,
+        force: motion_part(force, &FORCE, recording, &mut notes)?,
+        rate: motion_part(rate, &RATE, recording, &mut notes)?,
+        pose: motion_part(pose, &POSE, recording, &mut notes)?,
+        legs: motion_part(legs, &LEGS, recording, &mut notes)?,
     };
     Ok((motion, notes))
 }
 
 /// One quantity of the motion: from a file, a table of columns, or an array with a row a sample.
-fn part<const N: usize>(
+fn motion_part<const N: usize>(
     given: Given,
     names: &Names<N>,
     recording: &Recording,
@@ -45,7 +45,7 @@ fn part<const N: usize>(
     } else if is_table(given)? {
         FeltTable::of_columns("", &columns(given.extract()?)?).map_err(|reason| refused(reason.worded(argument)))?
     } else {
-        return rows(given, names.argument, recording.inputs().len()).map(Some);
+        return array_rows(given, names.argument, recording.inputs().len()).map(Some);
     };
     let prefix = if table.name.is_empty() { String::new() } else { format!("{}: ", table.name) };
     table.part(names, recording, notes).map(Some).map_err(|reason| refused(format!("{prefix}{reason}")))
@@ -59,7 +59,7 @@ fn is_table(given: &Bound<PyAny>) -> PyResult<bool> {
 
 /// The rows of an array with `N` columns, and as many rows as the recording has samples, or a whole
 /// number of rows to each of its steps.
-fn rows<const N: usize>(given: &Bound<PyAny>, name: &str, samples: usize) -> PyResult<Vec<[f64; N]>> {
+fn array_rows<const N: usize>(given: &Bound<PyAny>, name: &str, samples: usize) -> PyResult<Vec<[f64; N]>> {
     let array = numbers(given, name)?;
     let shape = array.shape();
     let steps = samples - 1;

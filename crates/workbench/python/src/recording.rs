@@ -32,7 +32,7 @@ impl PyRecording {
     /// Reads a CSV file.
     #[staticmethod]
     fn read(py: Python, file: PathBuf, options: &Bound<PyDict>) -> PyResult<Self> {
-        let conventions = conventions(options)?;
+        let conventions = parse_conventions(options)?;
         let recording = py.detach(|| Recording::read(&file, &conventions));
         Self::of(py, recording)
     }
@@ -45,7 +45,7 @@ impl PyRecording {
         columns: Vec<(String, Bound<PyAny>)>,
         options: &Bound<PyDict>,
     ) -> PyResult<Self> {
-        let conventions = conventions(options)?;
+        let conventions = parse_conventions(options)?;
         let columns = self::columns(columns)?;
         let recording = py.detach(|| Recording::of_columns(name, &columns, &conventions));
         Self::of(py, recording)
@@ -95,7 +95,7 @@ impl PyRecording {
 }
 
 /// Names, units and axes by the options' names, with underscores for hyphens.
-fn conventions(options: &Bound<PyDict>) -> PyResult<Conventions> {
+fn parse_conventions(options: &Bound<PyDict>) -> PyResult<Conventions> {
     let py = options.py();
     // All numbers among the options are real.
     let real = |value| if let Value::Integer(number) = value { Value::Float(number as f64) } else { value };

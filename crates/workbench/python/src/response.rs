@@ -49,10 +49,10 @@ pub fn frequency_response<'py>(
     let measured = measured.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
     let names = Channel::ALL.iter().map(|&channel| name(channel)).collect();
     let frequencies = PyArray1::from_slice(py, &frequencies());
-    Ok((names, frequencies, arrays(py, &measured.test)?, arrays(py, &measured.small)?))
+    Ok((names, frequencies, response_arrays(py, &measured.test)?, response_arrays(py, &measured.small)?))
 }
 
-fn arrays<'py>(py: Python<'py>, responses: &[Response]) -> PyResult<Responses<'py>> {
+fn response_arrays<'py>(py: Python<'py>, responses: &[Response]) -> PyResult<Responses<'py>> {
     let count = frequencies().len();
     let shape = |last: usize| [CHANNELS, count, last];
     let ratios = responses.iter().flat_map(|response| response.ratios);

@@ -94,7 +94,7 @@ impl PySimulation {
         check_preview(&setup, preview).map_err(refused)?;
         check_learning(&setup, &recording.inner, preview, learn).map_err(refused)?;
         let recording = Arc::clone(&recording.inner);
-        let learned = learn.then(|| py.detach(|| learned(&recording, road.as_deref()))).transpose();
+        let learned = learn.then(|| py.detach(|| learned_preview(&recording, road.as_deref()))).transpose();
         let learned = learned.map_err(|reason| PyValueError::new_err(reason.with_sources(argument)))?;
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters), learned)?;
@@ -270,7 +270,7 @@ pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), Message> {
 }
 
 /// The preview that a recording learns, and keeps in a file if there is one.
-fn learned(recording: &Recording, file: Option<&Path>) -> Result<Previewer> {
+fn learned_preview(recording: &Recording, file: Option<&Path>) -> Result<Previewer> {
     let mut road = Kept::open(file)?;
     let learned = road.learn(recording)?;
     road.save()?;

@@ -66,7 +66,7 @@ pub fn sweep_chunk<'py>(
     let tasks: Vec<_> = pairs.zip(rows.chunks_exact_mut(MEASURES.len())).collect();
     let act = |((setup, recording), row): ((Option<&Setup>, &Recording), &mut [f64])| {
         if let Some(setup) = setup {
-            measure(&host, setup, recording, row);
+            write_measures(&host, setup, recording, row);
         }
     };
     if threads == 1 {
@@ -79,7 +79,7 @@ pub fn sweep_chunk<'py>(
 }
 
 /// Writes the measures of a simulation into a row; those that are not defined stay what they are.
-fn measure(host: &Host, setup: &Setup, recording: &Recording, row: &mut [f64]) {
+fn write_measures(host: &Host, setup: &Setup, recording: &Recording, row: &mut [f64]) {
     let parameters = recording.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
     let Ok(simulation) = host.replay(recording, &parameters, None) else { return };

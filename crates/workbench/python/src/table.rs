@@ -45,10 +45,15 @@ pub fn rigs() -> Vec<&'static str> {
 /// Python is out of memory.
 #[pyfunction]
 pub fn variable_rows(py: Python) -> PyResult<Vec<Variable>> {
-    Ok([of(py, &Inputs::default())?, of(py, &Output::default())?, of(py, &Parameters::default())?].concat())
+    Ok([
+        group_variables(py, &Inputs::default())?,
+        group_variables(py, &Output::default())?,
+        group_variables(py, &Parameters::default())?,
+    ]
+    .concat())
 }
 
-fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>> {
+fn group_variables<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>> {
     let variables = Variables::of(G::ROWS);
     let values = slots_of(start);
     let mut rows = Vec::new();
@@ -61,7 +66,7 @@ fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>>
                 _ => variables.scalar(py, slot, values[slot])?,
             };
             let (name, causality) = (variables.names[slot].clone(), row.causality.name());
-            let (kind, unit, items) = kind(row);
+            let (kind, unit, items) = row_kind(row);
             let (of, usual, group) = (row.array_name(), row.usual, row.group);
             rows.push((name, causality, kind, unit, least, greatest, start, items, row.text(), of, usual, group));
         }
@@ -69,7 +74,7 @@ fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>>
     Ok(rows)
 }
 
-fn kind(row: &Row) -> (&'static str, &'static str, Vec<&'static str>) {
+fn row_kind(row: &Row) -> (&'static str, &'static str, Vec<&'static str>) {
     match row.kind {
         Kind::Real(unit) => ("real", unit.name, Vec::new()),
         Kind::Integer => ("integer", "", Vec::new()),

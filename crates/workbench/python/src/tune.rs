@@ -83,7 +83,7 @@ impl PyTuning {
         let Some(aim) = Aim::named(objective) else {
             return Err(PyValueError::new_err(format!("objective is {objective}, but must be shape or error")));
         };
-        let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
+        let groups = groups.iter().map(|name| tuning_group(name)).collect::<PyResult<_>>()?;
         let objective = |recording: &PyRef<PyRecording>| {
             let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, stroke_reserve);
             let objective = objective.map(|objective| objective.with_comfort_bounds(comfort).with_aim(aim));
@@ -126,11 +126,11 @@ impl PyTuning {
         let interrupted = Arc::new(AtomicBool::new(false));
         let progress: Mutex<Option<Progress>> = Mutex::new(None);
         let failure: Mutex<Option<PyErr>> = Mutex::new(None);
-        let elsewhere = evaluate.map(|function| remote(function, &interrupted, &failure));
+        let elsewhere = evaluate.map(|function| remote_evaluation(function, &interrupted, &failure));
         let least_of: Mutex<(f64, usize)> = Mutex::new((f64::INFINITY, 0));
         let note = |name: &str, tried: usize, least: Option<f64>| {
-            *lock(&progress) = Some((name.to_owned(), tried, least));
-            let mut best = lock(&least_of);
+            *lock_contents(&progress) = Some((name.to_owned(), tried, least));
+            let mut best = lock_contents(&least_of);
             // A search that begins counts from the start again.
             if tried < best.1 || least.is_some_and(|least| least < best.0) {
                 *best = (least.unwrap_or(f64::INFINITY), tried);
@@ -160,7 +160,7 @@ impl PyTuning {
                 let searching = scope.spawn(|| pool.install(search));
                 while !searching.is_finished() {
                     thread::park_timeout(POLL_INTERVAL);
-                    let looked = Python::attach(|py| look(py, &observe, lock(&progress).take()));
+                    let looked = Python::attach(|py| report_progress(py, &observe, lock_contents(&progress).take()));
                     match looked {
                         Ok(true) => (),
                         Ok(false) => interrupted.store(true, Ordering::Relaxed),
@@ -168,7 +168,7 @@ impl PyTuning {
                             // Ctrl-C ends the search and keeps the best so far; any other error is the caller's.
                             keyboard |= Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py));
                             if !keyboard {
-                                lock(&failure).get_or_insert(error);
+                                lock_contents(&failure).get_or_insert(error);
                             }
                             interrupted.store(true, Ordering::Relaxed);
                         }
@@ -177,7 +177,7 @@ impl PyTuning {
                 searching.join()
             })
         });
-        if let Some(error) = lock(&failure).take() {
+        if let Some(error) = lock_contents(&failure).take() {
             return Err(error);
         }
         let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
@@ -213,7 +213,7 @@ impl PyTuning {
 }
 
 /// Evaluations by a function of Python. Its first exception ends the search.
-fn remote<'a>(
+fn remote_evaluation<'a>(
     function: Py<PyAny>,
     interrupted: &'a AtomicBool,
     failure: &'a Mutex<Option<PyErr>>,
@@ -224,10 +224,10 @@ fn remote<'a>(
             function.call1(py, (names, all(parameters)))?.extract(py)
         });
         match sent {
-            Ok(Some(costs)) => Ok(costs.into_iter().map(received).collect()),
+            Ok(Some(costs)) => Ok(costs.into_iter().map(received_cost).collect()),
             Ok(None) => Err(TuneError::Evaluation("the parameters cannot be used")),
             Err(error) => {
-                lock(failure).get_or_insert(error);
+                lock_contents(failure).get_or_insert(error);
                 interrupted.store(true, Ordering::Relaxed);
                 Err(TuneError::Evaluation("the evaluation failed"))
             }
@@ -235,12 +235,12 @@ fn remote<'a>(
     })
 }
 
-fn received((channels, error, violated, comfort, excess): Sent) -> Cost {
+fn received_cost((channels, error, violated, comfort, excess): Sent) -> Cost {
     Cost { channels, error, violated, comfort, excess, ..Cost::default() }
 }
 
 /// Reports progress to Python and checks for signals. Returns false if the search is to end.
-fn look(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult<bool> {
+fn report_progress(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult<bool> {
     py.check_signals()?;
     match progress {
         Some(progress) => observe.call1(py, progress)?.is_truthy(py),
@@ -248,7 +248,7 @@ fn look(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult
     }
 }
 
-fn group(name: &str) -> PyResult<TuningGroup> {
+fn tuning_group(name: &str) -> PyResult<TuningGroup> {
     group_named(name).ok_or_else(|| {
         let names: Vec<_> = TuningGroup::ALL.iter().map(|group| group.name()).collect();
         let names = names.join(", ");
@@ -257,6 +257,6 @@ fn group(name: &str) -> PyResult<TuningGroup> {
 }
 
 /// The contents of a lock, also after a panic elsewhere.
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+fn lock_contents<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }

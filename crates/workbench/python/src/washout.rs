@@ -89,9 +89,9 @@ impl PyWashout {
         self.check_step(dt)?;
         let nan_is_rest = is_second("nan", nan, ["error", "rest"])?;
         let input = Input {
-            specific_force: vector(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?,
-            angular_velocity: vector(angular_velocity, "angular_velocity", [0.0; 3])?,
-            orientation: RollPitchYaw::from_vector(vector(orientation, "orientation", [0.0; 3])?),
+            specific_force: vector_of(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?,
+            angular_velocity: vector_of(angular_velocity, "angular_velocity", [0.0; 3])?,
+            orientation: RollPitchYaw::from_vector(vector_of(orientation, "orientation", [0.0; 3])?),
             speed,
             lean,
             engaged,
@@ -307,7 +307,7 @@ fn check_numbers(input: &Input) -> PyResult<()> {
 }
 
 /// The vector of a sequence of three numbers.
-fn vector(object: Given, name: &str, default: [f64; 3]) -> PyResult<Vector3<f64>> {
+fn vector_of(object: Given, name: &str, default: [f64; 3]) -> PyResult<Vector3<f64>> {
     let Some(object) = object else { return Ok(Vector3::from(default)) };
     let wrong = |_| PyTypeError::new_err(format!("{name} is {object}, but must be three numbers"));
     if let Ok(tuple) = object.cast::<PyTuple>()

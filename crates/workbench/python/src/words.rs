@@ -10,7 +10,7 @@ pub fn argument(Remedy { option, value }: &Remedy) -> String {
     };
     let Some(value) = value else { return name };
     match *option {
-        "columns" => format!("{name}={}", dictionary(value)),
+        "columns" => format!("{name}={}", column_dictionary(value)),
         "tune" => {
             format!("{name}=[{}]", value.split(',').map(|group| format!("\"{group}\"")).collect::<Vec<_>>().join(", "))
         }
@@ -22,7 +22,7 @@ pub fn argument(Remedy { option, value }: &Remedy) -> String {
 }
 
 /// `ax=NAME,ay=NAME` as a dictionary.
-fn dictionary(columns: &str) -> String {
+fn column_dictionary(columns: &str) -> String {
     // A command line has quotation marks around names with blanks.
     let pairs = columns.split(',').filter_map(|pair| pair.trim_matches('"').split_once('='));
     let pairs: Vec<String> = pairs.map(|(key, name)| format!("\"{key}\": \"{name}\"")).collect();

@@ -138,7 +138,7 @@ pub struct Alternative {
 
 impl Alternative {
     fn severity(&self, fault: Fault) -> f64 {
-        severity(&self.severities, fault)
+        fault_severity(&self.severities, fault)
     }
 
     /// The smaller the better: 0 without any fault, 1 without this one, above that by its severity.
@@ -217,7 +217,7 @@ impl Advice {
     }
 }
 
-fn severity(severities: &[(Fault, f64)], fault: Fault) -> f64 {
+fn fault_severity(severities: &[(Fault, f64)], fault: Fault) -> f64 {
     severities.iter().find(|(other, _)| *other == fault).map_or(0.0, |(_, severity)| *severity)
 }
 
@@ -244,7 +244,7 @@ impl<'a> Advisor<'a> {
     pub fn of(evaluated: &Evaluated, manoeuvre: &'a Manoeuvre, preview: f64) -> Option<Self> {
         let before = evaluated.severities();
         let fault = evaluated.fault().filter(|_| evaluated.simulation.foreign.is_none())?;
-        let (parameters, part) = (evaluated.simulation.parameters, hardest(manoeuvre));
+        let (parameters, part) = (evaluated.simulation.parameters, hardest_part(manoeuvre));
         Some(Advisor { fault, manoeuvre, part, parameters, preview, before })
     }
 
@@ -373,15 +373,15 @@ impl<'a> Advisor<'a> {
         const NO_WORSE: f64 = 1.05;
         let others = alternative.severities.iter().filter(|(fault, _)| *fault != self.fault);
         let is_no_worse =
-            |(fault, after): &(Fault, f64)| *after < f64::max(1.0, NO_WORSE * severity(&self.before, *fault));
+            |(fault, after): &(Fault, f64)| *after < f64::max(1.0, NO_WORSE * fault_severity(&self.before, *fault));
         let after = alternative.severity(self.fault);
-        let least = BETTER_SEVERITY_RATIOS[usize::from(after >= 1.0)] * severity(&self.before, self.fault);
+        let least = BETTER_SEVERITY_RATIOS[usize::from(after >= 1.0)] * fault_severity(&self.before, self.fault);
         after <= least && others.into_iter().all(is_no_worse)
     }
 }
 
 /// The part of a manoeuvre with the largest surge and sway, if it is longer than [`MAX_SEARCHED`].
-fn hardest(manoeuvre: &Manoeuvre) -> Option<Manoeuvre> {
+fn hardest_part(manoeuvre: &Manoeuvre) -> Option<Manoeuvre> {
     let count = (MAX_SEARCHED / manoeuvre.step()) as usize + 1;
     let inputs = manoeuvre.inputs();
     let (mut sum, mut sums) = (0.0, vec![0.0]);

@@ -38,33 +38,33 @@ impl Evaluated<'_> {
         let foreign = self.simulation.foreign.as_ref();
         let mut findings = match foreign {
             Some(foreign) => foreign.findings(self, is_better_than_rest(self)),
-            None => vec![fits(self)],
+            None => vec![fit_finding(self)],
         };
-        findings.extend((0..3).flat_map(|axis| comfort(self, axis)));
-        findings.extend(shape(self));
-        findings.extend(self.advice.and_then(Advice::alternatives).map(|text| finding(Weight::Note, text)));
+        findings.extend((0..3).flat_map(|axis| comfort_findings(self, axis)));
+        findings.extend(shape_finding(self));
+        findings.extend(self.advice.and_then(Advice::alternatives).map(|text| new_finding(Weight::Note, text)));
         if foreign.is_none() {
             let warnings = moris_washout::warnings(&self.simulation.parameters);
-            findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
+            findings.extend(warnings.into_iter().map(|warning| new_finding(Weight::Warning, format!("{warning}."))));
         }
         let (worse, others): (Vec<Finding>, Vec<Finding>) = channels(self)
             .iter()
             .filter_map(|channel| channel.finding(&self.simulation.parameters.tilt))
             .partition(|finding| finding.weight == Weight::Warning);
         findings.extend(worse);
-        findings.extend(tilt(self));
+        findings.extend(tilt_finding(self));
         findings.extend(others);
-        findings.extend(sickness(self.measures));
+        findings.extend(sickness_finding(self.measures));
         findings
     }
 }
 
-fn finding(weight: Weight, text: String) -> Finding {
+fn new_finding(weight: Weight, text: String) -> Finding {
     Finding { weight, text }
 }
 
 /// Fit of the recording to the rig: active limits, their durations and times.
-fn fits(outcome: &Evaluated) -> Finding {
+fn fit_finding(outcome: &Evaluated) -> Finding {
     // The cost of soft limits.
     const GIVEN_UP: &str =
         "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
@@ -85,17 +85,20 @@ fn fits(outcome: &Evaluated) -> Finding {
     );
     let good = if is_better_than_rest(outcome) { Weight::Good } else { Weight::Note };
     match (hard.as_slice(), soft) {
-        ([], None) => finding(good, format!("The recording fits the rig: {used}.")),
+        ([], None) => new_finding(good, format!("The recording fits the rig: {used}.")),
         ([], Some(soft)) if fits_freely(outcome.measures) => {
-            finding(good, format!("The recording fits the rig: {used}. {soft}"))
+            new_finding(good, format!("The recording fits the rig: {used}. {soft}"))
         }
-        ([], Some(soft)) => finding(
+        ([], Some(soft)) => new_finding(
             Weight::Warning,
             format!("The recording stays within the rig by its soft limits alone. {soft} {GIVEN_UP} ({used}.)"),
         ),
         (hard, soft) => {
             let soft = soft.map_or_else(String::new, |soft| format!(" {soft} {GIVEN_UP}"));
-            finding(Weight::Warning, format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" ")))
+            new_finding(
+                Weight::Warning,
+                format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" ")),
+            )
         }
     }
 }
@@ -144,7 +147,7 @@ fn soft_limited_time(simulation: &Simulation) -> Option<String> {
 }
 
 /// Motion sickness in the vehicle and on the platform.
-fn sickness(measures: &Measures) -> Option<Finding> {
+fn sickness_finding(measures: &Measures) -> Option<Finding> {
     // Least share of sick people that is worth a sentence [%], and the share by which the platform
     // may exceed the vehicle without a warning.
     const LEAST_SICK: f64 = 1.0;
@@ -152,7 +155,7 @@ fn sickness(measures: &Measures) -> Option<Finding> {
     let [vehicle, platform] = measures.rider.sick;
     let weight = if platform > vehicle + SICKNESS_RATIO { Weight::Warning } else { Weight::Note };
     (vehicle.max(platform) >= LEAST_SICK).then(|| {
-        finding(
+        new_finding(
             weight,
             format!(
                 "Motion sickness: half an hour of this ride makes {vehicle:.0} % of people sick, the same of the platform's motion \
@@ -163,7 +166,7 @@ fn sickness(measures: &Measures) -> Option<Finding> {
 }
 
 /// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.
-fn comfort(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
+fn comfort_findings(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
     // Least excesses of the felt force that are worth a sentence: well above what is felt at all,
     // and well below what hurts [m/s2].
     const LEAST_SHAKE: f64 = 0.1;
@@ -186,11 +189,11 @@ fn comfort(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
             format!("Felt {name} peaks {value:.1} m/s² above the largest desired force, at {time:.1} s.")
         }),
     ];
-    sentences.into_iter().flatten().map(|text| finding(Weight::Warning, text)).collect()
+    sentences.into_iter().flatten().map(|text| new_finding(Weight::Warning, text)).collect()
 }
 
 /// Sign, time, proportion and size of the felt force of surge and sway.
-fn shape(outcome: &Evaluated) -> Option<Finding> {
+fn shape_finding(outcome: &Evaluated) -> Option<Finding> {
     let shape = &outcome.measures.shape;
     let (most, inverted) = shape.most_inverted()?;
     let of_axes = |value: &dyn Fn(&AxisShape) -> String| {
@@ -208,14 +211,14 @@ fn shape(outcome: &Evaluated) -> Option<Finding> {
             AXES[most],
             percent(inverted)
         );
-        return Some(finding(Weight::Warning, text));
+        return Some(new_finding(Weight::Warning, text));
     }
     let is_right = shape.axes.iter().flatten().all(|axis| axis.shape >= RIGHT_SHAPE);
     let (weight, verdict) = match is_right {
         true => (Weight::Good, "Surge and sway are felt the right way round and in time"),
         false => (Weight::Note, "Surge and sway are felt the right way round, but not in proportion"),
     };
-    Some(finding(weight, format!("{verdict}. Shape: {shapes}; size: {sizes}.")))
+    Some(new_finding(weight, format!("{verdict}. Shape: {shapes}; size: {sizes}.")))
 }
 
 fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
@@ -223,7 +226,7 @@ fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
 }
 
 /// Time in which limits of tilt coordination acted, limit by limit.
-fn tilt(outcome: &Evaluated) -> Option<Finding> {
+fn tilt_finding(outcome: &Evaluated) -> Option<Finding> {
     // Least fraction of the time with limited tilt that is worth a sentence.
     const LEAST_TILT_LIMITED: f64 = 0.005;
     let fraction = outcome.measures.effort.limited.tilt;
@@ -240,7 +243,7 @@ fn tilt(outcome: &Evaluated) -> Option<Finding> {
     });
     let by = by.collect::<Vec<_>>().join(", ");
     let text = format!("Tilt coordination was limited for {:.0} % of the recording: by {by}.", 100.0 * fraction);
-    Some(finding(Weight::Note, text))
+    Some(new_finding(Weight::Note, text))
 }
 
 /// The limits that the bound of an axis was computed with.
@@ -333,7 +336,7 @@ impl ChannelFigures {
         let name = capitalised(name(self.axis));
         let text =
             format!("{name} {verdict}: {correlation}an RMS error of {}, {of_desired}.{falsely}", value(rms_error));
-        Some(finding(weight, text + &self.bound_sentence(tilt)))
+        Some(new_finding(weight, text + &self.bound_sentence(tilt)))
     }
 
     fn bound_sentence(&self, tilt: &TiltParameters) -> String {

@@ -212,7 +212,7 @@ impl<'a> Search<'a> {
     /// # Errors
     /// The parameters cannot be used.
     pub fn candidate(&self, parameters: &Parameters, factors: Factors) -> Result<Candidate, ParameterError> {
-        Ok(Candidate { factors, shape: self.shape(&quick(&factors.applied(parameters)))? })
+        Ok(Candidate { factors, shape: self.shape(&quick_parameters(&factors.applied(parameters)))? })
     }
 
     /// The same with the internal step of the parameters.
@@ -273,7 +273,8 @@ impl<'a> Search<'a> {
         for heave in HEAVE_FACTORS {
             let scaled = Factors { heave, ..factors }.applied(parameters);
             let scale = scaled.conditioning.force_scale[2];
-            let felt: Vec<f64> = self.felt(&quick(&scaled))?.iter().map(|force| force[2] - STANDARD_GRAVITY).collect();
+            let felt: Vec<f64> =
+                self.felt(&quick_parameters(&scaled))?.iter().map(|force| force[2] - STANDARD_GRAVITY).collect();
             let Some(felt) = below_cue_frequency(&felt, self.manoeuvre.step()) else { return Ok(1.0) };
             let error = mean_square(&mut desired.iter().zip(&felt).map(|(desired, felt)| felt - scale * desired));
             if error <= (self.aims.error * scale).powi(2) * asked {
@@ -305,7 +306,7 @@ impl<'a> Search<'a> {
 }
 
 /// The parameters with the internal step of the search.
-fn quick(parameters: &Parameters) -> Parameters {
+fn quick_parameters(parameters: &Parameters) -> Parameters {
     // Internal step of the search with the predictive strategy, whose plan has longer steps; with
     // the adaptive one, whose gains follow at every step; with the others [s].
     const SEARCH_STEPS: [f64; 3] = [0.01, 0.002, 0.005];

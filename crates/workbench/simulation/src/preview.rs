@@ -55,7 +55,7 @@ impl Previewer {
         let count = ((seconds / PREVIEW_STEP + COUNT_ROUNDING) as usize).min(PREVIEW_SAMPLES);
         let reach = (PREVIEW_STEP / step).round() as usize;
         let force = |axis: usize| manoeuvre.inputs().iter().map(|input| input.specific_force[axis]).collect::<Vec<_>>();
-        let forces = [0, 1].map(|axis| averaged(&force(axis), reach));
+        let forces = [0, 1].map(|axis| triangle_average(&force(axis), reach));
         (seconds > 0.0).then_some(Previewer { step, source: Source::Recording { forces, count } })
     }
 
@@ -89,7 +89,7 @@ impl Previewer {
 }
 
 /// Mean around each value, weighted by a triangle that ends at `reach` values on either side.
-fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
+fn triangle_average(values: &[f64], reach: usize) -> Vec<f64> {
     let reach = reach.max(1);
     // Two running means over `reach` values in succession have a triangular weight.
     let ahead = running_mean(values, reach);

@@ -41,7 +41,7 @@ pub fn tilt_limits(times: &[f64], lags: &[bool], tilt: [&[f64]; 2], rate: [&[f64
     // The same of the acceleration between two samples, of which the limit may act on a part only.
     const REACHED_ACCELERATION: f64 = 0.9;
     [0, 1].map(|axis| {
-        let is_accelerated = sustained(times, rate[axis], REACHED_ACCELERATION * limits.tilt_acceleration);
+        let is_accelerated = sustained_changes(times, rate[axis], REACHED_ACCELERATION * limits.tilt_acceleration);
         let acting = |k: usize| {
             let at = |value: f64, limit: f64| limit > 0.0 && value.abs() >= REACHED_FRACTION * limit;
             if !lags[k] {
@@ -61,7 +61,7 @@ pub fn tilt_limits(times: &[f64], lags: &[bool], tilt: [&[f64]; 2], rate: [&[f64
 
 /// Samples before which the rate has changed by at least `least` \[rad/s2\] in
 /// one direction for long.
-fn sustained(times: &[f64], rate: &[f64], least: f64) -> Vec<bool> {
+fn sustained_changes(times: &[f64], rate: &[f64], least: f64) -> Vec<bool> {
     // An acceleration limit that acts in one direction for a shorter time only smooths noise [s].
     const MIN_SUSTAINED_TIME: f64 = 0.1;
     let sign = |k: usize| {

@@ -105,7 +105,7 @@ impl PreviewRider {
         let speeds = Speeds { slowest: rider.feet_speed(), fastest: rider.fastest() };
         let mut designed = PreviewRider { gains: SVector::repeat(PreviewGains::default()), speeds };
         for k in 0..GAIN_SPEEDS {
-            designed.gains[k] = design(lateral, rider, speeds.knot(k, GAIN_SPEEDS))?;
+            designed.gains[k] = design_gains(lateral, rider, speeds.knot(k, GAIN_SPEEDS))?;
         }
         Some(designed)
     }
@@ -118,19 +118,19 @@ impl PreviewRider {
 
     /// The matrix of motorcycle, rider and path in closed loop at a speed \[m/s\].
     pub fn closed_loop(&self, lateral: &Lateral, rider: &Rider, speed: f64) -> PlantMatrix {
-        plant(lateral, rider, &rider.gains(speed), speed) - control() * self.gains(speed).gain.transpose()
+        plant_matrix(lateral, rider, &rider.gains(speed), speed) - control_effect() * self.gains(speed).gain.transpose()
     }
 }
 
 /// Effect of the control.
-fn control() -> Plant {
+fn control_effect() -> Plant {
     let mut control = Plant::zeros();
     control[REFERENCE_RATE] = 1.0;
     control
 }
 
 /// The plant's matrix at a speed, without feet on the road.
-fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> PlantMatrix {
+fn plant_matrix(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> PlantMatrix {
     let (fraction, frequency) = rider.torso();
     let mut a = PlantMatrix::zeros();
     for column in 0..PLANT_SIZE {
@@ -177,8 +177,8 @@ fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
 }
 
 /// Gains at a speed.
-fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> {
-    let a = plant(lateral, rider, &rider.gains(speed), speed);
+fn design_gains(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> {
+    let a = plant_matrix(lateral, rider, &rider.gains(speed), speed);
     let (turn, yaw_rate) = steady_turn(&a)?;
     let unit = lateral::units::<PLANT_SIZE>();
     let (scale, inverse) = (PlantMatrix::from_diagonal(&unit), PlantMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
@@ -187,12 +187,12 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     for (coordinate, size) in DEVIATION_WEIGHTS {
         cost[coordinate] = 1.0 / (size * size);
     }
-    let spread = control() * control().transpose() * INVERSE_CONTROL_WEIGHT;
+    let spread = control_effect() * control_effect().transpose() * INVERSE_CONTROL_WEIGHT;
     let to_go = riccati::solve::<PLANT_SIZE, { 2 * PLANT_SIZE }>(&scaled, &spread, &PlantMatrix::from_diagonal(&cost))?;
-    let gain = to_go * control() * INVERSE_CONTROL_WEIGHT;
-    let closed = scaled - control() * gain.transpose();
+    let gain = to_go * control_effect() * INVERSE_CONTROL_WEIGHT;
+    let closed = scaled - control_effect() * gain.transpose();
     // The mean of exp(A_c' τ) P X over each interval.
-    let (flow, mean) = flow(&closed.transpose(), PREVIEW_INTERVAL);
+    let (flow, mean) = matrix_flow(&closed.transpose(), PREVIEW_INTERVAL);
     let mut weight = to_go * (inverse * turn) * INVERSE_CONTROL_WEIGHT;
     let mut preview = SVector::<f64, PREVIEW_INTERVALS>::zeros();
     for k in 0..PREVIEW_INTERVALS {
@@ -211,7 +211,7 @@ pub const INVERSE_CONTROL_WEIGHT: f64 = 16.0;
 
 /// exp(A t), and the mean of exp(A τ) from 0 to t, by Taylor's series over a small part of the time
 /// and repeated doubling.
-fn flow(a: &PlantMatrix, time: f64) -> (PlantMatrix, PlantMatrix) {
+fn matrix_flow(a: &PlantMatrix, time: f64) -> (PlantMatrix, PlantMatrix) {
     const DOUBLINGS: i32 = 12;
     const TERMS: u32 = 10;
     let identity = PlantMatrix::identity();

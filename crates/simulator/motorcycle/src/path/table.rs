@@ -102,7 +102,7 @@ impl Table {
             repeat,
         };
         if course == Course::Custom {
-            check(parameters)?;
+            check_path(parameters)?;
             return Ok(Some(custom(parameters, parameters.repeat)));
         }
         let shipped = SHIPPED_PATHS.iter().find(|(of, ..)| *of == course);
@@ -155,7 +155,7 @@ impl Table {
 
     /// Curvature at a place \[1/m\], positive to the right.
     pub fn curvature(&self, place: Between) -> f64 {
-        between(&self.curvature, place)
+        column_between(&self.curvature, place)
     }
 
     /// Curvature at a distance, straight beyond the ends \[1/m\].
@@ -169,21 +169,21 @@ impl Table {
 
     /// Speed limit at a place \[m/s\].
     pub fn speed(&self, place: Between) -> f64 {
-        between(&self.speed, place)
+        column_between(&self.speed, place)
     }
 
     /// Distance of a place from the beginning \[m\].
     pub fn distance(&self, place: Between) -> f64 {
-        between(&self.distance, place)
+        column_between(&self.distance, place)
     }
 }
 
-fn between(values: &PathColumn, Between { row, fraction }: Between) -> f64 {
+fn column_between(values: &PathColumn, Between { row, fraction }: Between) -> f64 {
     values[row] + fraction * (values[row + 1] - values[row])
 }
 
 /// Checks the custom path.
-fn check(path: &Path) -> Result<(), ParameterError> {
+fn check_path(path: &Path) -> Result<(), ParameterError> {
     // Least distance between two rows [m].
     const MIN_ROW_DISTANCE: f64 = 0.1;
     // Least speed limit, except at the end of a path that does not repeat [m/s].

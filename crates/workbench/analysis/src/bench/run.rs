@@ -136,15 +136,15 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
     let of = || format!("{} on {}", drive.name, rig.name);
     let setup = rig.setup().about(of)?;
     let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);
-    let unscaled = recording.parameters(&unscaled(&setup.parameters, StrategyKind::Classical));
+    let unscaled = recording.parameters(&with_unit_scale(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
     let bounds = bounds::bounds_at(&asked, BOUND_INTERVAL).about(of)?;
-    let row = |washout: &str, scale: Scale, outcome: Outcome| row(rig, drive, washout, scale, outcome, &bounds);
+    let row = |washout: &str, scale: Scale, outcome: Outcome| bench_row(rig, drive, washout, scale, outcome, &bounds);
     let at_rest = at_rest(&recording, &Setup { parameters: unscaled, ..setup.clone() }).about(of)?;
     let mut rows = vec![row("at rest", Scale::One, at_rest)];
     let search = Search::new(&recording.manoeuvre, 0.0, Aims::default());
     for &strategy in strategies {
-        let parameters = recording.parameters(&self::unscaled(&setup.parameters, strategy));
+        let parameters = recording.parameters(&self::with_unit_scale(&setup.parameters, strategy));
         let simulated = |parameters: &Parameters| {
             let setup = Setup { parameters: *parameters, ..setup.clone() };
             Outcome::of(&recording, &setup, None, || ()).about(of)
@@ -179,7 +179,7 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
 }
 
 /// A strategy with the force as the vehicle's. The rates keep the scale of the rig's parameters.
-fn unscaled(parameters: &Parameters, strategy: StrategyKind) -> Parameters {
+fn with_unit_scale(parameters: &Parameters, strategy: StrategyKind) -> Parameters {
     let mut unscaled = *parameters;
     unscaled.structure.strategy = strategy;
     unscaled.conditioning.force_scale.fill(1.0);
@@ -194,7 +194,7 @@ fn at_rest(recording: &Recording, setup: &Setup) -> Result<Outcome> {
     Outcome::foreign(recording, setup, "at rest", &motion, Vec::new())
 }
 
-fn row(
+fn bench_row(
     rig: &BenchRig,
     drive: &Drive,
     washout: &str,

@@ -24,7 +24,7 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: &str, words: W
     let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
-        let report = report(recording, outcomes, most / outcomes.len(), words);
+        let report = recording_report(recording, outcomes, most / outcomes.len(), words);
         let page = moris_pages::report::html(&report);
         if page.len() <= MAX_PAGE_SIZE || most <= LEAST_SAMPLES {
             let is_foreign = outcomes[0].simulation.foreign.is_some();
@@ -65,7 +65,7 @@ fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> St
 
 /// The report of a recording with one or several sets of parameters, of which the first is shown
 /// first, with at most so many samples of each.
-fn report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words) -> Report {
+fn recording_report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words) -> Report {
     let first = &outcomes[0];
     let thinning = Thinning::new(first.simulation.inputs.len(), most);
     let finding = |text: String| Finding { weight: Weight::Warning, text };
@@ -81,13 +81,13 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words
         findings: warnings.collect(),
         provenance: vec![
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", recording.name, 1.0 / recording.step())),
-            ("Gravity".to_owned(), gravity(recording).to_owned()),
-            ("Curves".to_owned(), resolution(first, &thinning)),
+            ("Gravity".to_owned(), gravity_method(recording).to_owned()),
+            ("Curves".to_owned(), shown_samples(first, &thinning)),
             ("Made by".to_owned(), format!("moris {}", moris_pages::VERSION)),
         ],
         rig: (&first.setup.parameters).into(),
         vehicle: vehicle(recording),
-        runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
+        runs: outcomes.iter().map(|outcome| report_run(outcome, &thinning)).collect(),
         selected: 0,
         simulator: None,
         no_simulator_because: (!simulator::is_compiled() && first.simulation.foreign.is_none())
@@ -96,7 +96,7 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize, words: Words
 }
 
 /// Method of removing gravity.
-fn gravity(recording: &Recording) -> &'static str {
+fn gravity_method(recording: &Recording) -> &'static str {
     if recording.has_orientation {
         "removed as gravityRemoval says, by the recorded orientation"
     } else {
@@ -105,7 +105,7 @@ fn gravity(recording: &Recording) -> &'static str {
 }
 
 /// Samples that the curves show.
-fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
+fn shown_samples(outcome: &Outcome, thinning: &Thinning) -> String {
     match thinning.factor() {
         1.0 => "every sample".to_owned(),
         factor => format!(
@@ -115,7 +115,7 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
     }
 }
 
-fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
+fn report_run(outcome: &Outcome, thinning: &Thinning) -> Run {
     let run = moris_pages::report::run(&outcome.evaluated(), &outcome.setup.parameters_name, thinning);
     Run { charts: bound_charts(outcome, thinning), ..run }
 }

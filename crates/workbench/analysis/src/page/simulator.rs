@@ -51,14 +51,14 @@ pub fn parameters(from: &Parameters, base: &Parameters) -> Vec<Parameter> {
         .zip(Parameters::SLOTS)
         .map(|((start, base), slot)| {
             let (row, element) = (&Parameters::ROWS[usize::from(slot.row)], usize::from(slot.element));
-            parameter(row, element, [start, base], half_stroke)
+            page_parameter(row, element, [start, base], half_stroke)
         })
         .collect()
 }
 
 /// The slider's range. Without a usual one it is a decade to either side. Values of the rig go from
 /// a fifth to twice their start, and lengths of its legs by half a stroke.
-fn slider(row: &Row, start: f64, half_stroke: f64) -> [f64; 2] {
+fn slider_range(row: &Row, start: f64, half_stroke: f64) -> [f64; 2] {
     if let Some((least, greatest)) = row.usual {
         return [least.min(start), greatest.max(start)];
     }
@@ -79,7 +79,7 @@ fn is_of_rig(row: &Row) -> bool {
     Rig::ROWS.iter().any(|of_rig| of_rig.name == row.name)
 }
 
-fn parameter(row: &Row, element: usize, [start, base]: [f64; 2], half_stroke: f64) -> Parameter {
+fn page_parameter(row: &Row, element: usize, [start, base]: [f64; 2], half_stroke: f64) -> Parameter {
     let (kind, unit, items) = match row.kind {
         Kind::Real(unit) => (ParameterKind::Real, unit.name, Vec::new()),
         Kind::Integer => (ParameterKind::Integer, "", Vec::new()),
@@ -96,7 +96,7 @@ fn parameter(row: &Row, element: usize, [start, base]: [f64; 2], half_stroke: f6
         kind,
         items,
         accepted: [least, greatest],
-        slider: slider(row, start, half_stroke),
+        slider: slider_range(row, start, half_stroke),
         group: row.heading.map(str::to_owned),
         used_if: row.conditions(element).map(|needed| (needed.variable.to_owned(), needed.values.to_vec())).collect(),
         is_free: !is_of_rig(row) && name != "angularVelocityFrame",

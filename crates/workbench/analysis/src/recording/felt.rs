@@ -284,7 +284,7 @@ impl<const N: usize> Names<N> {
         let Some(places) = self.places(header) else { return Ok(None) };
         let mut columns = Vec::with_capacity(N);
         for (&place, kind) in places.iter().zip(self.dimensions) {
-            let factor = factor(header, place, kind)?;
+            let factor = unit_factor(header, place, kind)?;
             columns.push(column(place).into_iter().map(|value| value * factor).collect::<Vec<f64>>());
         }
         let count = columns[0].len();
@@ -303,7 +303,7 @@ impl<const N: usize> Names<N> {
 }
 
 /// The factor of a column to SI, by the unit in its title.
-fn factor(header: &Header, place: usize, kind: Kind) -> Result<f64, String> {
+fn unit_factor(header: &Header, place: usize, kind: Kind) -> Result<f64, String> {
     let Some(unit) = header.unit_text(place) else { return Ok(1.0) };
     kind.factor(unit)
         .ok_or_else(|| format!("column {} has the unit {unit}; write one of {}", header.shown(place), kind.units()))

@@ -27,7 +27,7 @@ pub fn svg(survey: &Survey) -> String {
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{SVG_STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
         escaped(&survey.name)
     );
-    text += &format!(r#"<text x="24" y="56">{}</text>"#, escaped(&verdict(survey)));
+    text += &format!(r#"<text x="24" y="56">{}</text>"#, escaped(&verdict_line(survey)));
     let drawn = PLANES.iter().map(|plane| {
         let body = section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit);
         (plane.title.to_owned(), body)
@@ -40,18 +40,18 @@ pub fn svg(survey: &Survey) -> String {
         .chain(drawn)
         .chain([
             (close_title, view(parameters, &closest.pose, Some(closest))),
-            ("Closest approach of each pair of legs [mm]".to_owned(), distances(survey)),
+            ("Closest approach of each pair of legs [mm]".to_owned(), distance_table(survey)),
         ]);
     for (index, (title, body)) in panels.enumerate() {
         let (x, y) = ((index % 2) as f64 * PANEL[0], HEADER_HEIGHT + (index / 2) as f64 * PANEL[1]);
         text +=
             &format!(r#"<g transform="translate({x} {y})"><text x="64" y="30" class="panel">{title}</text>{body}</g>"#);
     }
-    text + &legend(height - FOOTER_HEIGHT) + "</svg>\n"
+    text + &colour_legend(height - FOOTER_HEIGHT) + "</svg>\n"
 }
 
 /// Table of the closest approach of each pair of legs.
-fn distances(survey: &Survey) -> String {
+fn distance_table(survey: &Survey) -> String {
     // Height of a row of the table of closest approaches [px].
     const TABLE_ROW_HEIGHT: f64 = 26.0;
     let at = |column: usize, row: usize| [120.0 + 64.0 * column as f64, 80.0 + TABLE_ROW_HEIGHT * row as f64];
@@ -69,7 +69,7 @@ fn distances(survey: &Survey) -> String {
     text + &format!(r#"<text x="40" y="{y}">Legs are taken as {diameter:.0} mm thick.</text>"#)
 }
 
-fn verdict(survey: &Survey) -> String {
+fn verdict_line(survey: &Survey) -> String {
     let volume = survey.workspace.level;
     let collision = if survey.capabilities.clearance.collisions().next().is_some() { "; LEGS COLLIDE" } else { "" };
     let regular = match &survey.capabilities.singularities {
@@ -85,7 +85,7 @@ fn verdict(survey: &Survey) -> String {
 }
 
 /// Legend of the colours.
-fn legend(top: f64) -> String {
+fn colour_legend(top: f64) -> String {
     let mut text = format!(r#"<g transform="translate(64 {top})">"#);
     let mut x = 0.0;
     for (margin, colour) in MARGINS {

@@ -44,9 +44,9 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     for (index, (margin, colour)) in MARGINS.into_iter().enumerate() {
         let name = format!("s{}{}m{index}", plane.axes[0], plane.axes[1]);
         if rig.has_cranks() {
-            text += &cells(rig, plane, margin, &window, colour);
-        } else if let Some(rings) = rings(rig, plane, neutral, margin) {
-            text += &shape(&name, &rings, &window, colour);
+            text += &cell_section(rig, plane, margin, &window, colour);
+        } else if let Some(rings) = section_rings(rig, plane, neutral, margin) {
+            text += &filled_rings(&name, &rings, &window, colour);
         }
     }
     let [x0, y1] = window.pixel(flat(-safety));
@@ -63,7 +63,7 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
 }
 
 /// The section of a rig with cranks as cells, in which the actuators have this margin.
-fn cells(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: &str) -> String {
+fn cell_section(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: &str) -> String {
     // Cells across a section of a rig with cranks.
     const CELLS: u32 = 120;
     let [low, high] = window.corners();
@@ -91,7 +91,7 @@ struct Ring {
 }
 
 /// The six rings, or `None` where a leg does not reach the plane.
-fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option<Vec<Ring>> {
+fn section_rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option<Vec<Ring>> {
     let across = 3 - plane.axes[0] - plane.axes[1];
     let ring = |leg: usize| {
         let centre = rig.base[leg] - rig.platform[leg] - neutral;
@@ -105,7 +105,7 @@ fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option
 
 /// The common interior of all rings, filled: nested groups, each clipped by one disc, with the
 /// holes masked out. A nested clip path would be equivalent, but not every viewer supports it.
-fn shape(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
+fn filled_rings(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
     let circle = |ring: &Ring, radius: f64| {
         let [x, y] = window.pixel(ring.centre);
         format!(r#"<circle cx="{x:.2}" cy="{y:.2}" r="{:.2}"/>"#, radius * window.scale())

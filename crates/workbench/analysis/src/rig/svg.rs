@@ -16,7 +16,7 @@ const PANEL_MARGINS: [f64; 4] = [64.0, 44.0, 16.0, 52.0];
 impl Window {
     /// Shows everything from `low` to `high` and as much around it as the panel has room for.
     pub fn around(low: [f64; 2], high: [f64; 2]) -> Self {
-        let [width, height] = room();
+        let [width, height] = panel_room();
         let scale = (width / (high[0] - low[0])).min(height / (high[1] - low[1]));
         let (half_width, half_height) = (0.5 * width / scale, 0.5 * height / scale);
         let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
@@ -33,7 +33,7 @@ impl Window {
 
     /// Scale of both axes \[px/m\].
     pub fn scale(&self) -> f64 {
-        room()[0] / (self.high[0] - self.low[0])
+        panel_room()[0] / (self.high[0] - self.low[0])
     }
 
     /// Where a point is in the panel \[px\].
@@ -43,28 +43,29 @@ impl Window {
 
     /// The drawing area as attributes of a rectangle.
     pub fn area(&self) -> String {
-        let [width, height] = room();
+        let [width, height] = panel_room();
         format!(r#"x="{}" y="{}" width="{width}" height="{height}""#, PANEL_MARGINS[0], PANEL_MARGINS[1])
     }
 
     /// The frame with numbers and names of the axes.
     pub fn axes(&self, names: [&str; 2]) -> String {
         let mut text = format!(r#"<rect {} class="frame"/>"#, self.area());
-        let [width, height] = room();
+        let [width, height] = panel_room();
         let bottom = PANEL_MARGINS[1] + height;
-        for x in ticks(self.low[0], self.high[0]) {
+        for x in axis_ticks(self.low[0], self.high[0]) {
             let [px, _] = self.pixel([x, 0.0]);
             text += &format!(r#"<path d="M{px:.1} {bottom}v5" class="frame"/>"#);
-            text += &format!(r#"<text x="{px:.1}" y="{:.1}" text-anchor="middle">{}</text>"#, bottom + 20.0, number(x));
+            text +=
+                &format!(r#"<text x="{px:.1}" y="{:.1}" text-anchor="middle">{}</text>"#, bottom + 20.0, tick_label(x));
         }
-        for y in ticks(self.low[1], self.high[1]) {
+        for y in axis_ticks(self.low[1], self.high[1]) {
             let [_, py] = self.pixel([0.0, y]);
             text += &format!(r#"<path d="M{} {py:.1}h-5" class="frame"/>"#, PANEL_MARGINS[0]);
             text += &format!(
                 r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#,
                 PANEL_MARGINS[0] - 8.0,
                 py + 4.0,
-                number(y)
+                tick_label(y)
             );
         }
         let (middle_x, middle_y) = (PANEL_MARGINS[0] + 0.5 * width, PANEL_MARGINS[1] + 0.5 * height);
@@ -79,12 +80,12 @@ impl Window {
 }
 
 /// Width and height of a panel's drawing area \[px\].
-fn room() -> [f64; 2] {
+fn panel_room() -> [f64; 2] {
     [PANEL[0] - PANEL_MARGINS[0] - PANEL_MARGINS[2], PANEL[1] - PANEL_MARGINS[1] - PANEL_MARGINS[3]]
 }
 
 /// Round numbers between two, about six of them.
-fn ticks(low: f64, high: f64) -> Vec<f64> {
+fn axis_ticks(low: f64, high: f64) -> Vec<f64> {
     let rough = (high - low) / 6.0;
     let decade = 10f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade).into_iter().find(|step| *step >= rough).unwrap_or(rough);
@@ -94,7 +95,7 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
 }
 
 /// A tick's number, without a minus before zero and without more zeros than it needs.
-fn number(value: f64) -> String {
+fn tick_label(value: f64) -> String {
     let text = format!("{:.3}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.replace('-', "−") }
@@ -112,13 +113,13 @@ mod tests {
     #[test]
     fn ticks_are_round_and_inside() {
         let near = |a: Vec<f64>, b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
-        assert!(near(ticks(-0.55, 0.52), &[-0.4, -0.2, 0.0, 0.2, 0.4]));
-        assert!(near(ticks(0.9, 3.1), &[1.0, 1.5, 2.0, 2.5, 3.0]));
+        assert!(near(axis_ticks(-0.55, 0.52), &[-0.4, -0.2, 0.0, 0.2, 0.4]));
+        assert!(near(axis_ticks(0.9, 3.1), &[1.0, 1.5, 2.0, 2.5, 3.0]));
     }
 
     #[test]
     fn numbers_have_no_idle_zeros() {
-        assert_eq!([0.0, -0.0, 0.5, -0.25, 10.0].map(number), ["0", "0", "0.5", "−0.25", "10"]);
+        assert_eq!([0.0, -0.0, 0.5, -0.25, 10.0].map(tick_label), ["0", "0", "0.5", "−0.25", "10"]);
     }
 
     #[test]

@@ -24,13 +24,15 @@ pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) ->
     let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW_LENGTH_FRACTION * radius * axis);
 
     let above = head + Vector3::new(0.0, 0.0, HEAD_RADIUS);
-    let seen: Vec<[f64; 2]> = rig.base.iter().chain(&platform).chain(&arrows).chain([&above]).map(projected).collect();
+    let seen: Vec<[f64; 2]> =
+        rig.base.iter().chain(&platform).chain(&arrows).chain([&above]).map(projected_point).collect();
     let low = [0, 1].map(|axis| seen.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min) - 0.1 * radius);
     let high = [0, 1].map(|axis| seen.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max) + 0.1 * radius);
     let window = Window::around(low, high);
-    let at = |point: &Vector3<f64>| window.pixel(projected(point));
+    let at = |point: &Vector3<f64>| window.pixel(projected_point(point));
     let polygon = |joints: &[Vector3<f64>; 6], class: &str| {
-        let points: Vec<String> = around(joints).iter().map(&at).map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        let points: Vec<String> =
+            joints_in_order(joints).iter().map(&at).map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
         format!(r#"<polygon points="{}" class="{class}"/>"#, points.join(" "))
     };
     let line = |from: &Vector3<f64>, to: &Vector3<f64>, class: &str| {
@@ -75,7 +77,7 @@ pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) ->
 }
 
 /// Across and up in the picture, for someone who looks from afar.
-fn projected(point: &Vector3<f64>) -> [f64; 2] {
+fn projected_point(point: &Vector3<f64>) -> [f64; 2] {
     // Where it is seen from: turned about the vertical, then from above [rad].
     const VIEW_AZIMUTH: f64 = 0.6;
     const VIEW_ELEVATION: f64 = 0.35;
@@ -85,7 +87,7 @@ fn projected(point: &Vector3<f64>) -> [f64; 2] {
 }
 
 /// The joints in the order in which they go round their centre.
-fn around(joints: &[Vector3<f64>; 6]) -> [Vector3<f64>; 6] {
+fn joints_in_order(joints: &[Vector3<f64>; 6]) -> [Vector3<f64>; 6] {
     let centre = joints.iter().sum::<Vector3<f64>>() / 6.0;
     let mut sorted = *joints;
     sorted.sort_by(|a, b| {

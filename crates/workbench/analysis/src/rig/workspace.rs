@@ -49,12 +49,12 @@ impl Workspace {
     /// has the same sign as at neutral. The second condition excludes the platform's mirror
     /// image below the base.
     pub fn of(rig: &Rig, samples: u32) -> Self {
-        let [low, high] = bounds(rig);
+        let [low, high] = workspace_box(rig);
         let blocks = samples.div_ceil(POINTS_PER_BLOCK);
         let samples = blocks * POINTS_PER_BLOCK;
         let found = (0..blocks)
             .into_par_iter()
-            .map(|block| tried(rig, low, high, block))
+            .map(|block| tried_block(rig, low, high, block))
             .reduce(Coverage::nothing, Coverage::and);
         let size = (high - low).product();
         let neutral = Pose::neutral(rig).position;
@@ -81,7 +81,7 @@ impl Volume {
 
 /// A box that contains every position of the level platform. The origin is never farther than a
 /// leg's longest length from the point where that leg's joints would coincide.
-fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
+fn workspace_box(rig: &Rig) -> [Vector3<f64>; 2] {
     let reach = Vector3::repeat(rig.farthest_joint());
     let meeting = (0..6).map(|i| rig.base[i] - rig.platform[i]);
     meeting.fold([-Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::INFINITY)], |[low, high], point| {
@@ -113,7 +113,7 @@ impl Coverage {
     }
 }
 
-fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Coverage {
+fn tried_block(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Coverage {
     // Seed of the streams.
     const STREAM_SEED: u64 = 1;
     let mut random = ChaCha8Rng::seed_from_u64(STREAM_SEED);
@@ -130,14 +130,15 @@ fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Covera
         if stroke_margin(rig, &pose) < 0.0 || sign(&pose) != neutral {
             continue;
         }
-        let tilted = tilts().all(|orientation| stroke_margin(rig, &Pose { position, orientation }) >= 0.0);
+        let tilted =
+            tilted_orientations().all(|orientation| stroke_margin(rig, &Pose { position, orientation }) >= 0.0);
         found = found.and(Coverage { level: 1, tilted: u32::from(tilted), extent: [position, position] });
     }
     found
 }
 
 /// The platform tilted by [`TILT`] in each direction.
-fn tilts() -> impl Iterator<Item = Orientation> {
+fn tilted_orientations() -> impl Iterator<Item = Orientation> {
     // Number of directions in which the platform is tilted.
     const TILT_DIRECTIONS: u32 = 8;
     (0..TILT_DIRECTIONS).map(|k| {
@@ -163,7 +164,7 @@ mod tests {
     #[test]
     fn the_default_workspace_agrees_with_a_grid() {
         let rig = Rig::default();
-        let [low, high] = bounds(&rig);
+        let [low, high] = workspace_box(&rig);
         const N: usize = 120;
         let at = |axis: usize, k: usize| low[axis] + (k as f64 + 0.5) / N as f64 * (high[axis] - low[axis]);
         let mut inside = 0u32;

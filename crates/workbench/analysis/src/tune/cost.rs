@@ -162,7 +162,7 @@ impl Objective {
     ) -> Result<Self, ParameterError> {
         let start = *parameters;
         let mut parameters = recording.parameters(parameters);
-        let desired = desired(&recording, &parameters);
+        let desired = desired_channels(&recording, &parameters);
         parameters.structure.max_step = recording.step().min(LONGEST_STEP).max(parameters.structure.max_step);
         parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], recording.step()));
@@ -327,7 +327,7 @@ impl Objective {
         // Parameters with other internal steps have references of their own.
         let own = (kept.divisions != divisions).then(|| self.references(divisions));
         let References { axes, .. } = own.as_ref().unwrap_or(kept);
-        let of_axis = |k: usize| axes[k].comfort(felt.iter().map(|felt| (felt - rest())[k])).values();
+        let of_axis = |k: usize| axes[k].comfort(felt.iter().map(|felt| (felt - force_at_rest())[k])).values();
         let axes: [[f64; 3]; 3] = std::array::from_fn(of_axis);
         std::array::from_fn(|k| axes.iter().map(|values| values[k]).fold(0.0, f64::max))
     }
@@ -382,8 +382,8 @@ impl<'a> Errors<'a> {
 
     fn add(&mut self, output: &Output) {
         let sample = self.channels[0].len();
-        let force = output.felt_specific_force - rest();
-        for (k, felt) in channels(force, output.felt_angular_velocity).into_iter().enumerate() {
+        let force = output.felt_specific_force - force_at_rest();
+        for (k, felt) in channel_values(force, output.felt_angular_velocity).into_iter().enumerate() {
             self.channels[k].push(felt - self.objective.desired[k][sample]);
         }
         self.felt.push(output.felt_specific_force.into());
@@ -393,21 +393,24 @@ impl<'a> Errors<'a> {
 }
 
 /// The desired channels, as deviations from rest.
-fn desired(recording: &Recording, parameters: &Parameters) -> Channels<Vec<f64>> {
+fn desired_channels(recording: &Recording, parameters: &Parameters) -> Channels<Vec<f64>> {
     let simulation = Simulation::without_outputs(&recording.manoeuvre, parameters);
     let rates = simulation.desired_rates();
-    let samples =
-        simulation.inputs.iter().zip(rates).map(|(input, rate)| channels(input.specific_force - rest(), rate));
+    let samples = simulation
+        .inputs
+        .iter()
+        .zip(rates)
+        .map(|(input, rate)| channel_values(input.specific_force - force_at_rest(), rate));
     let samples: Vec<Channels<f64>> = samples.collect();
     std::array::from_fn(|k| samples.iter().map(|sample| sample[k]).collect())
 }
 
 /// The specific force at rest.
-fn rest() -> Vector3<f64> {
+fn force_at_rest() -> Vector3<f64> {
     Vector3::new(0.0, 0.0, STANDARD_GRAVITY)
 }
 
-fn channels(force: Vector3<f64>, rate: Vector3<f64>) -> Channels<f64> {
+fn channel_values(force: Vector3<f64>, rate: Vector3<f64>) -> Channels<f64> {
     [force.x, force.y, force.z, rate.x, rate.y, rate.z]
 }
 

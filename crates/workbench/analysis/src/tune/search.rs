@@ -83,7 +83,7 @@ pub fn search(
     }
     let recordings = &Recordings::new(objectives, evaluate, space)?;
     let mut continues = true;
-    let beginning = beginning(recordings, space, |best| {
+    let beginning = best_beginning(recordings, space, |best| {
         continues = continues && progress(0, best);
         continues
     });
@@ -103,13 +103,16 @@ pub fn search(
             break;
         }
     }
-    let nearest = search.overall_best_individual().map(|best| at(space, &best.point));
+    let nearest = search.overall_best_individual().map(|best| nearest_parameters(space, &best.point));
     let mut best = best.lock().expect("no evaluation panics").0.clone();
     if let Some(first) = best.first().filter(|_| continues) {
-        let tidied = tidied(recordings, space, first);
+        let tidied = tidied_candidate(recordings, space, first);
         best.insert(0, tidied);
     }
-    Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &DVector::zeros(space.dimension()))) })
+    Ok(Searched {
+        best,
+        nearest: nearest.unwrap_or_else(|| nearest_parameters(space, &DVector::zeros(space.dimension()))),
+    })
 }
 
 /// Start of a search.
@@ -124,19 +127,19 @@ struct Beginning {
 
 /// The best start: first with the initial orders, then, if orders are tuned, with others,
 /// while `continues` is true. It receives the best set so far.
-fn beginning(
+fn best_beginning(
     recordings: &Recordings,
     space: &Space,
     mut continues: impl FnMut(Option<&Candidate>) -> bool,
 ) -> Beginning {
-    let (mut first, mut goes_on) = scan(recordings, space, &mut continues);
+    let (mut first, mut goes_on) = coarse_scan(recordings, space, &mut continues);
     for order in 0..2 {
         for other in first.space.with_other_order(order) {
             if !goes_on {
                 return first;
             }
             let mut best = first.best.lock().expect("no evaluation panics").0.first().cloned();
-            let (scanned, on) = scan(recordings, &other, &mut |found| {
+            let (scanned, on) = coarse_scan(recordings, &other, &mut |found| {
                 let is_better = |found: &&Candidate| best.as_ref().is_none_or(|best| found.cost < best.cost);
                 best = found.filter(is_better).cloned().or(best.take());
                 continues(best.as_ref())
@@ -152,7 +155,7 @@ fn beginning(
 
 /// The best point of a coarse scan from the start: all of surge, sway and rates together, then
 /// channel by channel. False beside it if it was to end.
-fn scan(
+fn coarse_scan(
     recordings: &Recordings,
     space: &Space,
     continues: &mut dyn FnMut(Option<&Candidate>) -> bool,
@@ -185,7 +188,7 @@ fn scan(
                 .flat_map(|&frequency| TRIED_SCALE_FACTORS.map(|scale| (frequency, scale)));
             factors.map(|(f, s)| space.with_channel(&best, stage - 1, f, s)).collect()
         };
-        let points = different(points);
+        let points = without_repetitions(points);
         let costs: Vec<f64> = points.par_iter().map(&cost).collect();
         for (point, cost) in points.into_iter().zip(costs) {
             if cost < least {
@@ -197,7 +200,7 @@ fn scan(
 }
 
 /// The points without repetitions, which a strategy without break frequencies has.
-fn different(points: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+fn without_repetitions(points: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     let mut different: Vec<DVector<f64>> = Vec::new();
     for point in points {
         if !different.contains(&point) {
@@ -220,12 +223,12 @@ fn start_within_limits(recordings: &Recordings, space: &Space) -> DVector<f64> {
 }
 
 /// The parameters at the point of the space that is nearest to this one.
-fn at(space: &Space, point: &DVector<f64>) -> Parameters {
+fn nearest_parameters(space: &Space, point: &DVector<f64>) -> Parameters {
     space.parameters(&space.clamped(point).0)
 }
 
 /// The set with every parameter reset to its initial value that hardly affects these recordings.
-fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidate {
+fn tidied_candidate(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidate {
     // Largest increase of the error for which one parameter is reset to its initial value.
     const WORTH_TIDYING: f64 = 2e-4;
     let mut tidied = found.clone();
@@ -250,7 +253,7 @@ struct Recordings<'a> {
 
 impl<'a> Recordings<'a> {
     fn new(objectives: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self, TuneError> {
-        let start = at(space, &DVector::zeros(space.dimension()));
+        let start = nearest_parameters(space, &DVector::zeros(space.dimension()));
         let starts = evaluate(objectives, &start)?.iter().map(|cost| cost.error).collect();
         Ok(Recordings { objectives, evaluate, starts })
     }

@@ -57,7 +57,7 @@ impl Tuned {
 
 /// The parameters of these groups that have an effect with this strategy. Splitter and scales come
 /// first: the order decides what a seed finds.
-fn tuned(parameters: &Parameters, groups: &[TuningGroup]) -> Vec<Tuned> {
+fn tuned_parameters(parameters: &Parameters, groups: &[TuningGroup]) -> Vec<Tuned> {
     let strategy = parameters.structure.strategy.name();
     let has_effect = |row: &Row, element| {
         row.conditions(element).all(|needed| needed.variable != "strategy" || needed.values.contains(&strategy))
@@ -67,7 +67,9 @@ fn tuned(parameters: &Parameters, groups: &[TuningGroup]) -> Vec<Tuned> {
         .enumerate()
         .map(|(slot, at)| (slot, &Parameters::ROWS[usize::from(at.row)], usize::from(at.element)))
         .filter(|&(_, row, element)| has_effect(row, element))
-        .filter_map(|(slot, row, element)| Some(Tuned { slot, row, channel: channel(row, element), range: row.usual? }))
+        .filter_map(|(slot, row, element)| {
+            Some(Tuned { slot, row, channel: scalar_channel(row, element), range: row.usual? })
+        })
         .filter(|tuned| groups.iter().any(|group| tuned.is_in(*group)))
         .collect();
     tuned.sort_by_key(|tuned| !(tuned.is_in(TuningGroup::Splitter) || tuned.is_in(TuningGroup::Scale)));
@@ -75,7 +77,7 @@ fn tuned(parameters: &Parameters, groups: &[TuningGroup]) -> Vec<Tuned> {
 }
 
 /// The channel that a row's scalar acts on.
-fn channel(row: &Row, element: usize) -> Option<usize> {
+fn scalar_channel(row: &Row, element: usize) -> Option<usize> {
     let is_of_rates = row.name.starts_with("angular.") || row.name.starts_with("scale.angularVelocity.");
     (row.slots() == 3).then_some(if is_of_rates { 3 + element } else { element })
 }
@@ -97,7 +99,7 @@ impl Space {
     /// The space about these parameters. If a parameter is outside its usual range, the
     /// range is extended to it.
     pub fn new(start: &Parameters, groups: &[TuningGroup]) -> Self {
-        let tuned = tuned(start, groups);
+        let tuned = tuned_parameters(start, groups);
         let mut slots = slots_of(start);
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         for one in &tuned {
@@ -288,7 +290,7 @@ mod tests {
         let of = |channel| {
             let of_channel = |tuned: &&Tuned| tuned.channel == Some(channel);
             let names = |tuned: &Tuned| Parameters::ROWS[usize::from(Parameters::SLOTS[tuned.slot].row)].name;
-            tuned(&classical(), TuningGroup::ALL).iter().filter(of_channel).map(names).collect::<Vec<_>>()
+            tuned_parameters(&classical(), TuningGroup::ALL).iter().filter(of_channel).map(names).collect::<Vec<_>>()
         };
         let [filter, scale] = [["omega1", "zeta1", "omega2", "zeta2"], ["specificForce", "angularVelocity", "", ""]];
         let splitter =

@@ -38,7 +38,7 @@ impl RecordingResult {
 
     /// True if the tuned parameters are worse on this recording, tuned on or not.
     fn is_worse(&self) -> bool {
-        [self.tuned, self.unseen].into_iter().flatten().any(|after| !losses(&self.before, &after).is_empty())
+        [self.tuned, self.unseen].into_iter().flatten().any(|after| !recording_losses(&self.before, &after).is_empty())
     }
 }
 
@@ -82,7 +82,7 @@ impl Verdict {
 /// - limits that are active, or the reserve of stroke used, for longer by more
 ///   than 1 % of the time,
 /// - shake, jolt or peak beyond their bounds.
-fn losses(before: &Cost, after: &Cost) -> Vec<String> {
+fn recording_losses(before: &Cost, after: &Cost) -> Vec<String> {
     let mut losses = Vec::new();
     if after.error > WORST_RATIO * before.error {
         losses.push(format!("error {:.3} → {:.3}", before.error, after.error));
@@ -122,7 +122,7 @@ pub fn first_line(results: &[RecordingResult], fraction: f64, words: Words) -> S
 fn worse_line(results: &[RecordingResult]) -> String {
     let of = |cost: fn(&RecordingResult) -> Option<Cost>| -> Vec<String> {
         let worse = |result: &RecordingResult| {
-            let losses = losses(&result.before, &cost(result)?);
+            let losses = recording_losses(&result.before, &cost(result)?);
             (!losses.is_empty()).then(|| format!("{} ({})", result.name, losses.join(", ")))
         };
         results.iter().filter_map(worse).collect()
@@ -173,13 +173,19 @@ pub fn text(
             words(&given("folds", 0))
         );
     }
-    let verdict = verdict(results, &before.parameters_name, words);
-    let tables = [errors(results), shapes(results), comfort(results), channels(results), parameters(before, tuned)];
+    let verdict = verdict_text(results, &before.parameters_name, words);
+    let tables = [
+        error_table(results),
+        shape_table(results),
+        comfort_table(results),
+        channel_table(results),
+        parameter_table(before, tuned),
+    ];
     text + &format!("{verdict}\n\n{}", tables.join("\n"))
 }
 
 /// The mean errors before and after in a few sentences, on recordings tuned on and on others.
-fn verdict(results: &[RecordingResult], before_name: &str, words: Words) -> String {
+fn verdict_text(results: &[RecordingResult], before_name: &str, words: Words) -> String {
     let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
     let unseen = Comparison::unseen(results);
     let mut text = String::new();
@@ -278,7 +284,7 @@ impl Comparison {
     }
 }
 
-fn errors(results: &[RecordingResult]) -> String {
+fn error_table(results: &[RecordingResult]) -> String {
     let cell = |cost: &Option<Cost>| or_undefined(cost.as_ref().map(with_limits));
     let unseen = |result: &RecordingResult| {
         if result.infeasible_without { "none found".to_owned() } else { cell(&result.unseen) }
@@ -286,7 +292,7 @@ fn errors(results: &[RecordingResult]) -> String {
     let rows = results
         .iter()
         .map(|result| [result.name.clone(), with_limits(&result.before), cell(&result.tuned), unseen(result)]);
-    table(["error (1: platform at rest)", "before", "tuned", "tuned without it"], rows)
+    markdown_table(["error (1: platform at rest)", "before", "tuned", "tuned without it"], rows)
 }
 
 /// The error, and what fraction of the time limits were active.
@@ -298,7 +304,7 @@ fn with_limits(cost: &Cost) -> String {
 }
 
 /// Shape, inverted time and size of surge and sway, where they count.
-fn shapes(results: &[RecordingResult]) -> String {
+fn shape_table(results: &[RecordingResult]) -> String {
     let rows = results.iter().flat_map(|result| {
         let after = result.tuned.or(result.unseen).unwrap_or(result.before);
         let row = move |axis: usize| {
@@ -312,7 +318,7 @@ fn shapes(results: &[RecordingResult]) -> String {
         };
         (0..2).filter_map(row)
     });
-    table(["felt below 2 Hz: before → after", "shape", "inverted", "size"], rows)
+    markdown_table(["felt below 2 Hz: before → after", "shape", "inverted", "size"], rows)
 }
 
 /// A strategy's tuning among others'.
@@ -325,7 +331,7 @@ pub struct OfStrategy {
 }
 
 /// The cost that counts: on recordings that were not tuned on where there are any.
-fn counting(results: &[RecordingResult]) -> Vec<Cost> {
+fn counting_costs(results: &[RecordingResult]) -> Vec<Cost> {
     let unseen: Vec<Cost> = results.iter().filter_map(|result| result.unseen).collect();
     if unseen.is_empty() { results.iter().filter_map(|result| result.tuned).collect() } else { unseen }
 }
@@ -334,7 +340,7 @@ fn counting(results: &[RecordingResult]) -> Vec<Cost> {
 /// there are none on those that were. None where no strategy has a result.
 pub fn winner(strategies: &[OfStrategy]) -> Option<usize> {
     let error = |index: usize| {
-        let costs = counting(strategies[index].results.as_ref()?);
+        let costs = counting_costs(strategies[index].results.as_ref()?);
         Some((index, mean_of_any(costs.iter().map(|cost| cost.error))?))
     };
     let least = |best: (usize, f64), next: (usize, f64)| if next.1 < best.1 { next } else { best };
@@ -351,7 +357,7 @@ pub fn strategies(strategies: &[OfStrategy]) -> String {
             let mean = mean_of_any(results.iter().filter_map(of).map(|cost| cost.error));
             or_undefined(mean.map(|error| format!("{error:.3}")))
         };
-        let costs = counting(results);
+        let costs = counting_costs(results);
         let axes = || costs.iter().flat_map(|cost| cost.shape.axes).flatten();
         let shape = mean_of_any(axes().map(|axis| axis.shape)).map(|shape| format!("{shape:.2}"));
         let inverted =
@@ -369,20 +375,20 @@ pub fn strategies(strategies: &[OfStrategy]) -> String {
     };
     let header = ["mean error", "before", "tuned", "tuned without it", "shape", "inverted", "size"];
     let winner = winner(strategies).map_or("none", |index| strategies[index].name.as_str());
-    format!("{}\nwinner: {winner}\n", table(header, strategies.iter().map(row)))
+    format!("{}\nwinner: {winner}\n", markdown_table(header, strategies.iter().map(row)))
 }
 
-fn comfort(results: &[RecordingResult]) -> String {
+fn comfort_table(results: &[RecordingResult]) -> String {
     let row = |result: &RecordingResult| {
         let after = result.tuned.or(result.unseen).unwrap_or(result.before);
         let cell = |k: usize| format!("{:.2} → {:.2}", result.before.comfort[k], after.comfort[k]);
         [result.name.clone(), cell(0), cell(1), cell(2)]
     };
     let [shake, jolt, peak] = COMFORT_MEASURES;
-    table(["felt force, m/s²: before → after", shake, jolt, peak], results.iter().map(row))
+    markdown_table(["felt force, m/s²: before → after", shake, jolt, peak], results.iter().map(row))
 }
 
-fn channels(results: &[RecordingResult]) -> String {
+fn channel_table(results: &[RecordingResult]) -> String {
     let row = |result: &RecordingResult| {
         let after = result.tuned.or(result.unseen).unwrap_or(result.before);
         let cell =
@@ -391,22 +397,22 @@ fn channels(results: &[RecordingResult]) -> String {
         [result.name.clone(), x, y, z, p, q, r]
     };
     let [x, y, z, p, q, r] = Axis::ALL.map(name);
-    table(["RMS in thresholds, desired: error before → after", x, y, z, p, q, r], results.iter().map(row))
+    markdown_table(["RMS in thresholds, desired: error before → after", x, y, z, p, q, r], results.iter().map(row))
 }
 
 /// A number with three decimals, or with three digits where that leaves too few.
-fn significant(value: f64) -> String {
+fn significant_digits(value: f64) -> String {
     if value != 0.0 && value.abs() < 0.01 { format!("{value:.2e}") } else { format!("{value:.3}") }
 }
 
-fn parameters(before: &Setup, tuned: &Setup) -> String {
+fn parameter_table(before: &Setup, tuned: &Setup) -> String {
     let pairs = all(&before.parameters).into_iter().zip(all(&tuned.parameters));
     let changed = pairs.filter(|(old, new)| old.1 != new.1);
     let row = |((name, old), (_, new)): ((String, f64), (String, f64))| {
         let unit = unit_of(&name);
-        [name, significant(old), significant(new), unit.to_owned()]
+        [name, significant_digits(old), significant_digits(new), unit.to_owned()]
     };
-    table(["parameter", "before", "tuned", "unit"], changed.map(row))
+    markdown_table(["parameter", "before", "tuned", "unit"], changed.map(row))
 }
 
 /// Unit of a parameter; empty for a number without.
@@ -419,7 +425,7 @@ fn unit_of(name: &str) -> &'static str {
 }
 
 /// A Markdown table whose columns are aligned for those who read it as text.
-fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+fn markdown_table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
     let mut all = vec![header.map(str::to_owned)];
     all.extend(rows);
     let widths: [usize; N] =
@@ -505,7 +511,7 @@ mod tests {
         let (found, line) = judged(&results);
         assert_eq!(found, Verdict::Better);
         assert!(line.ends_with("mean error 0.733 → 0.607, smaller on 2 of 3, no limit active."), "{line}");
-        assert!(verdict(&results, "default", words).contains("goes from 0.733 to 0.607; it is better on 2 of 3"));
+        assert!(verdict_text(&results, "default", words).contains("goes from 0.733 to 0.607; it is better on 2 of 3"));
     }
 
     #[test]
@@ -515,7 +521,7 @@ mod tests {
 
     #[test]
     fn what_was_not_held_out_is_not_claimed() {
-        let text = verdict(&[result(cost(0.8, 0.02), None)], "default", words);
+        let text = verdict_text(&[result(cost(0.8, 0.02), None)], "default", words);
         assert!(text.contains("No recording was held out: nothing is known of other recordings."), "{text}");
         assert!(text.contains("limits were active or the reserve was used on 1 of 1 with default"), "{text}");
     }
@@ -524,17 +530,19 @@ mod tests {
     fn a_ride_without_which_nothing_was_found_is_named_and_does_not_count() {
         let found = result(cost(0.8, 0.0), Some(cost(0.6, 0.0)));
         let not = RecordingResult { name: "wild".to_owned(), infeasible_without: true, ..result(cost(0.9, 0.0), None) };
-        let text = verdict(&[found.clone(), not.clone()], "default", words);
+        let text = verdict_text(&[found.clone(), not.clone()], "default", words);
         assert!(text.contains("Tuned without wild, no parameters were found"), "{text}");
         assert!(text.contains("better on 1 of 1"), "{text}");
-        assert!(errors(&[found, not.clone()]).lines().any(|line| line.contains("wild") && line.contains("none found")));
-        let text = verdict(&[not], "default", words);
+        assert!(
+            error_table(&[found, not.clone()]).lines().any(|line| line.contains("wild") && line.contains("none found"))
+        );
+        let text = verdict_text(&[not], "default", words);
         assert!(text.ends_with("Nothing is known of other recordings.") && !text.contains("held out"), "{text}");
     }
 
     #[test]
     fn a_table_is_markdown_and_aligned() {
-        let text = table(["ride", "x"], [["a".to_owned(), "1 → 2".to_owned()]].into_iter());
+        let text = markdown_table(["ride", "x"], [["a".to_owned(), "1 → 2".to_owned()]].into_iter());
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[1], "|------|-------|");
         assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()));

@@ -110,7 +110,7 @@ fn as_far_as_serves(
     // Largest fraction of a recording's time in which limits may be active if the result is the
     // initial parameters.
     const MAX_LIMITED_FRACTION: f64 = 0.01;
-    for index in serving(pairs) {
+    for index in serving_fractions(pairs) {
         let Some(setup) = within_limits(tuner, objectives, &best, TRIED_FRACTIONS[index])? else { continue };
         if worst_ratio(before, &full_costs(objectives, &setup)?) <= WORST_RATIO {
             return Ok((setup, TRIED_FRACTIONS[index]));
@@ -171,7 +171,7 @@ fn within_limits(
 /// is smaller than with the initial parameters, and no recording is worse by more than 5 %. First
 /// come fractions with which limits are active no longer than before, and shake, jolt and peak are
 /// within their bounds. If no recording was left out, the result is the last index.
-fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
+fn serving_fractions(pairs: &[(Cost, Trials)]) -> Vec<usize> {
     if pairs.is_empty() {
         return vec![TRIED_FRACTIONS.len() - 1];
     }
@@ -207,34 +207,34 @@ mod tests {
     fn fractions_that_serve_rides_left_out_come_with_the_best_first() {
         let before = cost(1.0, 0.0);
         let one = (before, trials([0.95, 0.9, 0.85, 0.8, 0.86, 0.91]));
-        assert_eq!(serving(&[one]), [3, 2, 4, 1, 5, 0]);
+        assert_eq!(serving_fractions(&[one]), [3, 2, 4, 1, 5, 0]);
         // Another recording is worse by more than 5 % from fraction 0.5 on.
         let other = (before, trials([1.0, 1.01, 1.02, 1.06, 1.08, 1.1]));
-        assert_eq!(serving(&[one, other]), [2, 1, 0]);
+        assert_eq!(serving_fractions(&[one, other]), [2, 1, 0]);
         // In the mean no fraction is better.
         let worse = (before, trials([1.05, 1.11, 1.2, 1.3, 1.4, 1.5]));
-        assert!(serving(&[one, worse]).is_empty());
+        assert!(serving_fractions(&[one, worse]).is_empty());
     }
 
     #[test]
     fn fractions_with_which_limits_act_for_no_longer_come_first() {
         let mut costs = trials([0.95, 0.9, 0.85, 0.8, 0.75, 0.7]);
         costs[5] = Some(cost(0.7, 0.01));
-        assert_eq!(serving(&[(cost(1.0, 0.0), costs)]), [4, 3, 2, 1, 0, 5]);
-        assert_eq!(serving(&[(cost(1.0, 0.02), costs)])[0], 5);
+        assert_eq!(serving_fractions(&[(cost(1.0, 0.0), costs)]), [4, 3, 2, 1, 0, 5]);
+        assert_eq!(serving_fractions(&[(cost(1.0, 0.02), costs)])[0], 5);
         costs[4] = None;
-        assert_eq!(serving(&[(cost(1.0, 0.0), costs)]), [3, 2, 1, 0, 5]);
+        assert_eq!(serving_fractions(&[(cost(1.0, 0.0), costs)]), [3, 2, 1, 0, 5]);
     }
 
     #[test]
     fn fractions_beyond_the_bounds_of_comfort_come_last() {
         let mut costs = trials([0.95, 0.9, 0.85, 0.8, 0.75, 0.7]);
         costs[5] = Some(Cost { excess: 0.01, ..cost(0.7, 0.0) });
-        assert_eq!(serving(&[(cost(1.0, 0.0), costs)]), [4, 3, 2, 1, 0, 5]);
+        assert_eq!(serving_fractions(&[(cost(1.0, 0.0), costs)]), [4, 3, 2, 1, 0, 5]);
     }
 
     #[test]
     fn without_recordings_left_out_it_goes_all_the_way() {
-        assert_eq!(serving(&[]), [5]);
+        assert_eq!(serving_fractions(&[]), [5]);
     }
 }

@@ -93,7 +93,7 @@ impl WashoutFmu {
                 let [from, to] = [value(&start), value(&end)];
                 running.set(&input.name, from).about(|| input.name.clone())?;
                 if input.has_slope {
-                    running.set_slope(&input.name, slope(from, to, step)).about(|| input.name.clone())?;
+                    running.set_slope(&input.name, end_slope(from, to, step)).about(|| input.name.clone())?;
                 }
             }
             let time = k as f64 * step;
@@ -108,7 +108,7 @@ impl WashoutFmu {
             columns.push(("time".to_owned(), times));
         }
         let name = self.file.display().to_string();
-        let notes = still(&columns);
+        let notes = stillness_sentence(&columns);
         let (motion, others) = FeltTable::of_columns(&name, &columns)?.motion(recording).map_err(Message::from)?;
         Ok((motion, notes.into_iter().chain(others).collect()))
     }
@@ -136,9 +136,9 @@ impl WashoutFmu {
                 "[inputs] {}: {} is no input of the FMU; {}",
                 quantity.key(),
                 variable.at,
-                listed(running, Causality::Input)
+                listed_names(running, Causality::Input)
             );
-            let in_si = unit(running, variable, Kind::Of(quantity.dimension()), Causality::Input);
+            let in_si = si_factor(running, variable, Kind::Of(quantity.dimension()), Causality::Input);
             let in_si = in_si.about(|| format!("[inputs] {}", quantity.key()))?;
             let is_real = declaration.is_some_and(|declaration| declaration.element == "Real");
             Ok(Taken {
@@ -158,7 +158,7 @@ impl WashoutFmu {
                 MappedOutput::Constant(value) => (None, *value),
                 MappedOutput::Variable(variable) => {
                     let kind = self.map.kind(name).ok_or_else(|| Message::from("the map was checked"))?;
-                    let in_si = unit(running, variable, kind, Causality::Output);
+                    let in_si = si_factor(running, variable, kind, Causality::Output);
                     let in_si = in_si.about(|| format!("[outputs] {name}"))?;
                     (Some((variable.at.clone(), variable.scale * in_si)), variable.offset)
                 }
@@ -170,10 +170,10 @@ impl WashoutFmu {
 }
 
 /// The factor of a variable to SI: by the map's unit, else by the FMU's.
-fn unit(running: &Running, variable: &MappedVariable, kind: Kind, causality: Causality) -> Result<f64> {
+fn si_factor(running: &Running, variable: &MappedVariable, kind: Kind, causality: Causality) -> Result<f64> {
     let name = &variable.at;
     let Some(declaration) = running.declaration(name) else {
-        bail!("the FMU has no variable {name} that is a number; {}", listed(running, causality));
+        bail!("the FMU has no variable {name} that is a number; {}", listed_names(running, causality));
     };
     ensure!(!running.is_array(name), "{name} is an array; the map needs its elements, such as \"{name}[1]\"");
     let declared = declaration.unit.as_deref().filter(|unit| *unit != "1");
@@ -199,7 +199,7 @@ fn unit(running: &Running, variable: &MappedVariable, kind: Kind, causality: Cau
 }
 
 /// The FMU's variables of a role, as a message lists them.
-fn listed(running: &Running, causality: Causality) -> String {
+fn listed_names(running: &Running, causality: Causality) -> String {
     // Names of variables that a message lists.
     const MAX_LISTED_NAMES: usize = 12;
     let names = running.names(causality);
@@ -227,14 +227,14 @@ fn at_part(inputs: &[Input], place: f64) -> Input {
 }
 
 /// The slope with which a step ends at the value, to the bit where one does.
-fn slope(from: f64, to: f64, step: f64) -> f64 {
+fn end_slope(from: f64, to: f64, step: f64) -> f64 {
     let slope = (to - from) / step;
     let near = [slope, slope.next_up(), slope.next_down()];
     near.into_iter().find(|slope| from + step * slope == to).unwrap_or(slope)
 }
 
 /// A sentence on poses and legs that do not change.
-fn still(columns: &[(String, Vec<f64>)]) -> Option<String> {
+fn stillness_sentence(columns: &[(String, Vec<f64>)]) -> Option<String> {
     // Motion that is none: what the outputs of poses and legs change by [m, rad].
     const STANDSTILL_TOLERANCE: f64 = 1e-9;
     let moves =

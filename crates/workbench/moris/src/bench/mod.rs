@@ -85,7 +85,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
     let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Ok(Foreign::fmu(file, map)?));
-    let foreign = options.felt.iter().map(|folder| felt(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
+    let foreign = options.felt.iter().map(|folder| felt_motion(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
     let pairs: Vec<(BenchRig, Drive)> =
         rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
     if !foreign.is_empty() && !pairs.iter().any(|(rig, drive)| foreign.iter().any(|one| one.file(rig, drive).is_some()))
@@ -102,7 +102,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     table::write(&file, &rows)?;
     page::write(&page, &rows)?;
     write!(out, "{}", table::text(&rows, drives.len(), rigs.len()))?;
-    for remark in remarks(&rows) {
+    for remark in distinct_remarks(&rows) {
         writeln!(out, "{remark}\n")?;
     }
     writeln!(out, "wrote {}\nwrote {}", file.display(), page.display())?;
@@ -110,7 +110,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 }
 
 /// The washout whose motion is in a folder.
-fn felt(folder: &Path) -> Result<Foreign> {
+fn felt_motion(folder: &Path) -> Result<Foreign> {
     if !folder.is_dir() {
         bail!("--felt {}: there is no such folder", folder.display());
     }
@@ -118,7 +118,7 @@ fn felt(folder: &Path) -> Result<Foreign> {
 }
 
 /// The remarks on the motions of each other washout: each once, with the first drive and rig.
-fn remarks(rows: &[Row]) -> Vec<String> {
+fn distinct_remarks(rows: &[Row]) -> Vec<String> {
     let mut found: Vec<(&str, &str, String, usize)> = Vec::new();
     for row in rows {
         for remark in &row.remarks {

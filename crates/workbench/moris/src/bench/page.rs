@@ -18,11 +18,11 @@ use crate::text_table::or_undefined;
 /// # Errors
 /// The file cannot be written.
 pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
-    std::fs::write(file, html(rows)).with_context(|| format!("cannot write {}", file.display()))
+    std::fs::write(file, page_html(rows)).with_context(|| format!("cannot write {}", file.display()))
 }
 
-fn html(rows: &[Row]) -> String {
-    let [drives, rigs] = [names(rows, |row| row.drive), names(rows, |row| row.rig)];
+fn page_html(rows: &[Row]) -> String {
+    let [drives, rigs] = [distinct_names(rows, |row| row.drive), distinct_names(rows, |row| row.rig)];
     let all = PageTable {
         title: "Means over drives and rigs".to_owned(),
         text: "error/rest, error/bound, error/best: RMS error of surge and sway over that of a platform at rest, over the least that any \
@@ -32,8 +32,8 @@ fn html(rows: &[Row]) -> String {
         heads: HEADS.map(str::to_owned).to_vec(),
         rows: means(rows),
     };
-    let by_drive = by("Errors by drive", "the rigs", rows, &drives, |row| row.drive);
-    let by_rig = by("Errors by rig", "the drives", rows, &rigs, |row| row.rig);
+    let by_drive = errors_by("Errors by drive", "the rigs", rows, &drives, |row| row.drive);
+    let by_rig = errors_by("Errors by rig", "the drives", rows, &rigs, |row| row.rig);
     let subtitle = format!(
         "{} drives on {} rigs, version {VERSION}; bench.csv has the {} measures of each.",
         drives.len(),
@@ -44,10 +44,10 @@ fn html(rows: &[Row]) -> String {
 }
 
 /// Errors of surge and sway together, with a column for each of `names`.
-fn by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl Fn(&Row) -> &str) -> PageTable {
+fn errors_by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl Fn(&Row) -> &str) -> PageTable {
     let line = |group: &[&Row], figure: Figure| -> Vec<String> {
         let of = |one: &&str| {
-            let errors = group.iter().filter(|row| name(row) == *one).filter_map(|row| horizontal(row, figure));
+            let errors = group.iter().filter(|row| name(row) == *one).filter_map(|row| horizontal_error(row, figure));
             or_undefined(mean_of_any(errors).map(|error| format!("{error:.2}")))
         };
         names.iter().map(of).collect()
@@ -66,13 +66,13 @@ fn by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl Fn(&Row)
 }
 
 /// The root of the sum of squares of surge and sway.
-fn horizontal(row: &Row, figure: Figure) -> Option<f64> {
+fn horizontal_error(row: &Row, figure: Figure) -> Option<f64> {
     let [x, y] = [0, 1].map(|axis| figure.of(row, axis));
     (x.is_some() || y.is_some()).then(|| x.unwrap_or(0.0).hypot(y.unwrap_or(0.0)))
 }
 
 /// Names in the order of the rows, each once.
-fn names<'a>(rows: &'a [Row], name: impl Fn(&'a Row) -> &'static str) -> Vec<&'static str> {
+fn distinct_names<'a>(rows: &'a [Row], name: impl Fn(&'a Row) -> &'static str) -> Vec<&'static str> {
     let mut names = Vec::new();
     for row in rows {
         if !names.contains(&name(row)) {

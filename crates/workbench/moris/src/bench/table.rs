@@ -29,8 +29,8 @@ pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
                 Scale::Own => ("own", String::new(), String::new()),
             };
             let first = [VERSION.to_string(), row.drive.to_owned(), row.rig.to_owned(), row.washout.clone()];
-            let values = row.values.iter().zip(&COLUMNS).map(|(value, column)| written(*value, column.decimals));
-            let best = row.best.iter().map(|best| written(*best, 4));
+            let values = row.values.iter().zip(&COLUMNS).map(|(value, column)| written_value(*value, column.decimals));
+            let best = row.best.iter().map(|best| written_value(*best, 4));
             table.write_record(first.into_iter().chain([scale.to_owned(), factor, fits]).chain(values).chain(best))?;
         }
         Ok(table.flush()?)
@@ -38,7 +38,7 @@ pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
     save().with_context(|| format!("cannot write {}", file.display()))
 }
 
-fn written(value: Option<f64>, decimals: usize) -> String {
+fn written_value(value: Option<f64>, decimals: usize) -> String {
     // A value that rounds to -0 would be written as such.
     let rounded = |value: f64| {
         let text = format!("{value:.decimals$}");
@@ -64,9 +64,10 @@ pub fn text(rows: &[Row], drives: usize, rigs: usize) -> String {
 /// The means with their names.
 pub fn means(rows: &[Row]) -> Vec<(String, Vec<String>)> {
     let at_rest: Vec<&Row> = rows.iter().filter(|row| row.washout == AT_REST).collect();
-    let references = [("bound", line(&at_rest, Figure::Bound)), ("best attained", line(&at_rest, Figure::Best))];
+    let references =
+        [("bound", mean_line(&at_rest, Figure::Bound)), ("best attained", mean_line(&at_rest, Figure::Best))];
     let references = references.into_iter().map(|(name, cells)| (name.to_owned(), cells));
-    let washouts = groups(rows).into_iter().map(|(name, group)| (name, line(&group, Figure::Own)));
+    let washouts = groups(rows).into_iter().map(|(name, group)| (name, mean_line(&group, Figure::Own)));
     references.chain(washouts).collect()
 }
 
@@ -120,7 +121,7 @@ impl Figure {
 }
 
 /// The means of rows, whose error is this one. Only the rows' own has more than errors.
-fn line(group: &[&Row], error: Figure) -> Vec<String> {
+fn mean_line(group: &[&Row], error: Figure) -> Vec<String> {
     // Least desired force, or bound, with which a ratio means anything [m/s2].
     const MIN_DIVISOR: f64 = 0.03;
     let is_own = error == Figure::Own;

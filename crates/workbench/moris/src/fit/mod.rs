@@ -65,11 +65,11 @@ pub struct Options {
     preview: f64,
 
     /// Largest shape error of surge and sway together, in %
-    #[arg(long, value_name = "PERCENT", default_value_t = 50.0, value_parser = percent)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 50.0, value_parser = parse_percent)]
     error: f64,
 
     /// Largest inverted time of an axis, in %
-    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, value_parser = percent)]
+    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, value_parser = parse_percent)]
     inverted: f64,
 
     /// Directory for the parameter files and the picture
@@ -89,7 +89,7 @@ pub struct Options {
 /// # Errors
 /// A recording, the rig or the parameters cannot be used, or a file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let recordings = read(options)?;
+    let recordings = read_recordings(options)?;
     let strategies = all_strategies(options)?;
     let aims = Aims { error: options.error / 100.0, inverted: options.inverted / 100.0, ..Aims::default() };
     let fitted = fitted(&recordings, &strategies, options.preview, aims)?;
@@ -112,7 +112,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         }));
         writeln!(out, "{:#}", Value::from(results))?;
     } else {
-        write!(out, "{}", text(&fitted, common.as_ref(), &strategies, aims))?;
+        write!(out, "{}", fit_text(&fitted, common.as_ref(), &strategies, aims))?;
         for file in files {
             writeln!(out, "wrote {}", file.display())?;
         }
@@ -122,7 +122,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(if all_fit { ExitCode::SUCCESS } else { ExitCode::from(DOES_NOT_FIT) })
 }
 
-fn read(options: &Options) -> Result<Vec<Recording>> {
+fn read_recordings(options: &Options) -> Result<Vec<Recording>> {
     let files = recordings(&options.recordings)?;
     files.par_iter().map(|file| source::recording(file, &options.conventions)).collect()
 }
@@ -160,8 +160,11 @@ fn write_files(
     };
     let text = |names: &str, strategy: usize, best: &Candidate| {
         let Strategy { name, setup } = &strategies[strategy];
-        let heading =
-            format!("Fitted by moris to {names} on {}: {name}, {}.\n{FIGURES_EXPLAINED}", setup.rig_name, words(best));
+        let heading = format!(
+            "Fitted by moris to {names} on {}: {name}, {}.\n{FIGURES_EXPLAINED}",
+            setup.rig_name,
+            candidate_words(best)
+        );
         Setup { parameters: best.factors.applied(&setup.parameters), ..setup.clone() }.parameter_file(&heading)
     };
     for (recording, one) in recordings.iter().zip(fitted) {
@@ -176,12 +179,12 @@ fn write_files(
     Ok(files)
 }
 
-fn text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy], aims: Aims) -> String {
+fn fit_text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy], aims: Aims) -> String {
     let heads =
         ["scale: shape, inverted, size"].into_iter().chain(strategies.iter().map(|strategy| strategy.name.as_str()));
     let mut table = TextTable::new(heads.chain(["winner"]));
     for one in fitted {
-        let cells = one.fits.iter().map(cell);
+        let cells = one.fits.iter().map(fit_cell);
         table.push([one.name.clone()].into_iter().chain(cells).chain([strategies[one.winner].name.clone()]).collect());
     }
     let mut text = format!("{table}\n");
@@ -210,9 +213,11 @@ fn text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy], aim
             100.0 * aims.error,
             100.0 * aims.inverted
         );
-        text += &format!("{}: {name}, {}.{}\n", one.name, words(&fit.best), if fit.fits { "" } else { &misfit });
+        text +=
+            &format!("{}: {name}, {}.{}\n", one.name, candidate_words(&fit.best), if fit.fits { "" } else { &misfit });
         if let Some(faster) = &one.faster_tilt {
-            text += &format!("  With a tilt of 6 °/s (tilt.rateLimit, your choice): {}.\n", words(&faster.best));
+            text +=
+                &format!("  With a tilt of 6 °/s (tilt.rateLimit, your choice): {}.\n", candidate_words(&faster.best));
         }
     }
     if let Some(Common { strategy, worst, fitting }) = common {
@@ -220,14 +225,14 @@ fn text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy], aim
             "One set for all, which fits {fitting} of {}: {}, {}.\n",
             counted(fitted.len(), "recording"),
             strategies[*strategy].name,
-            words(worst)
+            candidate_words(worst)
         );
     }
     text
 }
 
 /// Scale, shape, inverted time and size in a cell; in brackets where no scale fits.
-fn cell(fit: &Fit) -> String {
+fn fit_cell(fit: &Fit) -> String {
     let shape = &fit.best.shape;
     let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
     else {
@@ -237,7 +242,7 @@ fn cell(fit: &Fit) -> String {
     if fit.fits { text } else { format!("({text})") }
 }
 
-fn words(best: &Candidate) -> String {
+fn candidate_words(best: &Candidate) -> String {
     let factors = &best.factors;
     let breaks =
         if factors.breaks != 1.0 { format!(", break frequencies times {:.2}", factors.breaks) } else { String::new() };
@@ -279,6 +284,6 @@ fn json_of(one: &Fitted, file: &Path, strategies: &[Strategy]) -> Value {
     })
 }
 
-fn percent(text: &str) -> Result<f64, String> {
+fn parse_percent(text: &str) -> Result<f64, String> {
     number_in(text, 0.1..=100.0, "a percentage from 0.1 to 100 is needed, such as 50")
 }

@@ -35,7 +35,7 @@ pub fn svg(fitted: &[Fitted], strategies: &[Strategy]) -> Result<String> {
     let (legend, body) = root.split_vertically(LEGEND_HEIGHT);
     for (index, strategy) in strategies.iter().enumerate() {
         let x = 52 + 120 * index as i32;
-        legend.draw(&Circle::new((x, 20), 5, colour(index).filled()))?;
+        legend.draw(&Circle::new((x, 20), 5, curve_colour(index).filled()))?;
         legend.draw(&Text::new(strategy.name.clone(), (x + 10, 13), (FONT_FAMILY, 15)))?;
     }
     for (recording, area) in fitted.iter().zip(body.split_evenly((rows, PANELS_PER_ROW))) {
@@ -55,20 +55,20 @@ fn draw_panel(recording: &Fitted, area: &DrawingArea<SVGBackend, Shift>) -> Resu
         .build_cartesian_2d(0.0..1.0, 0.0..1.0)?;
     chart.configure_mesh().x_labels(3).y_labels(3).x_desc("size").y_desc("shape").disable_mesh().draw()?;
     for (index, fit) in recording.fits.iter().enumerate() {
-        let points = fit.curve.iter().filter_map(|candidate| point(&candidate.shape));
-        chart.draw_series(LineSeries::new(points, colour(index)))?;
+        let points = fit.curve.iter().filter_map(|candidate| panel_point(&candidate.shape));
+        chart.draw_series(LineSeries::new(points, curve_colour(index)))?;
         let radius = if index == recording.winner { 6 } else { 4 };
-        let best = point(&fit.best.shape).map(|best| Circle::new(best, radius, colour(index).filled()));
+        let best = panel_point(&fit.best.shape).map(|best| Circle::new(best, radius, curve_colour(index).filled()));
         chart.draw_series(best)?;
     }
     Ok(())
 }
 
-fn colour(index: usize) -> RGBColor {
+fn curve_colour(index: usize) -> RGBColor {
     CURVE_COLOURS[index % CURVE_COLOURS.len()]
 }
 
 /// Size and least shape within the panel.
-fn point(shape: &Shape) -> Option<(f64, f64)> {
+fn panel_point(shape: &Shape) -> Option<(f64, f64)> {
     Some((shape.size()?.clamp(0.0, 1.0), shape.least_shape()?.clamp(0.0, 1.0)))
 }

@@ -115,7 +115,7 @@ fn draw_modulus(
     chart
         .configure_mesh()
         .x_label_formatter(&|_| String::new())
-        .y_label_formatter(&|value| number(*value))
+        .y_label_formatter(&|value| axis_number(*value))
         .y_desc("modulus")
         .bold_line_style(GRID_COLOUR)
         .light_line_style(TRANSPARENT)
@@ -137,7 +137,7 @@ fn draw_phase(area: &Area, [test, small]: [&[Response]; 2], limits: &[&Limit], o
         .configure_mesh()
         .x_desc("frequency [rad/s]")
         .y_desc("phase [°]")
-        .x_label_formatter(&|value| number(*value))
+        .x_label_formatter(&|value| axis_number(*value))
         .y_label_formatter(&|value| format!("{value:.0}").replace('-', "−"))
         .bold_line_style(GRID_COLOUR)
         .light_line_style(TRANSPARENT)
@@ -202,7 +202,7 @@ where
     Ok(())
 }
 
-fn number(value: f64) -> String {
+fn axis_number(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

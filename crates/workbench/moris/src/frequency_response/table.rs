@@ -21,11 +21,11 @@ use crate::text_table::TextTable;
 pub fn write(file: &Path, measured: &Measured) -> Result<()> {
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
-        table.write_record(record("", &measured.test[0], Channel::Surge).map(|(name, _)| name))?;
+        table.write_record(response_fields("", &measured.test[0], Channel::Surge).map(|(name, _)| name))?;
         for (signal, responses) in [("test", &measured.test), ("small", &measured.small)] {
             for response in responses {
                 for output in Channel::ALL {
-                    table.write_record(record(signal, response, output).map(|(_, field)| field))?;
+                    table.write_record(response_fields(signal, response, output).map(|(_, field)| field))?;
                 }
             }
         }
@@ -35,7 +35,7 @@ pub fn write(file: &Path, measured: &Measured) -> Result<()> {
 }
 
 /// The fields with their names.
-fn record(signal: &str, response: &Response, output: Channel) -> [(&'static str, String); 16] {
+fn response_fields(signal: &str, response: &Response, output: Channel) -> [(&'static str, String); 16] {
     // A smaller modulus is rounding.
     const NEGLIGIBLE_MODULUS: f64 = 1e-9;
     let input = response.input;
@@ -47,7 +47,7 @@ fn record(signal: &str, response: &Response, output: Channel) -> [(&'static str,
         ("signal", signal.into()),
         ("input", name(input).into()),
         ("output", name(output).into()),
-        ("kind", kind(input, output).into()),
+        ("kind", pair_kind(input, output).into()),
         ("frequency_rad_per_s", format!("{:.4}", response.frequency)),
         ("frequency_hz", format!("{:.5}", response.frequency / std::f64::consts::TAU)),
         ("amplitude", format!("{:.6}", response.amplitude / unit_in_si(input))),
@@ -64,7 +64,7 @@ fn record(signal: &str, response: &Response, output: Channel) -> [(&'static str,
 }
 
 /// True for a pair of channels that is tested.
-fn kind(input: Channel, output: Channel) -> &'static str {
+fn pair_kind(input: Channel, output: Channel) -> &'static str {
     if input == output {
         "direct"
     } else if CROSS.contains(&(input, output)) {
@@ -77,12 +77,12 @@ fn kind(input: Channel, output: Channel) -> &'static str {
 /// Modulus and phase of the direct and the cross channels with the test's amplitudes,
 /// and what limited them.
 pub fn text(measured: &Measured) -> String {
-    let warnings: String = warnings(&measured.test).into_iter().map(|warning| warning + "\n").collect();
+    let warnings: String = test_warnings(&measured.test).into_iter().map(|warning| warning + "\n").collect();
     format!(
         "\ndirect channels: modulus, phase [deg]\n{}\n\
          cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}\n{warnings}",
-        pairs(measured, &direct()),
-        pairs(measured, &CROSS)
+        pair_table(measured, &direct()),
+        pair_table(measured, &CROSS)
     )
 }
 
@@ -102,7 +102,7 @@ pub fn verdicts(limits: &[Limit], measured: &Measured) -> (bool, String) {
 }
 
 /// A row for each frequency, a column for each pair of input and output.
-fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
+fn pair_table(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
     let title = |&(input, output): &(Channel, Channel)| pair_name(input, output);
     let titles: Vec<String> = std::iter::once("rad/s".to_owned()).chain(pairs.iter().map(title)).collect();
     let mut table = TextTable::new(titles.iter().map(String::as_str));
@@ -119,25 +119,25 @@ fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
 }
 
 /// Remarks on the tests.
-fn warnings(responses: &[Response]) -> Vec<String> {
+fn test_warnings(responses: &[Response]) -> Vec<String> {
     let limits = ["tilt coordination", "a safety unit", "the actuator guard"];
     let mut warnings: Vec<String> = limits
         .iter()
         .enumerate()
         .filter_map(|(i, name)| {
             let where_limited: Vec<&Response> = responses.iter().filter(|one| one.limited[i] > 0.0).collect();
-            (!where_limited.is_empty()).then(|| format!("limited by {name}: {}", places(&where_limited)))
+            (!where_limited.is_empty()).then(|| format!("limited by {name}: {}", response_places(&where_limited)))
         })
         .collect();
     let unsettled: Vec<&Response> = responses.iter().filter(|one| !one.settled).collect();
     if !unsettled.is_empty() {
-        warnings.push(format!("never settled, marked with ?: {}", places(&unsettled)));
+        warnings.push(format!("never settled, marked with ?: {}", response_places(&unsettled)));
     }
     warnings
 }
 
 /// Where responses are: channels, each with its frequencies.
-fn places(responses: &[&Response]) -> String {
+fn response_places(responses: &[&Response]) -> String {
     let by_channel = responses.chunk_by(|a, b| a.input == b.input);
     let places = by_channel.map(|chunk| {
         let (first, last) = (chunk[0].frequency, chunk[chunk.len() - 1].frequency);

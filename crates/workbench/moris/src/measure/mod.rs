@@ -43,7 +43,7 @@ pub struct Options {
 
     /// Communication step of the host, in s, a divisor or a multiple of the recording's
     /// [default: the recording's]
-    #[arg(long, value_name = "SECONDS", value_parser = step)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_step)]
     step: Option<f64>,
 
     /// Input within a step, as given by the host
@@ -121,6 +121,6 @@ pub(crate) fn recordings(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
     Ok(paths.iter().map(named).collect::<Result<Vec<_>, _>>()?.concat())
 }
 
-fn step(text: &str) -> Result<f64, String> {
+fn parse_step(text: &str) -> Result<f64, String> {
     number_in(text, 1e-6..=1.0, "a time from 1e-6 to 1 s is needed, such as 0.001")
 }

@@ -21,14 +21,14 @@ pub fn text(
     missed: &[Missed],
 ) -> String {
     let mut text = format!("{}, parameters {}, {}\n\n", setup.rig_name, setup.parameters_name, host_text(host));
-    text += &format!("{}\n{}\n{}", channel_table(recordings), limit_table(recordings), summary(recordings));
+    text += &format!("{}\n{}\n{}", channel_table(recordings), limit_table(recordings), summary_text(recordings));
     text += if missed.is_empty() { "All targets are met.\n" } else { "Targets missed:\n" };
-    text.extend(missed.iter().map(|missed| format!("  {}\n", sentence(targets, missed))));
+    text.extend(missed.iter().map(|missed| format!("  {}\n", missed_sentence(targets, missed))));
     text
 }
 
 /// A missed target with the option that sets it.
-fn sentence(targets: &Targets, missed: &Missed) -> String {
+fn missed_sentence(targets: &Targets, missed: &Missed) -> String {
     match missed {
         Missed::GeometricMean { channels, mean } => format!(
             "The geometric mean over {channels} channels, {mean:.3} m/s², exceeds {:.3} m/s² (--geometric-mean).",
@@ -83,18 +83,18 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
         ("recording", |(recording, _)| (*recording).to_owned()),
         ("channel", |(_, channel)| name(channel.axis).to_owned()),
         ("unit", |(_, channel)| channel.unit().to_owned()),
-        ("at rest", |(_, channel)| number(channel, channel.at_rest)),
-        ("bound", |(_, channel)| or_undefined(channel.bound.map(|bound| number(channel, bound)))),
-        ("RMS", |(_, channel)| number(channel, channel.felt.rms_error)),
-        ("ratio", |(_, channel)| ratio(channel)),
-        ("sensed", |(_, channel)| number(channel, channel.sensed.map_or(0.0, |sensed| sensed.rms_error))),
-        ("cues %", |(_, channel)| percent(channel.cues.desired)),
-        ("false %", |(_, channel)| percent(channel.cues.false_cues)),
-        ("missing %", |(_, channel)| percent(channel.cues.missing_cues)),
+        ("at rest", |(_, channel)| channel_number(channel, channel.at_rest)),
+        ("bound", |(_, channel)| or_undefined(channel.bound.map(|bound| channel_number(channel, bound)))),
+        ("RMS", |(_, channel)| channel_number(channel, channel.felt.rms_error)),
+        ("ratio", |(_, channel)| rest_ratio(channel)),
+        ("sensed", |(_, channel)| channel_number(channel, channel.sensed.map_or(0.0, |sensed| sensed.rms_error))),
+        ("cues %", |(_, channel)| percent_text(channel.cues.desired)),
+        ("false %", |(_, channel)| percent_text(channel.cues.false_cues)),
+        ("missing %", |(_, channel)| percent_text(channel.cues.missing_cues)),
         ("shake/jolt/peak", |(_, channel)| or_undefined(channel.comfort.as_ref().map(comfort_cell))),
         ("shape", |(_, channel)| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.shape)))),
         ("size", |(_, channel)| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.size)))),
-        ("inverted %", |(_, channel)| or_undefined(channel.shape.map(|shape| percent(shape.inverted)))),
+        ("inverted %", |(_, channel)| or_undefined(channel.shape.map(|shape| percent_text(shape.inverted)))),
     ];
     let rows = recordings.iter().flat_map(|recording| {
         let names = [recording.name.as_str()].into_iter().chain(std::iter::repeat(""));
@@ -103,17 +103,17 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
     TextTable::of(&columns, rows)
 }
 
-fn number(channel: &ChannelFigures, value: f64) -> String {
+fn channel_number(channel: &ChannelFigures, value: f64) -> String {
     format!("{:.3}", channel.in_unit(value))
 }
 
 /// The ratio to a platform at rest; where hardly anything is desired it means nothing.
-fn ratio(channel: &ChannelFigures) -> String {
+fn rest_ratio(channel: &ChannelFigures) -> String {
     let is_desired = channel.in_unit(channel.at_rest) >= 0.03;
     or_undefined(is_desired.then(|| format!("{:.2}", channel.ratio())))
 }
 
-fn percent(fraction: f64) -> String {
+fn percent_text(fraction: f64) -> String {
     format!("{:.1}", 100.0 * fraction)
 }
 
@@ -128,17 +128,17 @@ fn comfort_cell(comfort: &Comfort) -> String {
 fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
     let columns: [Column<MeasuredRecording>; 7] = [
         ("limited, % of the steps", |recording| recording.name.clone()),
-        ("tilt", |recording| percent(recording.limits.tilt)),
-        ("soft limits", |recording| percent(recording.limits.soft)),
-        ("safety units", |recording| percent(recording.limits.safety)),
-        ("actuator guard", |recording| percent(recording.limits.actuator)),
-        ("units or guard", |recording| percent(recording.limited)),
-        ("stroke used %", |recording| percent(recording.stroke_used)),
+        ("tilt", |recording| percent_text(recording.limits.tilt)),
+        ("soft limits", |recording| percent_text(recording.limits.soft)),
+        ("safety units", |recording| percent_text(recording.limits.safety)),
+        ("actuator guard", |recording| percent_text(recording.limits.actuator)),
+        ("units or guard", |recording| percent_text(recording.limited)),
+        ("stroke used %", |recording| percent_text(recording.stroke_used)),
     ];
     TextTable::of(&columns, recordings)
 }
 
-fn summary(recordings: &[MeasuredRecording]) -> String {
+fn summary_text(recordings: &[MeasuredRecording]) -> String {
     let (mean, count) = geometric_mean(recordings);
     let mut text = format!("Geometric mean of the RMS errors of surge and sway, {count} channels: {mean:.3} m/s²\n");
     for axis in [Axis::Roll, Axis::Pitch, Axis::Yaw] {

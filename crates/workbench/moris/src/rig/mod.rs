@@ -43,11 +43,11 @@ pub struct CheckOptions {
 /// The rig file cannot be used, or the picture cannot be written.
 pub fn main(command: &Command, out: &mut dyn Write) -> Result<ExitCode> {
     let Command::Check(options) = command;
-    check(options, out)
+    check_rig(options, out)
 }
 
 /// Surveys a rig, prints the result and draws it.
-fn check(options: &CheckOptions, out: &mut dyn Write) -> Result<ExitCode> {
+fn check_rig(options: &CheckOptions, out: &mut dyn Write) -> Result<ExitCode> {
     let file = load_rig(&options.rig)?;
     let survey = Survey::of(&file, options.samples).with_context(|| options.rig.display().to_string())?;
     write!(out, "{survey}")?;

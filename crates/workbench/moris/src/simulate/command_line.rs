@@ -10,10 +10,10 @@ use super::Options;
 pub fn with_other_parameters(recording: &Path) -> String {
     // The program and its subcommand come first.
     let arguments = std::env::args_os().skip(2).map(|argument| argument.to_string_lossy().into_owned());
-    of(arguments, &recording.display().to_string())
+    command_line_of(arguments, &recording.display().to_string())
 }
 
-fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
+fn command_line_of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
     // Options about parameters, which the file takes the place of.
     const OF_PARAMETERS: [&str; 6] = ["--parameters", "--strategy", "--compare", "--against", "--preview", "--learn"];
     let command = Options::augment_args(Command::new("simulate"));
@@ -21,7 +21,7 @@ fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
         let option = command.get_arguments().find(|option| option.get_long() == name.strip_prefix("--"));
         option.is_some_and(|option| !option.get_action().takes_values() || option.is_require_equals_set())
     };
-    let mut words = vec!["cargo moris simulate".to_owned(), quoted(recording)];
+    let mut words = vec!["cargo moris simulate".to_owned(), shell_quoted(recording)];
     while let Some(argument) = arguments.next() {
         let (name, value) = match argument.split_once('=') {
             _ if !argument.starts_with("--") => continue,
@@ -31,7 +31,7 @@ fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
         };
         if !OF_PARAMETERS.contains(&name.as_str()) {
             words.push(name);
-            words.extend(value.as_deref().map(quoted));
+            words.extend(value.as_deref().map(shell_quoted));
         }
     }
     words.push("--parameters".to_owned());
@@ -39,7 +39,7 @@ fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
 }
 
 /// A word for a shell.
-fn quoted(word: &str) -> String {
+fn shell_quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_./,:=+%@".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
         return word.to_owned();
@@ -55,12 +55,14 @@ mod tests {
     fn the_options_but_those_of_parameters_stay() {
         let words =
             "a.csv b.csv --rig r.toml --parameters=car --strategy robust --no-bound --mounting -3,0,1 --compare x";
-        let command = of(words.split(' ').map(str::to_owned), "my ride's.csv");
+        let command = command_line_of(words.split(' ').map(str::to_owned), "my ride's.csv");
         let expected =
             "cargo moris simulate 'my ride'\\''s.csv' --rig r.toml --no-bound --mounting -3,0,1 --parameters";
         assert_eq!(command, expected);
-        let command =
-            of("--repair a.csv --learn=kart.laps --json --learn --rig r.toml".split(' ').map(str::to_owned), "a.csv");
+        let command = command_line_of(
+            "--repair a.csv --learn=kart.laps --json --learn --rig r.toml".split(' ').map(str::to_owned),
+            "a.csv",
+        );
         assert_eq!(command, "cargo moris simulate a.csv --repair --json --rig r.toml --parameters");
     }
 }

@@ -79,12 +79,12 @@ pub fn recording(recording: &Recording, outcomes: &[Outcome], files: &[PathBuf])
         duration: recording.manoeuvre.duration(),
         step: recording.step(),
         warnings: words::warnings(recording),
-        results: outcomes.iter().map(result).collect(),
+        results: outcomes.iter().map(set_result).collect(),
         files: files.iter().map(|file| file.display().to_string()).collect(),
     }
 }
 
-fn result(outcome: &Outcome) -> SetResult {
+fn set_result(outcome: &Outcome) -> SetResult {
     let measures = outcome.evaluated().measured_rows().into_iter();
     let measure = |Row { subject, name, value, unit, .. }: Row| Measure { subject, name, value, unit };
     SetResult {

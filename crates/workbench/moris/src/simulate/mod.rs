@@ -126,7 +126,7 @@ pub struct Options {
 /// # Errors
 /// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let cases = cases(options)?;
+    let cases = compared_cases(options)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn.is_some());
     let recordings = table::recordings(&options.recordings, &conventions);
     if let Some(file) = options.felt.iter().find(|felt| recordings.len() > 1 && !felt.is_dir()) {
@@ -145,7 +145,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (mut all_fit, mut any_failed, mut needs_change) = (true, false, false);
     let mut objects = Vec::new();
     for file in &recordings {
-        let simulated = match simulate(options, file, &cases, &conventions, &mut road) {
+        let simulated = match simulate_recording(options, file, &cases, &conventions, &mut road) {
             Ok(simulated) => simulated,
             Err(error) => {
                 let reason = words::with_causes(&error);
@@ -238,7 +238,7 @@ impl Case {
 
 /// The parameters, the ones to compare, again those of the predictive strategy with the preview,
 /// and the motions of other washouts.
-fn cases(options: &Options) -> Result<Vec<Case>> {
+fn compared_cases(options: &Options) -> Result<Vec<Case>> {
     // Value of `--compare` that means every other strategy.
     const ALL_STRATEGIES: &str = "strategies";
     let first = options.setup.load()?;
@@ -260,13 +260,13 @@ fn cases(options: &Options) -> Result<Vec<Case>> {
         let setup = Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?;
         cases.push(Case::of(setup));
     }
-    cases.extend(previewed(options, &cases)?);
+    cases.extend(previewed_cases(options, &cases)?);
     cases.extend(judged);
     Ok(cases)
 }
 
 /// The parameters of the predictive strategy with the previews that are asked for.
-fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
+fn previewed_cases(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
     let preview = options.preview.filter(|&seconds| seconds > 0.0);
     let predictive: Vec<&Case> =
         cases.iter().filter(|case| case.setup.parameters.structure.strategy == StrategyKind::Predictive).collect();
@@ -300,7 +300,7 @@ struct Simulated {
 }
 
 /// Simulates a recording with each of the setups, and writes its files.
-fn simulate(
+fn simulate_recording(
     options: &Options,
     file: &Path,
     cases: &[Case],
@@ -310,7 +310,7 @@ fn simulate(
     let mut progress = Progress::new(&source::name(file), "reading")?;
     let recording = Recording::read(file, conventions)?;
     let learned = options.learn.is_some().then(|| road.learn(&recording)).transpose()?;
-    let outcomes = outcomes(&recording, cases, learned.as_ref(), !options.no_bound, &mut progress)
+    let outcomes = simulated_outcomes(&recording, cases, learned.as_ref(), !options.no_bound, &mut progress)
         .with_context(|| recording.name.clone())?;
     progress.phase("writing the report", 0);
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
@@ -329,7 +329,7 @@ fn simulate(
     })
 }
 
-fn outcomes(
+fn simulated_outcomes(
     recording: &Recording,
     cases: &[Case],
     learned: Option<&Previewer>,

@@ -22,14 +22,14 @@ pub fn write(file: &Path, simulation: &Simulation) -> Result<()> {
         for ((time, input), output) in simulation.times().iter().zip(simulation.inputs.iter()).zip(&simulation.outputs)
         {
             let values = std::iter::once(*time).chain(slots_of(input)).chain(slots_of(output));
-            table.write_record(values.map(written))?;
+            table.write_record(values.map(written_number))?;
         }
         Ok(table.flush()?)
     };
     save().with_context(|| format!("cannot write {}", file.display()))
 }
 
-fn written(value: f64) -> String {
+fn written_number(value: f64) -> String {
     // Digits after the point: micrometres, and no more than a sensor has.
     const OUTPUT_DECIMALS: usize = 6;
     if value == value.trunc() { format!("{value:.0}") } else { format!("{value:.OUTPUT_DECIMALS$}") }

@@ -24,27 +24,29 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
         for finding in outcome.evaluated().findings() {
             text += &format!("  {}\n", finding.text);
         }
-        text += &format!("\n{}", table(outcome));
+        text += &format!("\n{}", cue_table(outcome));
     }
     text
 }
 
 /// The measures of the cues, axis by axis; axes on which nothing happens are left out.
-fn table(outcome: &Outcome) -> TextTable {
+fn cue_table(outcome: &Outcome) -> TextTable {
     let columns: [Column<ChannelFigures>; 15] = [
         ("felt against desired", |channel| {
             let kind = if channel.axis.is_rotation() { "rate" } else { "force" };
             format!("{kind} {}", ["x", "y", "z"][channel.axis as usize % 3])
         }),
-        ("RMS error", |channel| number(channel, channel.felt.rms_error)),
-        ("bound", |channel| or_undefined(channel.bound.map(|bound| number(channel, bound)))),
-        ("peak error", |channel| number(channel, channel.felt.peak_error)),
-        ("shake", |channel| excess(channel, |comfort| comfort.shake)),
-        ("jolt", |channel| excess(channel, |comfort| comfort.jolt)),
-        ("peak", |channel| excess(channel, |comfort| Some(comfort.peak))),
+        ("RMS error", |channel| channel_number(channel, channel.felt.rms_error)),
+        ("bound", |channel| or_undefined(channel.bound.map(|bound| channel_number(channel, bound)))),
+        ("peak error", |channel| channel_number(channel, channel.felt.peak_error)),
+        ("shake", |channel| comfort_excess(channel, |comfort| comfort.shake)),
+        ("jolt", |channel| comfort_excess(channel, |comfort| comfort.jolt)),
+        ("peak", |channel| comfort_excess(channel, |comfort| Some(comfort.peak))),
         ("correlation", |channel| or_undefined(channel.felt.correlation.map(|value| format!("{value:.3}")))),
-        ("delay", |channel| or_undefined(channel.felt.delay.map(milliseconds))),
-        ("sensed: RMS error", |channel| or_undefined(channel.sensed.map(|sensed| number(channel, sensed.rms_error)))),
+        ("delay", |channel| or_undefined(channel.felt.delay.map(delay_milliseconds))),
+        ("sensed: RMS error", |channel| {
+            or_undefined(channel.sensed.map(|sensed| channel_number(channel, sensed.rms_error)))
+        }),
         ("false cues", |channel| format!("{:.1} %", 100.0 * channel.cues.false_cues)),
         ("missing cues", |channel| format!("{:.1} %", 100.0 * channel.cues.missing_cues)),
         ("shape", |channel| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.shape)))),
@@ -54,15 +56,15 @@ fn table(outcome: &Outcome) -> TextTable {
     TextTable::of(&columns, channels(&outcome.evaluated()))
 }
 
-fn number(channel: &ChannelFigures, value: f64) -> String {
+fn channel_number(channel: &ChannelFigures, value: f64) -> String {
     format!("{:.2} {}", channel.in_unit(value), channel.unit())
 }
 
-fn excess(channel: &ChannelFigures, of: fn(Comfort) -> Option<Excess>) -> String {
-    or_undefined(channel.comfort.and_then(of).map(|excess| number(channel, excess.value)))
+fn comfort_excess(channel: &ChannelFigures, of: fn(Comfort) -> Option<Excess>) -> String {
+    or_undefined(channel.comfort.and_then(of).map(|excess| channel_number(channel, excess.value)))
 }
 
-fn milliseconds(delay: f64) -> String {
+fn delay_milliseconds(delay: f64) -> String {
     // A delay of -0.0 would be written as such.
     format!("{:.0} ms", (1000.0 * delay).round() + 0.0)
 }

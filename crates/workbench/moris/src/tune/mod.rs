@@ -113,9 +113,9 @@ impl Tuning {
         // Time between the lines of progress in a log [s].
         const PROGRESS_INTERVAL: u64 = 10;
         let before = options.setup(strategy).load()?;
-        let mut all = objectives(options, &options.recordings, &before)?;
+        let mut all = read_objectives(options, &options.recordings, &before)?;
         let count = all.len();
-        all.extend(objectives(options, &options.hold_out, &before)?);
+        all.extend(read_objectives(options, &options.hold_out, &before)?);
         let (tuned_on, held_out) = all.split_at(count);
         let folds = folds::folds(count, options.folds.unwrap_or(count));
 
@@ -155,7 +155,7 @@ impl Tuning {
                     bar.set_message(format!("{name}, {text}"));
                 }
             },
-            so_far: kept.begin(&before, &file, &heading(options, &before)),
+            so_far: kept.begin(&before, &file, &parameter_heading(options, &before)),
         };
         let (tuned_on, held_out): (Vec<_>, Vec<_>) = (tuned_on.iter().collect(), held_out.iter().collect());
         let Tested { setup: tuned, results, fraction } = tune_tested(&tuner, &tuned_on, &held_out, &folds)?;
@@ -179,7 +179,7 @@ fn is_infeasible(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(TuneError::Infeasible(_)))
 }
 
-fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
+fn read_objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let objective = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
@@ -190,7 +190,7 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
 }
 
 /// Origin of the tuned parameters.
-fn heading(options: &Options, before: &Setup) -> String {
+fn parameter_heading(options: &Options, before: &Setup) -> String {
     let recordings: Vec<String> = options.recordings.iter().map(|recording| recording.display().to_string()).collect();
     format!(
         "Tuned by moris on {} for {}, from {}, seed {}",

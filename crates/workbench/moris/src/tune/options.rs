@@ -43,7 +43,7 @@ pub struct Options {
 
     /// Strategy to tune, in place of the parameters'. With `all` each is tuned, and a table names
     /// the best
-    #[arg(long, value_parser = choices())]
+    #[arg(long, value_parser = strategy_choices())]
     pub strategy: Option<Choice>,
 
     /// What to search for: the shape, or the sensed error alone
@@ -60,21 +60,21 @@ pub struct Options {
     pub folds: Option<usize>,
 
     /// Parameters to tune, separated by commas
-    #[arg(long, value_name = "GROUPS", value_delimiter = ',', value_parser = groups(), default_values = ["splitter", "angular", "scale", "strategy"])]
+    #[arg(long, value_name = "GROUPS", value_delimiter = ',', value_parser = tuning_groups(), default_values = ["splitter", "angular", "scale", "strategy"])]
     pub tune: Vec<TuningGroup>,
 
     /// Weights of the sensed errors of specific force x, y, z and angular velocity x, y, z. The
     /// first two weigh the shapes of surge and sway, too
-    #[arg(long, value_name = "WEIGHTS", value_parser = weights, default_value = "1,1,1,1,1,1")]
+    #[arg(long, value_name = "WEIGHTS", value_parser = parse_weights, default_value = "1,1,1,1,1,1")]
     pub weights: Channels<f64>,
 
     /// Stroke reserve of every actuator at either end, in m
-    #[arg(long, value_name = "METRES", value_parser = reserve, default_value = "0.01")]
+    #[arg(long, value_name = "METRES", value_parser = parse_reserve, default_value = "0.01")]
     pub stroke_reserve: f64,
 
     /// Bounds of shake, jolt and peak of the felt force on every axis, in m/s²; inf for none. Where
     /// they are exceeded before, the value before is the bound
-    #[arg(long, value_name = "BOUNDS", value_parser = comfort, default_value = "0.2,4,4")]
+    #[arg(long, value_name = "BOUNDS", value_parser = parse_comfort, default_value = "0.2,4,4")]
     pub comfort: [f64; 3],
 
     /// Parameter sets evaluated by each search after its coarse scan
@@ -124,20 +124,20 @@ impl Options {
 }
 
 /// The strategies by name, and `all`.
-fn choices() -> impl TypedValueParser<Value = Choice> {
+fn strategy_choices() -> impl TypedValueParser<Value = Choice> {
     let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
     PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()).chain(["all"]))
         .map(move |name| named(name).map_or(Choice::All, Choice::One))
 }
 
 /// The groups of parameters by name.
-fn groups() -> impl TypedValueParser<Value = TuningGroup> {
+fn tuning_groups() -> impl TypedValueParser<Value = TuningGroup> {
     let named = |name: String| group_named(&name).expect("only names of groups are accepted");
     PossibleValuesParser::new(TuningGroup::ALL.iter().map(|group| PossibleValue::new(group.name()).help(group.text())))
         .map(named)
 }
 
-fn weights(text: &str) -> Result<Channels<f64>, String> {
+fn parse_weights(text: &str) -> Result<Channels<f64>, String> {
     let are_usable = |weights: &Channels<f64>| {
         weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0
     };
@@ -147,13 +147,13 @@ fn weights(text: &str) -> Result<Channels<f64>, String> {
 }
 
 /// Bounds of shake, jolt and peak \[m/s2\].
-fn comfort(text: &str) -> Result<[f64; 3], String> {
+fn parse_comfort(text: &str) -> Result<[f64; 3], String> {
     numbers(text)
         .filter(|bounds| bounds.iter().all(|bound| *bound > 0.0))
         .ok_or_else(|| "three numbers above 0 are needed, such as 0.2,4,4 or inf,4,4".to_owned())
 }
 
-fn reserve(text: &str) -> Result<f64, String> {
+fn parse_reserve(text: &str) -> Result<f64, String> {
     number_in(text, 0.0..=f64::MAX, "a length in m is needed, not below 0")
 }
 
@@ -166,27 +166,27 @@ mod tests {
 
     #[test]
     fn weights_are_six_numbers_of_which_one_at_least_counts() {
-        assert_eq!(weights("1, 2,3,0,0,0.5"), Ok([1.0, 2.0, 3.0, 0.0, 0.0, 0.5]));
+        assert_eq!(parse_weights("1, 2,3,0,0,0.5"), Ok([1.0, 2.0, 3.0, 0.0, 0.0, 0.5]));
         for wrong in ["", "1,2,3", "1,1,1,1,1,-1", "0,0,0,0,0,0", "1,1,1,1,1,NaN", "a,b,c,d,e,f"] {
-            assert!(weights(wrong).is_err(), "{wrong}");
+            assert!(parse_weights(wrong).is_err(), "{wrong}");
         }
     }
 
     #[test]
     fn bounds_of_comfort_are_three_positive_numbers() {
-        assert_eq!(comfort("0.1, 3,inf"), Ok([0.1, 3.0, f64::INFINITY]));
+        assert_eq!(parse_comfort("0.1, 3,inf"), Ok([0.1, 3.0, f64::INFINITY]));
         let command = Options::augment_args(Command::new("tune"));
         let option = command.get_arguments().find(|option| option.get_id() == "comfort").unwrap();
         let default = option.get_default_values()[0].to_str().unwrap();
-        assert_eq!(comfort(default), Ok(COMFORT_BOUNDS));
+        assert_eq!(parse_comfort(default), Ok(COMFORT_BOUNDS));
         for wrong in ["", "0.2,4", "0.2,4,4,4", "0,4,4", "0.2,-4,4", "NaN,4,4", "a,b,c"] {
-            assert!(comfort(wrong).is_err(), "{wrong}");
+            assert!(parse_comfort(wrong).is_err(), "{wrong}");
         }
     }
 
     #[test]
     fn a_reserve_is_a_length() {
-        assert_eq!(reserve("0.02"), Ok(0.02));
-        assert!(reserve("-0.02").is_err() && reserve("inf").is_err() && reserve("much").is_err());
+        assert_eq!(parse_reserve("0.02"), Ok(0.02));
+        assert!(parse_reserve("-0.02").is_err() && parse_reserve("inf").is_err() && parse_reserve("much").is_err());
     }
 }

@@ -32,24 +32,24 @@ impl Series {
             write_number(&mut bytes, number - last - slope);
             (slope, last) = (number - last, number);
         }
-        Series { power: Some(power), deflated: deflated(&bytes) }
+        Series { power: Some(power), deflated: deflated_text(&bytes) }
     }
 
     /// A series for display.
     fn looked_at(values: &[f64]) -> Self {
         // Powers between the quantum and the largest value of a series: six digits.
         const RESOLUTION_BITS: i32 = 21;
-        let largest = largest(values);
+        let largest = largest_size(values);
         if values.iter().all(|value| value.is_finite()) {
             Series::of(values, power_of(largest) - RESOLUTION_BITS)
         } else {
             let bytes: Vec<u8> = values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect();
-            Series { power: None, deflated: deflated(&bytes) }
+            Series { power: None, deflated: deflated_text(&bytes) }
         }
     }
 }
 
-fn largest(values: &[f64]) -> f64 {
+fn largest_size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }
 
@@ -71,7 +71,7 @@ fn write_number(bytes: &mut Vec<u8>, number: i64) {
     bytes.push(left as u8);
 }
 
-fn deflated(bytes: &[u8]) -> String {
+fn deflated_text(bytes: &[u8]) -> String {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
     let written = encoder.write_all(bytes).and_then(|()| encoder.finish());
     STANDARD.encode(written.expect("memory takes whatever is written"))
@@ -104,7 +104,7 @@ pub fn times<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::E
     // Powers between the quantum and the largest time, with which all differences are whole numbers
     // in a script.
     const OF_LONG_TIMES: i32 = 49;
-    let power = OF_TIMES.max(power_of(largest(values)) - OF_LONG_TIMES);
+    let power = OF_TIMES.max(power_of(largest_size(values)) - OF_LONG_TIMES);
     (!values.is_empty()).then(|| Series::of(values, power)).serialize(serializer)
 }
 
@@ -114,7 +114,7 @@ pub fn times<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::E
 /// The serializer's.
 pub fn flags<S: Serializer>(values: &[bool], serializer: S) -> Result<S::Ok, S::Error> {
     let bytes: Vec<u8> = values.iter().map(|&value| u8::from(value)).collect();
-    serializer.serialize_str(&deflated(&bytes))
+    serializer.serialize_str(&deflated_text(&bytes))
 }
 
 /// Bytes, deflated.
@@ -122,7 +122,7 @@ pub fn flags<S: Serializer>(values: &[bool], serializer: S) -> Result<S::Ok, S::
 /// # Errors
 /// The serializer's.
 pub fn bytes<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(&deflated(bytes))
+    serializer.serialize_str(&deflated_text(bytes))
 }
 
 /// Series whose values a page needs to the last bit. The first bytes of all values come first, then
@@ -133,7 +133,7 @@ pub fn bytes<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Err
 pub fn exact<S: Serializer>(series: &[Vec<f64>], serializer: S) -> Result<S::Ok, S::Error> {
     let bytes = |values: &[f64]| {
         let planes = (0..8).flat_map(|place| values.iter().map(move |value| value.to_le_bytes()[place]));
-        deflated(&planes.collect::<Vec<u8>>())
+        deflated_text(&planes.collect::<Vec<u8>>())
     };
     serializer.collect_seq(series.iter().map(|values| bytes(values)))
 }

@@ -55,7 +55,7 @@ pub fn events(run: &Run, rig: &Rig) -> Vec<Event> {
     let flags = [(Kind::Soft, soft), (Kind::Safety, safety), (Kind::Actuator, actuator)];
     let mut events: Vec<Event> = flags
         .iter()
-        .flat_map(|(kind, flags)| stretches(&run.times, flags).map(|at| event(*kind, run, rig, at)))
+        .flat_map(|(kind, flags)| raised_stretches(&run.times, flags).map(|at| limit_event(*kind, run, rig, at)))
         .chain(tilt_events(run))
         .collect();
     events.sort_by(|a, b| a.from.total_cmp(&b.from));
@@ -73,7 +73,7 @@ fn tilt_events(run: &Run) -> Vec<Event> {
                 to: run.times[last],
                 why: why.clone(),
             };
-            stretches(&run.times, flags).map(event).collect()
+            raised_stretches(&run.times, flags).map(event).collect()
         };
         TiltLimit::ALL.into_iter().zip(by_limit).flat_map(of_limit).collect()
     };
@@ -81,7 +81,7 @@ fn tilt_events(run: &Run) -> Vec<Event> {
 }
 
 /// First and last index of each stretch of raised flags. A flag speaks of the step before it.
-fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usize)> {
+fn raised_stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usize)> {
     // Stretches closer to each other than this are one [s].
     const MERGE_GAP: f64 = 0.1;
     let mut stretches: Vec<(usize, usize)> = Vec::new();
@@ -95,12 +95,12 @@ fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usiz
     stretches.into_iter()
 }
 
-fn event(kind: Kind, run: &Run, rig: &Rig, (first, last): (usize, usize)) -> Event {
+fn limit_event(kind: Kind, run: &Run, rig: &Rig, (first, last): (usize, usize)) -> Event {
     let at = Stretch { times: &run.times[first..=last], first, last };
     let why = match kind {
-        Kind::Actuator => reason(of_actuators(run, rig, &at)),
+        Kind::Actuator => limit_reason(of_actuators(run, rig, &at)),
         Kind::Soft => soft_reason(run, rig, &at),
-        _ => reason(of_safety(run, rig, &at)),
+        _ => limit_reason(of_safety(run, rig, &at)),
     };
     Event { kind, from: run.times[first], to: run.times[last], why }
 }
@@ -138,7 +138,8 @@ impl Stretch<'_> {
 /// The limit that came closest, which the soft limits act ahead of.
 fn soft_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     let utilisations = of_safety(run, rig, at).into_iter().chain(of_actuators(run, rig, at)).flatten();
-    closest(utilisations).map_or_else(|| UNKNOWN_LIMIT.into(), |one| format!("ahead of a limit; {}", one.share()))
+    closest_to_limit(utilisations)
+        .map_or_else(|| UNKNOWN_LIMIT.into(), |one| format!("ahead of a limit; {}", one.share()))
 }
 
 /// Of the limits of the safety units: of position, velocity and acceleration.
@@ -183,7 +184,7 @@ fn of_actuators(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
 }
 
 /// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
-fn reason(kinds: [Vec<Utilisation>; 3]) -> String {
+fn limit_reason(kinds: [Vec<Utilisation>; 3]) -> String {
     // A limit counts as reached at this fraction of it.
     const REACHED_FRACTION: f64 = 0.98;
     for utilisations in &kinds {
@@ -192,14 +193,14 @@ fn reason(kinds: [Vec<Utilisation>; 3]) -> String {
             return limits_reached(&reached);
         }
     }
-    closest(kinds.into_iter().flatten())
+    closest_to_limit(kinds.into_iter().flatten())
         .map_or_else(|| UNKNOWN_LIMIT.into(), |one| format!("braking or catching up; {}", one.share()))
 }
 
 const UNKNOWN_LIMIT: &str = "no limit is known";
 
 /// The one closest to its limit; none if no limit is known.
-fn closest(utilisations: impl Iterator<Item = Utilisation>) -> Option<Utilisation> {
+fn closest_to_limit(utilisations: impl Iterator<Item = Utilisation>) -> Option<Utilisation> {
     let known = utilisations.filter(|one| one.fraction.is_finite());
     known.max_by(|a, b| a.fraction.total_cmp(&b.fraction))
 }

@@ -25,7 +25,8 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
     for row in rows {
         let cells = cells_html(&row.cells, heads);
         let name = escaped(&row.name);
-        let name = row.file.as_ref().map_or(name.clone(), |file| format!("<a href=\"{}\">{name}</a>", encoded(file)));
+        let name =
+            row.file.as_ref().map_or(name.clone(), |file| format!("<a href=\"{}\">{name}</a>", encoded_address(file)));
         let (class, mark) = if row.is_good { ("good", "\u{2713}") } else { ("warning", "!") };
         body += &format!(
             "<tr class=\"group {class}\"><th scope=\"row\"><span class=\"finding-mark\">{mark}</span> \
@@ -48,7 +49,7 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
 }
 
 /// A file's name as a relative address.
-fn encoded(file: &str) -> String {
+fn encoded_address(file: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte);
     let letter = |byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
     format!("./{}", file.bytes().map(letter).collect::<String>())

@@ -34,17 +34,21 @@ impl Head<'_> {
         // The style of every page, whose colours the scripts name.
         const SHARED_STYLE: &str = include_str!("../../page/shared/style.css");
         let style = format!("\n{SHARED_STYLE}{}", self.style);
-        let sources: String = scripts.iter().map(|script| format!("{} ", hash(script))).collect();
+        let sources: String = scripts.iter().map(|script| format!("{} ", element_hash(script))).collect();
         let policy = format!("script-src {sources}{}; {}", self.scripts, self.policy);
         let policy = if scripts.is_empty() { String::new() } else { policy };
-        let texts =
-            [("title", escaped(self.title)), ("style-hash", hash(&style)), ("policy", policy), ("style", style)];
-        filled(HEAD_TEMPLATE, &texts)
+        let texts = [
+            ("title", escaped(self.title)),
+            ("style-hash", element_hash(&style)),
+            ("policy", policy),
+            ("style", style),
+        ];
+        filled_template(HEAD_TEMPLATE, &texts)
     }
 }
 
 /// The hash of an element's text, as a content security policy has it.
-fn hash(text: &str) -> String {
+fn element_hash(text: &str) -> String {
     // Line ends as a browser reads them.
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text)))
@@ -100,12 +104,15 @@ pub fn assembled(head: &Head, template: &str, data: &impl Serialize, entry: &str
     let script = format!("\n(async () => {{\n\"use strict\";\n{}\n}})();\n", bundle(entry));
     let head_html = head.html(&[ALARM_SCRIPT, &script]);
     let of_end = [("alarm", ALARM_SCRIPT.to_owned()), ("data", data), ("script", script)];
-    let heading = filled(HEADING_TEMPLATE, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);
-    head_html + &filled(template, &[("heading", heading.trim_end().to_owned())]) + &filled(END_TEMPLATE, &of_end)
+    let heading =
+        filled_template(HEADING_TEMPLATE, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);
+    head_html
+        + &filled_template(template, &[("heading", heading.trim_end().to_owned())])
+        + &filled_template(END_TEMPLATE, &of_end)
 }
 
 /// The template with every `{{name}}` replaced. The inserted text is not expanded again.
-fn filled(template: &str, texts: &[(&str, String)]) -> String {
+fn filled_template(template: &str, texts: &[(&str, String)]) -> String {
     let mut parts = template.split("{{");
     let mut page = parts.next().unwrap_or_default().to_owned();
     for part in parts {

@@ -16,7 +16,7 @@ pub fn lean(stick: f64, is_helped: bool, motorcycle: &Motorcycle) -> f64 {
     const LEAN_BESIDE_HELP: f64 = 0.3;
     match motorcycle.follower() {
         Some(follower) if is_helped => {
-            LEAN_BESIDE_HELP * stick + help(&motorcycle.output(), follower, motorcycle.parameters().run.gravity)
+            LEAN_BESIDE_HELP * stick + helped_lean(&motorcycle.output(), follower, motorcycle.parameters().run.gravity)
         }
         _ => STICK_LEAN * stick,
     }
@@ -38,7 +38,7 @@ pub fn pedals([throttle, brake]: [f64; 2], is_helped: bool, motorcycle: &Motorcy
     [throttle.min((THROTTLE_GAIN * missing).max(0.0)), brake.max((-BRAKE_GAIN * missing).clamp(0.0, MOST_BRAKE))]
 }
 
-fn help(now: &Output, follower: &Follower, gravity: f64) -> f64 {
+fn helped_lean(now: &Output, follower: &Follower, gravity: f64) -> f64 {
     // Natural frequency with which the help returns to the middle of the road [rad/s].
     const RETURN_FREQUENCY: f64 = 0.8;
     let curvature = follower.table().curvature_at(now.path_distance + LOOK_AHEAD_TIME * now.speed);

@@ -157,7 +157,7 @@ impl Drive {
     pub fn manoeuvre(&self) -> Manoeuvre {
         match self.kind {
             Kind::Car(course) => course.manoeuvre(),
-            Kind::Flight => Manoeuvre::sampled(STEP, FLIGHT_DURATION, flight),
+            Kind::Flight => Manoeuvre::sampled(STEP, FLIGHT_DURATION, flight_input),
             Kind::Run(run) => Manoeuvre::sampled(STEP, run.duration, |t| {
                 let motion = run.motion(t);
                 Input {
@@ -172,7 +172,7 @@ impl Drive {
 }
 
 /// A light aircraft: take-off run, rotation and climb, two turns without sideslip, gusts.
-fn flight(t: f64) -> Input {
+fn flight_input(t: f64) -> Input {
     /// Changes of the bank, positive to the right, and of the pitch, nose down \[rad\].
     const BANK: [Change; 4] = [(0.45, 30.0, 3.0), (-0.45, 42.0, 3.0), (-0.35, 50.0, 3.0), (0.35, 64.0, 3.0)];
     const PITCH: [Change; 2] = [(-0.14, 16.0, 2.5), (0.10, 26.0, 3.0)];

@@ -83,14 +83,14 @@ pub const C: Manoeuvre =
 /// A car in town: three starts and stops, two bends and a lane change. The run is not the paper's.
 /// It serves to compare the strategies.
 pub const TOWN: Manoeuvre =
-    Manoeuvre { name: "town", text: "a car through town: starts, stops, bends", duration: 90.0, motion: town };
+    Manoeuvre { name: "town", text: "a car through town: starts, stops, bends", duration: 90.0, motion: town_motion };
 
 fn run_a(t: f64) -> Motion {
-    straight(t, &[(2.0, 3.0, 6.0), (-2.0, 15.0, 6.0), (-2.5, 24.0, 7.5), (2.5, 33.6, 7.5)])
+    straight_motion(t, &[(2.0, 3.0, 6.0), (-2.0, 15.0, 6.0), (-2.5, 24.0, 7.5), (2.5, 33.6, 7.5)])
 }
 
 fn run_a_brisk(t: f64) -> Motion {
-    straight(t, &[(2.0, 3.0, 2.0), (-2.0, 15.0, 2.0), (-2.5, 24.0, 2.0), (2.5, 33.6, 2.0)])
+    straight_motion(t, &[(2.0, 3.0, 2.0), (-2.0, 15.0, 2.0), (-2.5, 24.0, 2.0), (2.5, 33.6, 2.0)])
 }
 
 fn run_b(t: f64) -> Motion {
@@ -104,10 +104,10 @@ fn run_b(t: f64) -> Motion {
 
     let window = rise(t, 0.5, 1.5) - rise(t, 8.0, 1.5);
     let window_rate = rise_rate(t, 0.5, 1.5) - rise_rate(t, 8.0, 1.5);
-    let roll = sum(ROLL_DEGREES, t).to_radians();
+    let roll = wave_sum(ROLL_DEGREES, t).to_radians();
     let roll_rate = sum_rate(ROLL_DEGREES, t).to_radians();
     Motion {
-        acceleration: [window * sum(AX, t), window * sum(AY, t), window * sum(AZ, t)],
+        acceleration: [window * wave_sum(AX, t), window * wave_sum(AY, t), window * wave_sum(AZ, t)],
         roll: window * roll,
         roll_rate: window_rate * roll + window * roll_rate,
         speed: SPEED_IN_THE_WAKE,
@@ -115,10 +115,14 @@ fn run_b(t: f64) -> Motion {
 }
 
 fn run_c(t: f64) -> Motion {
-    if t < STOP { straight(t, &[(2.2, 1.0, 6.6), (-2.2, 12.0, 6.6), (-3.5, 22.0, 10.5)]) } else { Motion::default() }
+    if t < STOP {
+        straight_motion(t, &[(2.2, 1.0, 6.6), (-2.2, 12.0, 6.6), (-3.5, 22.0, 10.5)])
+    } else {
+        Motion::default()
+    }
 }
 
-fn town(t: f64) -> Motion {
+fn town_motion(t: f64) -> Motion {
     let starts_and_stops = [
         [(1.8, 2.0, 1.0), (-1.8, 8.0, 1.5), (-2.5, 16.0, 0.8), (2.5, 20.1, 0.8)],
         [(1.5, 24.0, 1.0), (-1.5, 29.0, 1.5), (-1.5, 38.0, 1.0), (1.5, 43.0, 1.0)],
@@ -127,13 +131,13 @@ fn town(t: f64) -> Motion {
     ];
     let bends = [(2.0, 20.5, 0.8), (-2.0, 23.5, 0.8), (-1.8, 31.0, 1.0), (1.8, 34.5, 1.0)];
     let lane_change = [(1.2, 52.5, 0.6), (-2.4, 54.0, 0.8), (1.2, 55.7, 0.6)];
-    let mut motion = straight(t, starts_and_stops.as_flattened());
+    let mut motion = straight_motion(t, starts_and_stops.as_flattened());
     motion.acceleration[1] = changes(&[&bends[..], &lane_change].concat(), t);
     motion
 }
 
 /// A run in a straight line from rest with these changes of the acceleration \[m/s2\].
-fn straight(t: f64, along: &[Change]) -> Motion {
+fn straight_motion(t: f64, along: &[Change]) -> Motion {
     // At the end, rounding may leave a speed slightly below zero.
     let speed = changes_integral(along, t).max(0.0);
     Motion { acceleration: [changes(along, t), 0.0, 0.0], speed, ..Motion::default() }
@@ -143,11 +147,11 @@ fn straight(t: f64, along: &[Change]) -> Motion {
 type Wave = (f64, f64, f64);
 
 /// The waves' sum.
-fn sum(waves: &[Wave], t: f64) -> f64 {
+fn wave_sum(waves: &[Wave], t: f64) -> f64 {
     waves.iter().map(|(amplitude, frequency, phase)| amplitude * (TAU * frequency * t + phase).sin()).sum()
 }
 
-/// The time derivative of [`sum`].
+/// The time derivative of [`wave_sum`].
 fn sum_rate(waves: &[Wave], t: f64) -> f64 {
     waves.iter().map(|(amplitude, f, phase)| amplitude * TAU * f * (TAU * f * t + phase).cos()).sum()
 }

@@ -30,7 +30,7 @@ impl Foreign {
         let effort = &outcome.measures.effort;
         let spans = Spans::of(outcome.simulation, |output| output.actuator_limited);
         if let Some(first) = spans.first() {
-            let worst = self.excesses.iter().map(excess).collect::<Vec<_>>().join(", ");
+            let worst = self.excesses.iter().map(excess_clause).collect::<Vec<_>>().join(", ");
             let text = format!(
                 "The motion exceeds the rig for {:.2} s in all, first at {:.2} s: {worst}.",
                 spans.total, first[0]
@@ -60,7 +60,7 @@ impl Foreign {
 }
 
 /// An excess as a clause.
-fn excess(excess: &Excess) -> String {
+fn excess_clause(excess: &Excess) -> String {
     let Excess { limit, leg, value, allowed, time } = excess;
     let leg = leg + 1;
     match limit {

@@ -68,7 +68,7 @@ pub fn check(
 
 /// Decimals of poses, and the RMS error of force that their rounding causes \[m/s2\]; none where
 /// they are not rounded.
-fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> {
+fn rounded_decimals(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> {
     // Decimals that are looked for in poses.
     const POSE_DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
     let is_multiple = |value: f64, decimals: i32| {
@@ -86,7 +86,7 @@ fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> 
 pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<String> {
     // Error by rounding that is worth a sentence [m/s2].
     const LEAST_ROUNDING: f64 = 0.02;
-    let (decimals, error) = rounded(poses, samples, step)?;
+    let (decimals, error) = rounded_decimals(poses, samples, step)?;
     let rate = ((poses.len() - 1) / (samples - 1)) as f64 / step;
     (error >= LEAST_ROUNDING).then(|| {
         format!(
@@ -134,7 +134,7 @@ pub fn contradiction(
         }
     }
     let [difference, size] = [difference, size].map(|sum: f64| (sum / samples as f64).sqrt());
-    let rounding = rounded(poses, samples, step).map_or(0.0, |(_, error)| error);
+    let rounding = rounded_decimals(poses, samples, step).map_or(0.0, |(_, error)| error);
     let allowed = LEAST_DIFFERENT.max(MIN_DIFFERENCE_FRACTION * size) + MOST_ROUNDING * rounding;
     (difference > allowed).then(|| {
         format!(
@@ -170,7 +170,7 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
                 .zip(&simulation.outputs)
                 .map(move |(input, output)| [input.specific_force[axis], output.felt_specific_force[axis]])
         };
-        let Some(Likeness { correlation, size }) = likeness(pairs, MIN_SUSPECTED_RMS[0]) else { continue };
+        let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RMS[0]) else { continue };
         if correlation < OPPOSED_CORRELATION {
             found.push(format!(
                 "{name} is felt with the wrong sign: its correlation with the desired force is {correlation:.2}. If the washout is not \
@@ -193,7 +193,7 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
                 .zip(&simulation.outputs)
                 .map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]])
         };
-        let Some(Likeness { correlation, size }) = likeness(pairs, MIN_SUSPECTED_RMS[1]) else { continue };
+        let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RMS[1]) else { continue };
         if correlation > -OPPOSED_CORRELATION && size > 10.0 {
             found.push(format!(
                 "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
@@ -243,7 +243,7 @@ struct Likeness {
 }
 
 /// Of pairs whose first signal is at least so large (RMS about its mean).
-fn likeness<I: Iterator<Item = [f64; 2]>>(pairs: impl Fn() -> I, least: f64) -> Option<Likeness> {
+fn signal_likeness<I: Iterator<Item = [f64; 2]>>(pairs: impl Fn() -> I, least: f64) -> Option<Likeness> {
     let count = pairs().count() as f64;
     let mean = |k: usize| pairs().map(|pair| pair[k]).sum::<f64>() / count;
     let means = [mean(0), mean(1)];

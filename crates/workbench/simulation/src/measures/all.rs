@@ -60,7 +60,7 @@ pub struct Rider {
 
 impl Rider {
     fn of([desired, felt]: [&[[f64; 3]]; 2], rates: [&dyn Series<3>; 2], step: f64) -> Self {
-        let sick = |(force, rate)| share_sick(force, &vectors(rate), step);
+        let sick = |(force, rate)| share_sick(force, &series_vectors(rate), step);
         Rider {
             sick: [(desired, rates[0]), (felt, rates[1])].map(sick),
             dose: [desired, felt].map(|force| dose(force, step)),
@@ -101,7 +101,7 @@ impl Measures {
             references[k].insert(kept.unwrap_or_else(new)).comfort(felt)
         };
         let comfort = from_fn(|k| force[k].raw.is_some().then(|| comfort_of(k)));
-        let [desired, felt] = [vectors(run.desired_force), vectors(run.felt_force)];
+        let [desired, felt] = [series_vectors(run.desired_force), series_vectors(run.felt_force)];
         Ok(Measures {
             comfort,
             force: force.each_ref().map(|axis| axis.raw),
@@ -118,7 +118,7 @@ impl Measures {
 }
 
 /// The vectors of a series.
-fn vectors(series: &dyn Series<3>) -> Vec<[f64; 3]> {
+fn series_vectors(series: &dyn Series<3>) -> Vec<[f64; 3]> {
     (0..series.count()).map(|sample| series.at(sample)).collect()
 }
 

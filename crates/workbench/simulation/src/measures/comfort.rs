@@ -61,14 +61,14 @@ pub(super) fn comfort_once(
     step: f64,
 ) -> Comfort {
     let divisions = divisions(desired.len(), felt.len());
-    let (desired, step) = (interpolated(desired, divisions), step / divisions as f64);
+    let (desired, step) = (interpolated_signal(desired, divisions), step / divisions as f64);
     let changes = jolt_samples(desired.len(), step).map(|count| changes_around(desired.clone(), count));
-    compare(felt, rest, step, peak(desired.clone(), rest), shake_rms(desired, step), changes)
+    comfort_beside(felt, rest, step, largest_distance(desired.clone(), rest), shake_rms(desired, step), changes)
 }
 
 /// Comfort of a felt force by the peak, RMS and changes of the desired one, as [`Reference`] has
 /// them.
-fn compare(
+fn comfort_beside(
     felt: impl ExactSizeIterator<Item = f64> + Clone,
     rest: f64,
     step: f64,
@@ -77,22 +77,22 @@ fn compare(
     around: Option<impl Iterator<Item = f64>>,
 ) -> Comfort {
     let jolt = |count| {
-        let excess = changes(felt.clone(), count).zip(around?).map(|(felt, desired)| felt - desired);
-        Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * step))
+        let excess = largest_change(felt.clone(), count).zip(around?).map(|(felt, desired)| felt - desired);
+        Some(largest_excess(excess, |index| (index as f64 + 0.5 * count as f64) * step))
     };
     let shake = |desired| {
         let excess = shake_rms(felt.clone(), step)?.zip(desired).map(|(felt, desired)| felt - desired);
-        Some(largest(excess, |index| index as f64 * step))
+        Some(largest_excess(excess, |index| index as f64 * step))
     };
     Comfort {
         shake: rms.and_then(shake),
         jolt: jolt_samples(felt.len(), step).and_then(jolt),
-        peak: largest(felt.clone().map(|value| (value - rest).abs() - peak), |index| index as f64 * step),
+        peak: largest_excess(felt.clone().map(|value| (value - rest).abs() - peak), |index| index as f64 * step),
     }
 }
 
 /// Largest distance from rest.
-fn peak(force: impl Iterator<Item = f64>, rest: f64) -> f64 {
+fn largest_distance(force: impl Iterator<Item = f64>, rest: f64) -> f64 {
     force.map(|value| (value - rest).abs()).fold(0.0, f64::max)
 }
 
@@ -120,14 +120,14 @@ impl Reference {
     /// The desired force, sampled every `step` seconds, for felt forces of `divisions` samples to a
     /// step. The force at rest is `rest`.
     pub fn new(desired: &[f64], divisions: usize, rest: f64, step: f64) -> Self {
-        let desired = interpolated(desired, divisions);
+        let desired = interpolated_signal(desired, divisions);
         let step = step / divisions as f64;
         Reference {
             rest,
             step,
             rms: shake_rms(desired.clone(), step).map(Iterator::collect),
             changes: jolt_samples(desired.len(), step).map(|count| changes_around(desired.clone(), count).collect()),
-            peak: peak(desired, rest),
+            peak: largest_distance(desired, rest),
         }
     }
 
@@ -139,12 +139,12 @@ impl Reference {
     /// Compares a felt force, which begins and ends with the desired one.
     pub fn comfort(&self, felt: impl ExactSizeIterator<Item = f64> + Clone) -> Comfort {
         let [rms, changes] = [&self.rms, &self.changes].map(|kept| kept.as_ref().map(|kept| kept.iter().copied()));
-        compare(felt, self.rest, self.step, self.peak, rms, changes)
+        comfort_beside(felt, self.rest, self.step, self.peak, rms, changes)
     }
 }
 
 /// The signal with so many samples to a step.
-fn interpolated(signal: &[f64], divisions: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
+fn interpolated_signal(signal: &[f64], divisions: usize) -> impl ExactSizeIterator<Item = f64> + Clone {
     let count = signal.len().saturating_sub(1) * divisions + signal.len().min(1);
     (0..count).map(move |sample| {
         let Some(after) = sample.checked_sub(1) else { return signal[0] };
@@ -156,7 +156,7 @@ fn interpolated(signal: &[f64], divisions: usize) -> impl ExactSizeIterator<Item
 }
 
 /// The largest of these values with its time, at least 0.
-fn largest(values: impl Iterator<Item = f64>, time: impl Fn(usize) -> f64) -> Excess {
+fn largest_excess(values: impl Iterator<Item = f64>, time: impl Fn(usize) -> f64) -> Excess {
     let (index, value) = values.enumerate().fold((0, 0.0), |most, next| if next.1 > most.1 { next } else { most });
     Excess { value, time: time(index) }
 }
@@ -170,7 +170,7 @@ fn jolt_samples(length: usize, step: f64) -> Option<usize> {
 
 /// Largest difference between any two of `count + 1` samples in succession, from each sample that
 /// has so many after it.
-fn changes(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usize) -> impl Iterator<Item = f64> {
+fn largest_change(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usize) -> impl Iterator<Item = f64> {
     let length = signal.len() - count;
     let negative = signal.clone().map(|value| -value);
     let extremes = sliding_max(signal, 0, count).zip(sliding_max(negative, 0, count));
@@ -180,7 +180,7 @@ fn changes(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usize) -> 
 /// The largest of such differences from `count` samples before each to `count` samples after it.
 fn changes_around(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usize) -> impl Iterator<Item = f64> {
     let length = signal.len() - count;
-    sliding_max(changes(signal, count), count, count).take(length)
+    sliding_max(largest_change(signal, count), count, count).take(length)
 }
 
 /// The largest of the values from `before` samples before each to `after` samples after it. It goes

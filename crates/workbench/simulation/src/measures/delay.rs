@@ -24,7 +24,7 @@ pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     // Accuracy of the correlations from the Fourier transform.
     const CORRELATION_ACCURACY: f64 = 1e-9;
     let longest = ((LONGEST_DELAY / step).round() as usize).min(desired.len() / 2);
-    let approximate = correlations(desired, felt, longest)?;
+    let approximate = shifted_correlations(desired, felt, longest)?;
     let exact = |index: usize| correlation_at(desired, felt, index as i64 - longest as i64);
     let largest = approximate.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if largest < SAME_SIGNAL - CORRELATION_ACCURACY {
@@ -43,7 +43,7 @@ pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
 
 /// The correlations at all shifts from `-longest` to `longest` samples. `None` where
 /// an overlap is constant.
-fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64>> {
+fn shifted_correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64>> {
     // Fraction of both signals' energy that must be in an overlap for that accuracy.
     const LEAST_ENERGY: f64 = 1e-6;
     // The means are removed, so that the products and the errors of their sums are small.
@@ -53,9 +53,9 @@ fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64
     };
     let (desired_centred, felt_centred) = (centred(desired), centred(felt));
     // Each is added up from the end that stays, so that no large sums cancel.
-    let sums = |values: &[f64]| (sums(values.iter(), longest), sums(values.iter().rev(), longest));
+    let sums = |values: &[f64]| (overlap_sums(values.iter(), longest), overlap_sums(values.iter().rev(), longest));
     let ((desired_first, desired_last), (felt_first, felt_last)) = (sums(&desired_centred), sums(&felt_centred));
-    let products = products(desired_centred, felt_centred, longest);
+    let products = shifted_products(desired_centred, felt_centred, longest);
     let energy = desired_first[0].variation() * felt_first[0].variation();
     (0..=2 * longest)
         .map(|index| {
@@ -78,7 +78,7 @@ fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64
 }
 
 /// Sums of desired\[k\] felt\[k + shift\] over all k, for shifts from `-longest` to `longest`.
-fn products(desired: Vec<f64>, felt: Vec<f64>, longest: usize) -> Vec<f64> {
+fn shifted_products(desired: Vec<f64>, felt: Vec<f64>, longest: usize) -> Vec<f64> {
     let length = (desired.len() + longest + 1).next_power_of_two();
     let mut planner = RealFftPlanner::<f64>::new();
     let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
@@ -133,7 +133,7 @@ impl Sum {
 
 /// Sums over the parts of a signal that overlap at each shift: without the last 0, 1, ...
 /// `longest` values.
-fn sums<'a>(values: impl ExactSizeIterator<Item = &'a f64>, longest: usize) -> Vec<Sum> {
+fn overlap_sums<'a>(values: impl ExactSizeIterator<Item = &'a f64>, longest: usize) -> Vec<Sum> {
     let count = values.len();
     let mut sum = Sum::EMPTY;
     let mut sums = Vec::with_capacity(longest + 1);
@@ -224,7 +224,8 @@ mod tests {
         for (seed, count, longest) in [(1, 1000, 200), (2, 777, 388), (3, 64, 32), (4, 5, 2), (5, 2, 1), (6, 3000, 0)] {
             let desired = smooth_noise(seed, count, 9.8);
             let felt = smooth_noise(seed + 100, count, -3.0);
-            let (found, expected) = (correlations(&desired, &felt, longest), by_definition(&desired, &felt, longest));
+            let (found, expected) =
+                (shifted_correlations(&desired, &felt, longest), by_definition(&desired, &felt, longest));
             match (found, expected) {
                 (Some(found), Some(expected)) => {
                     assert_eq!(found.len(), expected.len());
@@ -260,7 +261,8 @@ mod tests {
         let (mut desired, felt) = (quiet(0.0), quiet(0.2));
         desired[0] = 1e6;
         let longest = 200;
-        let (found, expected) = (correlations(&desired, &felt, longest), by_definition(&desired, &felt, longest));
+        let (found, expected) =
+            (shifted_correlations(&desired, &felt, longest), by_definition(&desired, &felt, longest));
         let (found, expected) = (found.unwrap(), expected.unwrap());
         found.iter().zip(&expected).for_each(|(&found, &expected)| assert_near(found, expected, 1e-9));
         assert_eq!(delay(&desired, &felt, STEP), delay_by_definition(&desired, &felt, STEP));

@@ -24,7 +24,7 @@ pub fn incongruence(desired: &[[f64; 3]], felt: &[[f64; 3]], step: f64) -> Optio
     let ratio = |time_constant: f64| {
         let largest = |felt: &mut dyn Iterator<Item = &[f64; 3]>| {
             let smoothing = 1.0 - (-step / time_constant).exp();
-            let mismatches = desired.iter().zip(felt).map(|(desired, felt)| mismatch(desired, felt));
+            let mismatches = desired.iter().zip(felt).map(|(desired, felt)| force_mismatch(desired, felt));
             let mut rating = 0.0;
             mismatches.fold(0.0, |most: f64, mismatch| {
                 rating += smoothing * (mismatch - rating);
@@ -37,7 +37,7 @@ pub fn incongruence(desired: &[[f64; 3]], felt: &[[f64; 3]], step: f64) -> Optio
     value.is_finite().then(|| Incongruence { value, range: [value.min(short).min(long), value.max(short).max(long)] })
 }
 
-fn mismatch(desired: &[f64; 3], felt: &[f64; 3]) -> f64 {
+fn force_mismatch(desired: &[f64; 3], felt: &[f64; 3]) -> f64 {
     // Weights of the longitudinal and the lateral mismatch.
     const MISMATCH_WEIGHTS: [f64; 2] = [0.34, 0.66];
     (0..2).map(|k| MISMATCH_WEIGHTS[k] * (felt[k] - desired[k]).abs()).sum()

@@ -283,18 +283,18 @@ const BOUND_MEASURES: &[Measure<BoundValues>] = measures! { "docs/measures.md, t
          same limits of tilt, tilt rate, travel, speed and acceleration.";
     "gap to the bound" ["m/s²"] Less: |[_, felt, bound], _| Some((felt - bound).max(0.0)),
         "RMS error beyond the bound: the most that a better controller could gain.";
-    "relative error" ["%"] Less: |[desired, felt, _], _| percentage(*felt, *desired),
+    "relative error" ["%"] Less: |[desired, felt, _], _| error_percentage(*felt, *desired),
         "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.";
-    "relative bound" ["%"] Neither: |[desired, _, bound], _| percentage(*bound, *desired),
+    "relative bound" ["%"] Neither: |[desired, _, bound], _| error_percentage(*bound, *desired),
         "The bound as the same fraction.";
 };
 
-fn percentage(error: f64, desired: f64) -> Option<f64> {
+fn error_percentage(error: f64, desired: f64) -> Option<f64> {
     (desired > 0.0).then(|| 100.0 * error / desired)
 }
 
 /// Every measure of every subject, in the order of the rows, with the axis.
-fn listed() -> impl Iterator<Item = (&'static Subject, usize, &'static Measure)> {
+fn listed_measures() -> impl Iterator<Item = (&'static Subject, usize, &'static Measure)> {
     SUBJECT_GROUPS.iter().flat_map(|group| {
         let axes = group.iter().map(|subject| subject.axes).max().unwrap_or_default();
         let on_axis =
@@ -308,20 +308,20 @@ fn listed() -> impl Iterator<Item = (&'static Subject, usize, &'static Measure)>
 /// Every measure in the order of the rows, without values: the rows of any run are among them, in
 /// this order.
 pub fn all_rows() -> Vec<Row> {
-    listed().map(|(subject, axis, measure)| measure.row(subject.title(axis), None)).collect()
+    listed_measures().map(|(subject, axis, measure)| measure.row(subject.title(axis), None)).collect()
 }
 
 impl Measures {
     /// The measures as rows, in the order in which one reads them. Axes on which nothing is desired
     /// and nothing felt are left out.
     pub fn rows(&self) -> Vec<Row> {
-        let present = listed().filter(|(subject, axis, _)| (subject.is_present)(self, *axis));
+        let present = listed_measures().filter(|(subject, axis, _)| (subject.is_present)(self, *axis));
         present.map(|(subject, axis, measure)| measure.row(subject.title(axis), (measure.value)(self, axis))).collect()
     }
 
     /// The value of each of [`all_rows`]; none where it is not defined.
     pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
-        listed().map(|(subject, axis, measure)| {
+        listed_measures().map(|(subject, axis, measure)| {
             (subject.is_present)(self, axis).then(|| (measure.value)(self, axis)).flatten()
         })
     }

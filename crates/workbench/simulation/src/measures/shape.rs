@@ -61,7 +61,7 @@ impl Shape {
 }
 
 /// One axis of a series of vectors.
-fn axis(series: &[[f64; 3]], axis: usize) -> Vec<f64> {
+fn series_axis(series: &[[f64; 3]], axis: usize) -> Vec<f64> {
     series.iter().map(|sample| sample[axis]).collect()
 }
 
@@ -77,7 +77,7 @@ impl Desired {
     /// The desired specific force \[m/s2\], sampled every `step` seconds.
     pub fn new(force: &[[f64; 3]], step: f64) -> Self {
         let counting = |k: usize| {
-            below_cue_frequency(&axis(force, k), step).filter(|low| rms(low.iter().copied()) > LEAST_DESIRED)
+            below_cue_frequency(&series_axis(force, k), step).filter(|low| rms(low.iter().copied()) > LEAST_DESIRED)
         };
         Desired { step, axes: from_fn(counting) }
     }
@@ -86,7 +86,7 @@ impl Desired {
     /// vehicle's surge and sway that the rider is meant to feel.
     pub fn shape(&self, felt: &[[f64; 3]], scale: [f64; 2]) -> Shape {
         let felt: [Option<Vec<f64>>; 2] =
-            from_fn(|k| self.axes[k].as_ref().and_then(|_| below_cue_frequency(&axis(felt, k), self.step)));
+            from_fn(|k| self.axes[k].as_ref().and_then(|_| below_cue_frequency(&series_axis(felt, k), self.step)));
         let pairs = || (0..2).filter_map(|k| Some((k, self.axes[k].as_ref()?, felt[k].as_ref()?)));
         let error = pairs().fold([0.0; 2], |[error, asked], (k, desired, felt)| {
             let of = |(d, f): (&f64, &f64)| [(f - scale[k] * d).powi(2), (scale[k] * d).powi(2)];
@@ -199,7 +199,7 @@ mod tests {
         ];
         for Expected { step, count, low, error, axes, vector } in expected {
             let [desired, felt] = forces(step, count);
-            let filtered = below_cue_frequency(&axis(&desired, 0), step).unwrap();
+            let filtered = below_cue_frequency(&series_axis(&desired, 0), step).unwrap();
             for (sample, value) in low {
                 assert_near(filtered[sample], value, 1e-9);
             }

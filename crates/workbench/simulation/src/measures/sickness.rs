@@ -47,16 +47,16 @@ fn share_after(time: f64, conflict: f64) -> f64 {
 
 /// The mean of H over the motion.
 fn mean_conflict(force: &[[f64; 3]], rate: &[[f64; 3]], step: f64) -> f64 {
-    let (force, block) = means(force, step);
-    let (rate, _) = means(rate, step);
+    let (force, block) = block_means(force, step);
+    let (rate, _) = block_means(rate, step);
     let mut state = at_rest();
     let mut sum = 0.0;
     for (force, rate) in force.windows(2).zip(rate.windows(2)) {
-        let before = conflict(&state);
+        let before = vertical_conflict(&state);
         state = runge_kutta(state, block, |state, fraction| {
-            derivative(state, force[0].lerp(&force[1], fraction), rate[0].lerp(&rate[1], fraction))
+            state_derivative(state, force[0].lerp(&force[1], fraction), rate[0].lerp(&rate[1], fraction))
         });
-        sum += 0.5 * (before + conflict(&state));
+        sum += 0.5 * (before + vertical_conflict(&state));
     }
     sum / (force.len() - 1).max(1) as f64
 }
@@ -72,7 +72,7 @@ fn at_rest() -> State {
 }
 
 /// The state's derivative in a motion of the head.
-fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
+fn state_derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
     const KA: f64 = 0.1;
     const KW: f64 = 0.1;
     const KWC: f64 = 10.0;
@@ -101,7 +101,7 @@ fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
 }
 
 /// Hill function H of the conflict between sensed and expected vertical.
-fn conflict(state: &State) -> f64 {
+fn vertical_conflict(state: &State) -> f64 {
     // Conflict at which H is one half [m/s2].
     const HALF_CONFLICT: f64 = 0.5;
     let square = (state.column(2) - state.column(3)).norm_squared() / (HALF_CONFLICT * HALF_CONFLICT);
@@ -115,7 +115,7 @@ const WF: ([f64; 5], [f64; 5]) = ([0.1457, 0.2331, 13.75, 1.705, 0.3596], [7.757
 /// Motion sickness dose value of ISO 2631-1 \[m/s^1.5\]: the root of the integral of the square of
 /// the vertical acceleration, weighted by Wf.
 pub fn dose(force: &[[f64; 3]], step: f64) -> f64 {
-    let (force, block) = means(force, step);
+    let (force, block) = block_means(force, step);
     let (numerator, denominator) = (SVector::from(WF.0), SVector::from(WF.1));
     let mut state = SVector::<f64, 5>::zeros();
     let mut integral = 0.0;
@@ -136,7 +136,7 @@ pub fn dose(force: &[[f64; 3]], step: f64) -> f64 {
 }
 
 /// Means over blocks of samples, and a block's length \[s\].
-fn means(series: &[[f64; 3]], step: f64) -> (Vec<Vector3<f64>>, f64) {
+fn block_means(series: &[[f64; 3]], step: f64) -> (Vec<Vector3<f64>>, f64) {
     // Longest step of the integration [s]; samples within it count as their mean.
     const LONGEST_STEP: f64 = 0.05;
     let count = (LONGEST_STEP / step).floor().max(1.0) as usize;

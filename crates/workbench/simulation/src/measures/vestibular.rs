@@ -44,7 +44,7 @@ pub const CANALS: SensorModel = SensorModel::new([0.0, 0.0, 5.73 * 80.0], 80.0, 
 pub fn sensed(sensor: &SensorModel, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
     let [b0, b1, b2] = sensor.numerator;
     let [a1, a2] = sensor.denominator;
-    let transition = transition(sensor, step);
+    let transition = exact_transition(sensor, step);
     // a2 response'' + a1 response' + response = u; the sensed value is b2 response'' + b1 response' + b0 response.
     let (mut response, mut rate) = (0.0, 0.0);
     let mut before = None;
@@ -66,7 +66,7 @@ pub fn sensed(sensor: &SensorModel, signal: &[f64], rest: f64, step: f64) -> Vec
 
 /// The exact step of the response and its rate for an input that is linear in time. Each row holds
 /// the coefficients of the response, its rate, the input and the input's slope.
-fn transition(sensor: &SensorModel, step: f64) -> [[f64; 4]; 2] {
+fn exact_transition(sensor: &SensorModel, step: f64) -> [[f64; 4]; 2] {
     let [a1, a2] = sensor.denominator;
     #[rustfmt::skip]
     let matrix = SMatrix::<f64, 4, 4>::new(

@@ -30,12 +30,18 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, O
             (Some(rotation), Some(warning))
         }
     };
-    let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
+    let inputs =
+        (0..table.time.len()).map(|sample| vehicle_input(table, conventions, mounting.as_ref(), sample)).collect();
     Ok((inputs, warning))
 }
 
 /// Three columns at a sample, turned to x forward, y left, z up of the sensor.
-fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(usize) -> Quantity) -> Vector3<f64> {
+fn sensor_vector(
+    table: &Table,
+    conventions: &Conventions,
+    sample: usize,
+    quantity: fn(usize) -> Quantity,
+) -> Vector3<f64> {
     // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
     let signs = conventions.axes.signs();
     Vector3::from_fn(|axis, _| table.value(quantity(axis), sample) * signs[axis])
@@ -47,15 +53,15 @@ fn find_mounting(table: &Table, conventions: &Conventions) -> Result<(Matrix3<f6
         return Err(message![auto, " needs gravity in the accelerations; give ", angles]);
     }
     let vectors = |quantity| -> Vec<Vector3<f64>> {
-        (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()
+        (0..table.time.len()).map(|sample| sensor_vector(table, conventions, sample, quantity)).collect()
     };
     let speeds = table.columns.get(&Quantity::Speed).map_or(&[][..], Vec::as_slice);
     mounting::find(table.step(), &vectors(Quantity::Force), &vectors(Quantity::Rate), speeds)
 }
 
 /// The input at a sample; `mounting` turns the sensor's axes to the vehicle's.
-fn input(table: &Table, conventions: &Conventions, mounting: Option<&Matrix3<f64>>, sample: usize) -> Input {
-    let vector = |quantity| vector(table, conventions, sample, quantity);
+fn vehicle_input(table: &Table, conventions: &Conventions, mounting: Option<&Matrix3<f64>>, sample: usize) -> Input {
+    let vector = |quantity| sensor_vector(table, conventions, sample, quantity);
     let turned = |vector: Vector3<f64>| mounting.map_or(vector, |rotation| rotation * vector);
     let sensor = RollPitchYaw::from_vector(vector(Quantity::Angle));
     let orientation = match mounting {

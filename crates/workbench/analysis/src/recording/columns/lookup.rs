@@ -20,7 +20,7 @@ impl Header {
             return Ok(Some(vec![Term { factor: 1.0, place }]));
         }
         let term = |(sign, part): (f64, &str)| {
-            let (factor, name) = if self.place(part)?.is_some() { (1.0, part) } else { scaled(part) };
+            let (factor, name) = if self.place(part)?.is_some() { (1.0, part) } else { scale_and_name(part) };
             Ok(self.place(name)?.map(|place| Term { factor: sign * factor, place }))
         };
         signed_parts(text).into_iter().map(term).collect()
@@ -68,7 +68,7 @@ impl Header {
 }
 
 /// The factor and the name of `name * 2`, `2 * name` and `name / 2`.
-fn scaled(part: &str) -> (f64, &str) {
+fn scale_and_name(part: &str) -> (f64, &str) {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite() && *number != 0.0);
     if let Some((name, divisor)) = part.rsplit_once(" / ")
         && let Some(divisor) = number(divisor)

@@ -64,7 +64,7 @@ impl Title {
             .collect();
         let unit = brackets.iter().find(|unit| any_spelled(unit).is_some()).or(brackets.last()).copied();
         let unit = unit.or(after_mark.filter(|unit| any_spelled(unit).is_some())).map(str::to_owned);
-        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit, endings: endings(name) }
+        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit, endings: name_endings(name) }
     }
 
     /// The title with its file's name before it, where there are several files.
@@ -89,7 +89,7 @@ impl Title {
 }
 
 /// The last parts of a name: `ms` of `time_ms` and `timeMS`, `deg/s` and `s` of `gyro_x_deg_s`.
-fn endings(name: &str) -> Vec<String> {
+fn name_endings(name: &str) -> Vec<String> {
     let is_mark = |c: char| "_ .".contains(c);
     let parts: Vec<&str> = name.split(is_mark).filter(|part| !part.is_empty()).collect();
     let last = |count: usize| (parts.len() > count).then(|| parts[parts.len() - count..].join("/"));
@@ -126,9 +126,9 @@ mod tests {
 
     #[test]
     fn a_name_may_end_with_a_unit() {
-        assert_eq!(endings("gyro_x_deg_s"), ["x/deg/s", "deg/s", "s"]);
-        assert_eq!(endings("TimestampMS"), ["MS"]);
-        assert_eq!(endings("SPEED_KPH"), ["KPH"]);
-        assert!(endings("time").is_empty() && endings("ALARMS").is_empty());
+        assert_eq!(name_endings("gyro_x_deg_s"), ["x/deg/s", "deg/s", "s"]);
+        assert_eq!(name_endings("TimestampMS"), ["MS"]);
+        assert_eq!(name_endings("SPEED_KPH"), ["KPH"]);
+        assert!(name_endings("time").is_empty() && name_endings("ALARMS").is_empty());
     }
 }

@@ -41,7 +41,7 @@ pub enum Dimension {
 }
 
 /// Declares the units of one dimension: word, item, factor to SI, and other spellings, as
-/// [`plain`] leaves them.
+/// [`plain_unit`] leaves them.
 macro_rules! units {
     ($(#[$attribute:meta])* $name:ident {
         $( $(#[doc = $text:literal])+ $word:literal $item:ident = $in_si:expr, [$($spelling:literal)*], )+
@@ -187,7 +187,7 @@ impl Dimension {
     /// The unit with this spelling in a header, whatever its case and signs; none if it is no
     /// unit of this dimension.
     pub fn spelled(self, text: &str) -> Option<Unit> {
-        let plain = plain(text);
+        let plain = plain_unit(text);
         let is_spelled = |(unit, others): &&(Unit, &[&str])| unit.word == plain || others.contains(&plain.as_str());
         let usual = self.spelled_units().iter().find(is_spelled).map(|(unit, _)| *unit);
         let plain = plain.replace("mdps", "mdeg/s");
@@ -204,7 +204,7 @@ pub fn any_spelled(text: &str) -> Option<(Dimension, Unit)> {
 /// A unit in lower case, without spaces and signs of multiplication, with plain
 /// exponents: `m·s⁻²` is `ms-2`, `meters per second squared` is `meters/second2`. Signs that were
 /// lost on the way, as in `m/s?`, `�/s` and `m/sÂ²`, are those that fit the place.
-fn plain(text: &str) -> String {
+fn plain_unit(text: &str) -> String {
     let lower = text.to_lowercase();
     let text = lower.replace(" per ", "/").replace(" squared", "2");
     let first = text.chars().find(|c| *c != 'â');

@@ -81,10 +81,10 @@ impl Numbers {
             Ok(number) if !number.is_nan() => {
                 Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)).into())
             }
-            Ok(_) => Err(message![format!("is {}; ", quoted(text)), remedy()]),
-            _ if text.is_empty() => Err(message!["is empty; ", remedy()]),
+            Ok(_) => Err(message![format!("is {}; ", quoted(text)), gap_remedy()]),
+            _ if text.is_empty() => Err(message!["is empty; ", gap_remedy()]),
             _ if is_empty(Some(text)) => {
-                Err(message![format!("is \"{}\", which is no value; ", quoted(text)), remedy()])
+                Err(message![format!("is \"{}\", which is no value; ", quoted(text)), gap_remedy()])
             }
             _ => Err(format!("is \"{}\", which is not a number", quoted(text)).into()),
         }
@@ -116,7 +116,7 @@ fn is_grouped(text: &str, mark: char) -> bool {
 }
 
 /// The remedy for a gap.
-fn remedy() -> Message {
+fn gap_remedy() -> Message {
     message!["cut this part off, fill the gap with plausible values, or use ", given("empty-fields", "interpolate")]
 }
 

@@ -33,10 +33,10 @@ pub struct Found {
 
 /// A reader of lines without a header. Lines that begin with # are comments.
 pub fn reader(text: &str, delimiter: u8) -> Reader<&[u8]> {
-    lines(text, delimiter, Some(b'#'))
+    line_reader(text, delimiter, Some(b'#'))
 }
 
-fn lines(text: &str, delimiter: u8, comment: Option<u8>) -> Reader<&[u8]> {
+fn line_reader(text: &str, delimiter: u8, comment: Option<u8>) -> Reader<&[u8]> {
     let mut builder = ReaderBuilder::new();
     builder.has_headers(false).delimiter(delimiter).comment(comment).flexible(true).from_reader(text.as_bytes())
 }
@@ -55,7 +55,7 @@ pub fn find(text: &str, conventions: &Conventions) -> Option<Found> {
     let may_be = |line: &str| !line.trim().is_empty() && line.len() < LONGEST_HEADER;
     for (line, end, number) in lines.filter(|(line, ..)| may_be(line)).take(LONGEST_PREAMBLE) {
         let (bare, is_comment) = without_mark(line);
-        for separator in separators(bare) {
+        for separator in likely_separators(bare) {
             let titles = fields(bare, separator);
             let found = |titles| Found { titles, separator, end, line: number };
             if Header::new(titles.iter().map(String::as_str)).has_needed_columns(conventions) {
@@ -76,11 +76,11 @@ pub fn find(text: &str, conventions: &Conventions) -> Option<Found> {
 
 /// The separator of the lines below a header, where it is not the header's own.
 pub fn separator_below(text: &str, header: Separator, width: usize) -> Separator {
-    let Some(line) = data(text) else { return header };
+    let Some(line) = first_data_line(text) else { return header };
     if width < 2 || fields(line, header).len() > 1 {
         return header;
     }
-    separators(line).into_iter().find(|&other| fields(line, other).len() == width).unwrap_or(header)
+    likely_separators(line).into_iter().find(|&other| fields(line, other).len() == width).unwrap_or(header)
 }
 
 /// The fields of a line.
@@ -93,7 +93,7 @@ pub fn fields(line: &str, separator: Separator) -> Vec<String> {
             (tabbed.as_str(), b'\t')
         }
     };
-    let record = lines(line, sign, None).into_records().next();
+    let record = line_reader(line, sign, None).into_records().next();
     record.and_then(Result::ok).map(|record| record.iter().map(str::to_owned).collect()).unwrap_or_default()
 }
 
@@ -126,7 +126,7 @@ fn without_mark(line: &str) -> (&str, bool) {
 }
 
 /// The separators that a line may have, the likeliest first.
-fn separators(line: &str) -> Vec<Separator> {
+fn likely_separators(line: &str) -> Vec<Separator> {
     let count = |sign: u8| line.bytes().filter(|&byte| byte == sign).count();
     // Of as many, the last: tabulators may stand beside others.
     let signs = [b'\t', b'|', b';', b','].into_iter().filter(|&sign| count(sign) > 0);
@@ -138,7 +138,7 @@ fn separators(line: &str) -> Vec<Separator> {
 }
 
 /// The first line below the header that has numbers.
-fn data(text: &str) -> Option<&str> {
+fn first_data_line(text: &str) -> Option<&str> {
     let is_data = |line: &&str| line.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.\"|".contains(c));
     text.lines().take(LONGEST_PREAMBLE).filter(|line| line.len() < LONGEST_HEADER).find(is_data)
 }

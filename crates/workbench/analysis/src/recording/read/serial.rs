@@ -14,7 +14,7 @@ pub fn as_csv(text: &str) -> Option<String> {
     if lines.clone().take(SHOWN).all(|line| line.contains(ARROW)) && lines.next()?.contains(':') {
         return Some(behind_clock(text));
     }
-    let mut shown = text.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).map(pairs);
+    let mut shown = text.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).map(name_value_pairs);
     let first: Vec<(&str, &str)> = shown.next()??;
     let is_alike = |pairs: Option<Vec<(&str, &str)>>| {
         pairs.is_some_and(|pairs| pairs.iter().map(|pair| pair.0).eq(first.iter().map(|pair| pair.0)))
@@ -24,7 +24,7 @@ pub fn as_csv(text: &str) -> Option<String> {
     }
     let mut csv = first.iter().map(|pair| pair.0).collect::<Vec<_>>().join(",") + "\n";
     for line in text.lines() {
-        match pairs(line) {
+        match name_value_pairs(line) {
             Some(pairs) => csv += &pairs.iter().map(|pair| pair.1).collect::<Vec<_>>().join(","),
             None => csv += line,
         }
@@ -52,7 +52,7 @@ fn behind_clock(text: &str) -> String {
 }
 
 /// The names and values of a line.
-fn pairs(line: &str) -> Option<Vec<(&str, &str)>> {
+fn name_value_pairs(line: &str) -> Option<Vec<(&str, &str)>> {
     let parts = line.split([',', ';', '\t', ' ', '|']).filter(|part| !part.is_empty());
     let pairs: Vec<(&str, &str)> = parts.map(|part| part.split_once([':', '='])).collect::<Option<_>>()?;
     let is_pair = |(name, value): &(&str, &str)| name.starts_with(char::is_alphabetic) && value.parse::<f64>().is_ok();

@@ -95,7 +95,7 @@ impl Sheet {
             header.take_units(units.iter().map(String::as_str));
         }
         let mut headings = vec![StringRecord::from(titles)];
-        let first = descriptions(&body, delimiter, &mut header, &mut headings);
+        let first = read_descriptions(&body, delimiter, &mut header, &mut headings);
         let first = first.map_err(|error| whole(error.to_string().into()))?;
         let time = header.terms(conventions.column(Quantity::Time)).map_err(whole)?;
         let mut time = time.filter(|_| conventions.rate.is_none());
@@ -168,7 +168,7 @@ fn without_header(text: &str) -> &'static str {
 
 /// Reads the lines of units and of sources below the header into the header and the headings.
 /// Returns the first line of numbers.
-fn descriptions(
+fn read_descriptions(
     body: &str,
     delimiter: u8,
     header: &mut Header,

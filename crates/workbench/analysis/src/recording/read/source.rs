@@ -14,11 +14,11 @@ pub fn files(file: &Path) -> Result<Vec<PathBuf>, RecordingError> {
     if file.is_dir() {
         return files_in(file);
     }
-    Ok(joined(file).unwrap_or_else(|| vec![file.to_owned()]))
+    Ok(joined_files(file).unwrap_or_else(|| vec![file.to_owned()]))
 }
 
 /// The parts of a name that joins files; none if it is that of a file.
-fn joined(file: &Path) -> Option<Vec<PathBuf>> {
+fn joined_files(file: &Path) -> Option<Vec<PathBuf>> {
     // Files of one recording are joined by this sign.
     const JOIN: char = '+';
     let text = file.to_str()?;
@@ -51,7 +51,7 @@ pub fn name(file: &Path) -> String {
     if is_standard_input(file) {
         return "stdin".to_owned();
     }
-    if let Some(files) = joined(file) {
+    if let Some(files) = joined_files(file) {
         return files.iter().map(|file| name(file)).collect::<Vec<_>>().join("+");
     }
     if file.is_dir() {

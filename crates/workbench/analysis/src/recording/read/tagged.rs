@@ -19,8 +19,8 @@ struct Kind<'a> {
 pub fn as_csv(text: &str, conventions: &Conventions) -> Option<String> {
     // Most lines in which kinds are described.
     const MOST_LINES: usize = 2000;
-    let kinds: Vec<Kind> = text.lines().take(MOST_LINES).filter_map(kind).collect();
-    let rows = |kind: &Kind| text.lines().filter(|line| fields(line, kind.tag).is_some()).count();
+    let kinds: Vec<Kind> = text.lines().take(MOST_LINES).filter_map(described_kind).collect();
+    let rows = |kind: &Kind| text.lines().filter(|line| tagged_fields(line, kind.tag).is_some()).count();
     let has_columns = |kind: &&Kind| Header::new(kind.names.split(',')).has_needed_columns(conventions);
     let kind = kinds.iter().find(has_columns).or_else(|| kinds.iter().max_by_key(|kind| rows(kind)))?;
     let sensor = kind.names.split(',').position(|name| name.trim() == "I");
@@ -28,11 +28,11 @@ pub fn as_csv(text: &str, conventions: &Conventions) -> Option<String> {
     let mut first = None;
     let mut csv = String::with_capacity(text.len());
     for line in text.lines() {
-        if line.contains(kind.names) && self::kind(line).is_some_and(|other| other.tag == kind.tag) {
+        if line.contains(kind.names) && self::described_kind(line).is_some_and(|other| other.tag == kind.tag) {
             csv += kind.names;
-        } else if let Some(units) = line.strip_prefix("$UNIT,").and_then(|line| fields(line, kind.tag)) {
+        } else if let Some(units) = line.strip_prefix("$UNIT,").and_then(|line| tagged_fields(line, kind.tag)) {
             csv += units;
-        } else if let Some(fields) = fields(line.trim_start_matches('$'), kind.tag) {
+        } else if let Some(fields) = tagged_fields(line.trim_start_matches('$'), kind.tag) {
             let number = number(fields);
             if *first.get_or_insert(number.clone()) == number {
                 csv += fields;
@@ -44,7 +44,7 @@ pub fn as_csv(text: &str, conventions: &Conventions) -> Option<String> {
 }
 
 /// The kind that a line describes.
-fn kind(line: &str) -> Option<Kind<'_>> {
+fn described_kind(line: &str) -> Option<Kind<'_>> {
     if let Some(rest) = line.strip_prefix("$COL,") {
         let (tag, names) = rest.split_once(',')?;
         return Some(Kind { tag, names });
@@ -55,6 +55,6 @@ fn kind(line: &str) -> Option<Kind<'_>> {
 }
 
 /// The fields behind a tag.
-fn fields<'a>(line: &'a str, tag: &str) -> Option<&'a str> {
+fn tagged_fields<'a>(line: &'a str, tag: &str) -> Option<&'a str> {
     line.trim_start_matches('$').strip_prefix(tag)?.strip_prefix(',')
 }

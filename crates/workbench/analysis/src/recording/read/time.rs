@@ -22,7 +22,7 @@ pub fn is_written_out(field: &str) -> bool {
 /// The field is neither.
 pub fn parse(field: &str) -> Result<f64, String> {
     let text = field.trim();
-    date(text).or_else(|| compact(text)).or_else(|| time_of_day(text)).or_else(|| duration(text)).ok_or_else(|| {
+    parse_date(text).or_else(|| parse_compact(text)).or_else(|| time_of_day(text)).or_else(|| parse_duration(text)).ok_or_else(|| {
         format!(
             "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z, 12:30:00.25, 20260501_123000.25, or a \
              time of day with AM or PM behind it and a date beside it",
@@ -32,7 +32,7 @@ pub fn parse(field: &str) -> Result<f64, String> {
 }
 
 /// A date with a time, in UTC unless it states its offset, as seconds since 1970.
-fn date(text: &str) -> Option<f64> {
+fn parse_date(text: &str) -> Option<f64> {
     let is_dated = text.len() > 10 && text.as_bytes()[..4].iter().all(u8::is_ascii_digit);
     if !is_dated {
         return None;
@@ -46,7 +46,7 @@ fn date(text: &str) -> Option<f64> {
 }
 
 /// A duration in ISO 8601, or a number with its unit of time.
-fn duration(text: &str) -> Option<f64> {
+fn parse_duration(text: &str) -> Option<f64> {
     let has_unit = text.ends_with(char::is_alphabetic) && text.contains(|c: char| c.is_ascii_digit());
     let duration: SignedDuration = has_unit.then(|| text.parse().ok()).flatten()?;
     Some(duration.as_secs_f64())
@@ -60,7 +60,7 @@ pub fn is_date_alone(field: &str) -> bool {
 }
 
 /// `20260501_123000250`, in seconds since midnight; a date that is none of ISO 8601.
-fn compact(text: &str) -> Option<f64> {
+fn parse_compact(text: &str) -> Option<f64> {
     let (date, time) = text.split_once(['_', 'T', 't', ' ', '-'])?;
     let time = time.trim_end_matches(['Z', 'z']);
     let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
@@ -69,7 +69,7 @@ fn compact(text: &str) -> Option<f64> {
     }
     let fraction = time[6..].trim_start_matches(['.', ',', '_', '-']);
     digits(fraction).then_some(())?;
-    clock(&time[..2], &time[2..4], &format!("{}.{fraction}", &time[4..6]))
+    seconds_of_clock(&time[..2], &time[2..4], &format!("{}.{fraction}", &time[4..6]))
 }
 
 /// The time of day in a text with a date of any kind, in seconds since midnight.
@@ -96,12 +96,12 @@ fn time_of_day(text: &str) -> Option<f64> {
     let time = &text[begin..end];
     let parts: Vec<&str> = time.split(':').collect();
     let seconds = match parts[..] {
-        [hours, minutes, seconds] => clock(hours, minutes, seconds),
+        [hours, minutes, seconds] => seconds_of_clock(hours, minutes, seconds),
         // The fraction of a second behind a colon.
         [hours, minutes, seconds, fraction] if fraction.len() >= 3 && seconds.len() == 2 => {
-            clock(hours, minutes, &format!("{seconds}.{fraction}"))
+            seconds_of_clock(hours, minutes, &format!("{seconds}.{fraction}"))
         }
-        [minutes, seconds] => clock("0", minutes, seconds),
+        [minutes, seconds] => seconds_of_clock("0", minutes, seconds),
         _ => None,
     }?;
     let Some(half) = half else { return Some(seconds) };
@@ -122,7 +122,7 @@ fn is_date(text: &str) -> bool {
 }
 
 /// Hours, minutes, and seconds with decimals, in seconds.
-fn clock(hours: &str, minutes: &str, seconds: &str) -> Option<f64> {
+fn seconds_of_clock(hours: &str, minutes: &str, seconds: &str) -> Option<f64> {
     let whole = |text: &str| text.parse::<u32>().ok().map(f64::from);
     if !seconds.starts_with(|c: char| c.is_ascii_digit()) {
         return None;

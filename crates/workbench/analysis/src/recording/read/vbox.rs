@@ -9,9 +9,9 @@ use crate::recording::dialects::{Channel, DIALECTS};
 
 /// The text as CSV with the same lines; none if it is no .vbo file.
 pub fn as_csv(text: &str) -> Option<String> {
-    let names = section(text, "[column names]")?.find(|line| !line.trim().is_empty())?;
-    section(text, "[data]").is_some().then_some(())?;
-    let titles = titles(text, &names.split_whitespace().collect::<Vec<_>>());
+    let names = section_lines(text, "[column names]")?.find(|line| !line.trim().is_empty())?;
+    section_lines(text, "[data]").is_some().then_some(())?;
+    let titles = column_titles(text, &names.split_whitespace().collect::<Vec<_>>());
     let mut csv = String::new();
     let mut place = "";
     for line in text.lines() {
@@ -19,8 +19,9 @@ pub fn as_csv(text: &str) -> Option<String> {
             place = line.trim();
         } else if place.eq_ignore_ascii_case("[data]") {
             let fields = line.split_whitespace().zip(&titles);
-            let fields: Vec<String> =
-                fields.map(|(field, title)| if title == "time" { clock(field) } else { field.to_owned() }).collect();
+            let fields: Vec<String> = fields
+                .map(|(field, title)| if title == "time" { clock_with_colons(field) } else { field.to_owned() })
+                .collect();
             csv += &fields.join(",");
         } else if line == names && place.eq_ignore_ascii_case("[column names]") {
             csv += &titles.join(",");
@@ -31,15 +32,15 @@ pub fn as_csv(text: &str) -> Option<String> {
 }
 
 /// The lines of a section.
-fn section<'a>(text: &'a str, name: &str) -> Option<impl Iterator<Item = &'a str> + use<'a>> {
+fn section_lines<'a>(text: &'a str, name: &str) -> Option<impl Iterator<Item = &'a str> + use<'a>> {
     let mut lines = text.lines();
     lines.find(|line| line.trim().eq_ignore_ascii_case(name))?;
     Some(lines.take_while(|line| !line.starts_with('[')))
 }
 
 /// The columns' names with their units in brackets.
-fn titles(text: &str, names: &[&str]) -> Vec<String> {
-    let lines = |name: &str| section(text, name).map(|lines| lines.map(str::trim).collect()).unwrap_or_default();
+fn column_titles(text: &str, names: &[&str]) -> Vec<String> {
+    let lines = |name: &str| section_lines(text, name).map(|lines| lines.map(str::trim).collect()).unwrap_or_default();
     let mut headings: Vec<&str> = lines("[header]");
     headings.retain(|heading| !heading.is_empty());
     let mut units: Vec<&str> = lines("[channel units]");
@@ -72,7 +73,7 @@ fn titles(text: &str, names: &[&str]) -> Vec<String> {
 }
 
 /// A time of day `HHMMSS.SS` with colons.
-fn clock(field: &str) -> String {
+fn clock_with_colons(field: &str) -> String {
     let whole = field.find('.').unwrap_or(field.len());
     match field[..whole].is_ascii() && whole >= 5 {
         true => format!("{}:{}:{}", &field[..whole - 4], &field[whole - 4..whole - 2], &field[whole - 2..]),
@@ -86,9 +87,9 @@ mod tests {
 
     #[test]
     fn a_field_that_is_no_time_stays_as_it_is() {
-        assert_eq!(clock("112642.64"), "11:26:42.64");
+        assert_eq!(clock_with_colons("112642.64"), "11:26:42.64");
         for field in ["", "2.64", "11322ÿ2.64", "ÿÿÿ.1"] {
-            assert_eq!(clock(field), field);
+            assert_eq!(clock_with_colons(field), field);
         }
     }
 }

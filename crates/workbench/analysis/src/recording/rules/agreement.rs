@@ -67,7 +67,7 @@ fn is_noise(found: &[f64], needed: &[f64]) -> bool {
 
 /// Factor from the signal that is expected to the other; none where one is small, or they do not go
 /// together.
-fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
+fn signal_ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
     let relation = relation(expected, found);
     let [one, other] = relation.sizes;
     let is_small = one.max(other) < least || one.min(other) < WEAK_FRACTION * least;
@@ -75,7 +75,7 @@ fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
 }
 
 /// Root mean square of what two signals differ by.
-fn difference(one: &[f64], other: &[f64]) -> f64 {
+fn rms_difference(one: &[f64], other: &[f64]) -> f64 {
     root_mean_square(&one.iter().zip(other).map(|(one, other)| one - other).collect::<Vec<_>>())
 }
 
@@ -136,7 +136,7 @@ impl Channels<'_> {
 
     /// Ratio of the lateral force of bends and speed times yaw rate.
     fn sway_ratio(&self) -> Option<f64> {
-        ratio(&self.turning(), &self.lateral(), MIN_BEND_FORCE)
+        signal_ratio(&self.turning(), &self.lateral(), MIN_BEND_FORCE)
     }
 
     /// True for a vehicle that leans into bends, which has no lateral force.
@@ -179,7 +179,7 @@ impl Channels<'_> {
     fn unexplained_speed(&self, force: impl Iterator<Item = f64>) -> Option<f64> {
         let changes = self.speed_changes();
         let size = root_mean_square(&changes);
-        (size >= MIN_SPEED_CHANGE).then(|| difference(&changes, &self.driven(force)) / size)
+        (size >= MIN_SPEED_CHANGE).then(|| rms_difference(&changes, &self.driven(force)) / size)
     }
 
     /// The angular velocities about all axes, smoothed, axis after axis; none where one is missing.
@@ -215,7 +215,7 @@ impl Channels<'_> {
             return None;
         }
         let (derivative, rate) = self.derivative_and_rate(axis, TAU);
-        ratio(&derivative, &rate, MIN_RATE)
+        signal_ratio(&derivative, &rate, MIN_RATE)
     }
 }
 
@@ -315,8 +315,8 @@ pub fn has_horizontal_gravity(channels: &Channels) -> bool {
 pub fn world_rates(channels: &Channels, _: Quantity) -> Option<Message> {
     let found = channels.measured_rates()?;
     let turned = |input: &Input, own: Vector3<f64>| Orientation::new(input.orientation).rotation * own;
-    let own = difference(&found, &channels.rates_of_orientation(|parts| parts, |_, own| own));
-    let world = difference(&found, &channels.rates_of_orientation(|parts| parts, turned));
+    let own = rms_difference(&found, &channels.rates_of_orientation(|parts| parts, |_, own| own));
+    let world = rms_difference(&found, &channels.rates_of_orientation(|parts| parts, turned));
     (own > MIN_MISSED_RATE && world < CLEAR_FRACTION * own).then(|| text!["world-rates"])
 }
 
@@ -331,7 +331,7 @@ pub fn quaternion(channels: &Channels, _: Quantity) -> Option<Message> {
         return None;
     }
     let found = channels.measured_rates()?;
-    let left = |reading: Reading| difference(&found, &channels.rates_of_orientation(reading, |_, own| own));
+    let left = |reading: Reading| rms_difference(&found, &channels.rates_of_orientation(reading, |_, own| own));
     let own = left(|parts| parts);
     let others = OTHERS.iter().map(|(kind, keys, reading)| (left(*reading), kind, keys));
     let (other, kind, keys) = others.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -458,7 +458,7 @@ pub fn speed_and_force(channels: &Channels, _: Quantity) -> Option<Message> {
     if is_equal(surge) {
         return None;
     }
-    let meaning = match cause(channels, surge, channels.sway_ratio()) {
+    let meaning = match ratio_cause(channels, surge, channels.sway_ratio()) {
         Some(Cause::Unit(quantity, unit)) => {
             let name = match quantity {
                 Quantity::Speed => "it".to_owned(),
@@ -492,7 +492,7 @@ fn time_scale(conventions: &Conventions, scale: f64) -> Message {
 }
 
 /// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
-fn cause(channels: &Channels, surge: f64, sway: Option<f64>) -> Option<Cause> {
+fn ratio_cause(channels: &Channels, surge: f64, sway: Option<f64>) -> Option<Cause> {
     // Ratio above which the scale of time is wrong where the speed fits the yaw rate in bends, and
     // the relative distance of this fit.
     const MIN_TIME_SCALE_IN_BENDS: f64 = 1.8;
@@ -564,7 +564,7 @@ pub fn unit_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
     if channels.surge_ratio().is_some_and(is_equal) {
         return None;
     }
-    let Cause::Unit(quantity, other) = cause(channels, 1.0 / sway, Some(sway))? else { return None };
+    let Cause::Unit(quantity, other) = ratio_cause(channels, 1.0 / sway, Some(sway))? else { return None };
     let (given, source) = channels.table.unit(quantity);
     let may_be = quantity == Quantity::Force(0) || quantity == Quantity::Speed && source == UnitSource::Default;
     let (name, remedy) = (quantity.dimension().name(), channels.unit_remedy(quantity, other.word));
@@ -640,7 +640,7 @@ pub fn delayed_speed(channels: &Channels, _: Quantity) -> Option<Message> {
     let found = channels.changes(&channels.speeds);
     let expected = channels.changes(&integral(channels.force(0), channels.step));
     let delay = clear_delay(&expected, &found, MIN_SPEED_CHANGE, channels.step)?;
-    Some(delayed(Quantity::Speed, "the force along x that changes it", delay))
+    Some(delay_message(Quantity::Speed, "the force along x that changes it", delay))
 }
 
 /// An angle that comes later or earlier than its rate.
@@ -651,7 +651,7 @@ pub fn delayed_angle(channels: &Channels, angle: Quantity) -> Option<Message> {
     }
     let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
     let delay = clear_delay(&rate, &derivative, MIN_RATE, channels.step)?;
-    Some(delayed(angle, "the angular velocity that changes it", delay))
+    Some(delay_message(angle, "the angular velocity that changes it", delay))
 }
 
 /// The delay of a signal behind the one that is expected, where it explains most of their
@@ -674,7 +674,7 @@ fn clear_delay(expected: &[f64], found: &[f64], least: f64, step: f64) -> Option
     (unexplained(shift)? < MAX_UNEXPLAINED_FRACTION * unexplained(0)?).then_some(delay)
 }
 
-fn delayed(quantity: Quantity, cause: &str, delay: f64) -> Message {
+fn delay_message(quantity: Quantity, cause: &str, delay: f64) -> Message {
     let (place, remedy) = if delay > 0.0 { ("after", "earlier") } else { ("before", "later") };
     text!["delayed", name = quantity.key(), delay = delay.abs(), place = place, cause = cause, remedy = remedy]
 }

@@ -116,7 +116,7 @@ const RULES_OF_MOTION: &[Rule] = rules! {
 /// # Errors
 /// It breaks a rule that refuses it. The message names the cause and the remedy.
 pub fn warnings(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
-    apply(RULES, channels)
+    apply_rules(RULES, channels)
 }
 
 /// The warning about gravity that only the vertical force lacks.
@@ -129,10 +129,10 @@ pub fn horizontal_gravity() -> Message {
 /// # Errors
 /// None of these rules refuses.
 pub fn warnings_of_motion(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
-    apply(RULES_OF_MOTION, channels)
+    apply_rules(RULES_OF_MOTION, channels)
 }
 
-fn apply(rules: &[Rule], channels: &Channels) -> Result<Vec<Message>, RecordingError> {
+fn apply_rules(rules: &[Rule], channels: &Channels) -> Result<Vec<Message>, RecordingError> {
     let refused = |reason: &Message| channels.table.refused(reason.clone().without_full_stop());
     let mut found: Vec<(&Rule, Message)> = Vec::new();
     for rule in rules.iter().filter(|rule| rule.needs.iter().all(|&quantity| channels.has(quantity))) {

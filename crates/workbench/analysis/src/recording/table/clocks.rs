@@ -103,7 +103,7 @@ fn of_digits(time: &[f64], unit: f64) -> Option<Vec<f64>> {
         return None;
     }
     [1.0, 1e-3].into_iter().find_map(|scale| {
-        let seconds: Vec<f64> = time.iter().map(|time| seconds(time * scale)).collect::<Option<_>>()?;
+        let seconds: Vec<f64> = time.iter().map(|time| seconds_of_digits(time * scale)).collect::<Option<_>>()?;
         let usual = usual_step(&seconds);
         let leaves_out = |k: usize| {
             let (step, written) = (seconds[k] - seconds[k - 1], scale * (time[k] - time[k - 1]));
@@ -115,7 +115,7 @@ fn of_digits(time: &[f64], unit: f64) -> Option<Vec<f64>> {
 }
 
 /// The seconds since midnight of HHMMSS; none if it is no time of day.
-fn seconds(digits: f64) -> Option<f64> {
+fn seconds_of_digits(digits: f64) -> Option<f64> {
     let time = digits % 1e6;
     let (hours, minutes, seconds) = ((time / 1e4).floor(), (time % 1e4 / 100.0).floor(), time % 100.0);
     (digits >= 0.0 && hours < 24.0 && minutes < 60.0 && seconds < 60.0)

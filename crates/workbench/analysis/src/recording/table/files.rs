@@ -43,7 +43,7 @@ fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingErr
         sheet.form().into_iter().for_each(|form| reason.push(form));
         sheet.refused(reason)
     })?;
-    let mut samples = samples(&sheet, &value_places(&layout), &layout, conventions)?;
+    let mut samples = file_samples(&sheet, &value_places(&layout), &layout, conventions)?;
     let warnings = placeholders::warnings(&sheet, &samples, &layout, conventions);
     samples.warnings.extend(warnings);
     Table::new(sheet.file, layout, samples, conventions)
@@ -76,7 +76,7 @@ fn of_files(
         let own: Vec<usize> = used.map(|place| place - first).collect();
         if !own.is_empty() {
             let own_layout = from_place(&layout, first);
-            let mut samples = samples(sheet, &own, &own_layout, conventions)?;
+            let mut samples = file_samples(sheet, &own, &own_layout, conventions)?;
             samples.columns.iter_mut().for_each(|(place, _)| *place += first);
             parts.push(Part { file: sheet.file.clone(), samples });
         } else if !is_directory {
@@ -98,7 +98,7 @@ fn from_place(layout: &[Column], first: usize) -> Vec<Column> {
 }
 
 /// The samples of a file without gaps, with the time in seconds.
-fn samples(
+fn file_samples(
     sheet: &Sheet,
     places: &[usize],
     layout: &[Column],

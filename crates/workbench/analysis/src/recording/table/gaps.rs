@@ -42,7 +42,7 @@ pub fn fill(
         if is_needed(*place) {
             (first, last) = (first.max(begin), last.min(end));
         } else {
-            samples.warnings.extend(held(&name, time, begin, end).map(Message::from));
+            samples.warnings.extend(held_warning(&name, time, begin, end).map(Message::from));
             let (at_begin, at_end) = (values[begin], values[end]);
             values[..begin].fill(at_begin);
             values[end + 1..].fill(at_end);
@@ -76,7 +76,7 @@ pub fn fill(
 }
 
 /// A warning about a column without values at the recording's beginning or end.
-fn held(name: &str, time: &[f64], begin: usize, end: usize) -> Option<String> {
+fn held_warning(name: &str, time: &[f64], begin: usize, end: usize) -> Option<String> {
     let at = |sample: usize| format!("{:.2} s", time[sample] - time[0]);
     let empty = match (begin > 0, end + 1 < time.len()) {
         (false, false) => return None,

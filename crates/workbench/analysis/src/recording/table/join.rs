@@ -70,8 +70,8 @@ pub fn by_time(
     let holds = |part: &Part, is_meant: fn(Quantity) -> bool| {
         layout.iter().any(|column| is_meant(column.quantity) && part.holds(column))
     };
-    let (from, to) = common(parts.iter().filter(|part| holds(part, Quantity::is_required)));
-    let (begin, end) = common(parts.iter());
+    let (from, to) = common_time(parts.iter().filter(|part| holds(part, Quantity::is_required)));
+    let (begin, end) = common_time(parts.iter());
     let main = parts.iter().find(|part| holds(part, |quantity| quantity == Quantity::Force(0)));
     let Some(main) = main.filter(|_| end > begin) else {
         let shown = |part: &Part| {
@@ -103,7 +103,7 @@ pub fn by_time(
 }
 
 /// The time that parts have in common, from its beginning to its end.
-fn common<'a>(parts: impl Iterator<Item = &'a Part>) -> (f64, f64) {
+fn common_time<'a>(parts: impl Iterator<Item = &'a Part>) -> (f64, f64) {
     let all = (f64::NEG_INFINITY, f64::INFINITY);
     parts.map(Part::span).fold(all, |(from, to), (first, last)| (from.max(first), to.min(last)))
 }

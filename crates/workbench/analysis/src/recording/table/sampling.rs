@@ -32,7 +32,7 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
     check_unit(&table, conventions)?;
     check_clock(&table)?;
     match conventions.resample {
-        Some(rate) => resampled(table, rate),
+        Some(rate) => resampled_at(table, rate),
         None => check_equal(&table).map(|()| (table, Vec::new())),
     }
 }
@@ -123,7 +123,7 @@ fn step_to(table: &Table, sample: usize) -> f64 {
 }
 
 /// Linear interpolation at `rate` samples a second, with warnings about gaps.
-fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<Message>), RecordingError> {
+fn resampled_at(table: Table, rate: f64) -> Result<(Table, Vec<Message>), RecordingError> {
     // Largest number of samples that are interpolated, unless there are a quarter as many already.
     const MOST_SAMPLES: f64 = 2e6;
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);

@@ -28,8 +28,8 @@ pub fn lower_bound<const N: usize, const U: usize, const E: usize>(
     let mut costate = [0.0; N];
     for (k, desired) in program.desired.iter().enumerate().rev() {
         let y = program.error(k, &states[k], &inputs[k]);
-        let of_states = admitted(&multipliers[k].states);
-        let of_limits = admitted(&multipliers[k].limits);
+        let of_states = admitted_multipliers(&multipliers[k].states);
+        let of_limits = admitted_multipliers(&multipliers[k].limits);
         value -= y.iter().zip(desired).map(|(y, desired)| y * (desired + 0.5 * y)).sum::<f64>();
         value -= at_limits(&of_states, &program.states) + at_limits(&of_limits, &program.limits);
         costate.iter_mut().zip(of_states.net()).for_each(|(sum, net)| *sum += net);
@@ -46,7 +46,7 @@ pub fn lower_bound<const N: usize, const U: usize, const E: usize>(
 }
 
 /// The multipliers, none below 0.
-fn admitted<const M: usize>(multipliers: &Multipliers<M>) -> Multipliers<M> {
+fn admitted_multipliers<const M: usize>(multipliers: &Multipliers<M>) -> Multipliers<M> {
     let Multipliers { lower, upper } = multipliers;
     Multipliers { lower: lower.map(|z| z.max(0.0)), upper: upper.map(|z| z.max(0.0)) }
 }

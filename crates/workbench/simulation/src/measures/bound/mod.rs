@@ -141,13 +141,13 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
             let relaxed = program::relaxed(&desired_over, interval, limits);
             let restricted = program::restricted(&desired_over, interval, limits);
             let least = certificate::lower_bound(&relaxed, &solve(&relaxed)?);
-            (least, 0.0, knots(&solve(&restricted)?))
+            (least, 0.0, solution_knots(&solve(&restricted)?))
         }
         Some(tilt) => {
             let relaxed = program::relaxed_with_tilt(&desired_over, interval, limits, tilt);
             let restricted = program::restricted_with_tilt(&desired_over, interval, limits, tilt);
             let least = certificate::lower_bound(&relaxed, &solve(&relaxed)?);
-            (least, tilt.head_height / tilt.gravity, knots(&solve(&restricted)?))
+            (least, tilt.head_height / tilt.gravity, solution_knots(&solve(&restricted)?))
         }
     };
     let trajectory = Trajectory { interval, arm, knots };
@@ -159,7 +159,7 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
 }
 
 /// The states of a solution, without tilt where there is none.
-fn knots<const N: usize, const U: usize, const E: usize>(solution: &Solution<N, U, E>) -> Vec<Knot> {
+fn solution_knots<const N: usize, const U: usize, const E: usize>(solution: &Solution<N, U, E>) -> Vec<Knot> {
     let knot = |state: &[f64; N]| {
         let at = |index: usize| state.get(index).copied().unwrap_or(0.0);
         Knot { position: at(0), velocity: at(1), tilt_force: at(2), tilt_force_rate: at(3) }

@@ -44,7 +44,7 @@ impl<const N: usize, const U: usize, const R: usize> Rows<N, U, R> {
 
     /// The rows' values.
     pub fn of(&self, state: &[f64; N], input: &[f64; U]) -> [f64; R] {
-        std::array::from_fn(|row| dot(&self.of_state[row], state) + dot(&self.of_input[row], input))
+        std::array::from_fn(|row| dot_product(&self.of_state[row], state) + dot_product(&self.of_input[row], input))
     }
 
     /// Adds the rows' sum, each times its weight, to the coefficients of state and input.
@@ -56,7 +56,7 @@ impl<const N: usize, const U: usize, const R: usize> Rows<N, U, R> {
     }
 }
 
-fn dot<const M: usize>(left: &[f64; M], right: &[f64; M]) -> f64 {
+fn dot_product<const M: usize>(left: &[f64; M], right: &[f64; M]) -> f64 {
     left.iter().zip(right).map(|(left, right)| left * right).sum()
 }
 

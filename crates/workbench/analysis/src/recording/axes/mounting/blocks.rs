@@ -25,7 +25,7 @@ impl Blocks {
         let means = |vectors: &[Vector3<f64>]| vectors.chunks_exact(size).map(mean).collect::<Vec<_>>();
         let (forces, rates) = (means(forces), means(rates));
         Blocks {
-            rests: rests(&forces, &rates),
+            rests: rest_starts(&forces, &rates),
             forces,
             rates,
             speeds: speeds.chunks_exact(size).map(|speeds| speeds.iter().sum::<f64>() / speeds.len() as f64).collect(),
@@ -60,7 +60,7 @@ pub fn mean(vectors: &[Vector3<f64>]) -> Vector3<f64> {
     vectors.iter().sum::<Vector3<f64>>() / vectors.len() as f64
 }
 
-fn rests(forces: &[Vector3<f64>], rates: &[Vector3<f64>]) -> Vec<usize> {
+fn rest_starts(forces: &[Vector3<f64>], rates: &[Vector3<f64>]) -> Vec<usize> {
     // Largest change of the specific force at rest [m/s2].
     const REST_FORCE: f64 = 0.3;
     // Largest angular velocity at rest [rad/s].

@@ -64,7 +64,7 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
     // Forces without yaw rate do not tell forward from backward.
     let straight =
         straight.map(|axis| Estimate { direction: axis.direction * sign(axis.direction.dot(&best.direction)), ..axis });
-    if let Some(other) = estimates[1..].iter().chain(&straight).find(|other| contradicts(best, other)) {
+    if let Some(other) = estimates[1..].iter().chain(&straight).find(|other| is_contradiction(best, other)) {
         let (one, two, angle) = (best.evidence, other.evidence, best.direction.angle(&other.direction).to_degrees());
         return Err(message![
             auto,
@@ -80,7 +80,7 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
     Ok(Forward { direction: finest.direction, error: finest.error, evidence, may_be_backward: false })
 }
 
-fn contradicts(one: &Estimate, other: &Estimate) -> bool {
+fn is_contradiction(one: &Estimate, other: &Estimate) -> bool {
     // Angle between two sources beyond their errors that is a contradiction [rad].
     const CONTRADICTION: f64 = 20f64.to_radians();
     one.direction.angle(&other.direction) > CONTRADICTION + 2.0 * (one.error + other.error)

@@ -44,7 +44,7 @@ impl Level {
         let rates = || blocks.rates.iter().map(|rate| rate - bias);
         let yaw_rates: Vec<f64> = rates().map(|rate| rate.dot(up)).collect();
         Level {
-            bends: bends(&yaw_rates),
+            bends: bend_lengths(&yaw_rates),
             up: *up,
             forces: blocks.forces.iter().map(|force| horizontal(*force)).collect(),
             rates: rates().map(horizontal).collect(),
@@ -58,12 +58,12 @@ impl Level {
         const SPEED_CHANGE: f64 = 0.2;
         let changes: Vec<f64> = speeds.windows(3).map(|s| (s[2] - s[0]) / (2.0 * BLOCK)).collect();
         let Regression { direction, error, .. } =
-            self.regression(&changes, self.forces.get(1..)?, SPEED_CHANGE, lasting)?;
+            self.regression(&changes, self.forces.get(1..)?, SPEED_CHANGE, lasting_error)?;
         Some(Estimate { direction, error, evidence: "the change of speed" })
     }
 
     pub fn in_bends(&self) -> Option<Estimate> {
-        let left = self.regression(&self.yaw_rates, &self.forces, BEND_RATE, lasting)?;
+        let left = self.regression(&self.yaw_rates, &self.forces, BEND_RATE, lasting_error)?;
         let is_vehicle = (BEND_SPEED[0]..BEND_SPEED[1]).contains(&left.slope);
         let direction = left.direction.cross(&self.up);
         is_vehicle.then_some(Estimate { direction, error: left.error, evidence: "the lateral force of bends" })
@@ -75,7 +75,7 @@ impl Level {
         const LEAN: f64 = 0.1;
         let mean = self.yaw_rates.iter().map(|rate| rate.abs()).sum::<f64>() / self.yaw_rates.len() as f64;
         let sizes: Vec<f64> = self.yaw_rates.iter().map(|rate| rate.abs() - mean).collect();
-        let right = self.regression(&sizes, &self.rates, BEND_RATE, returning)?;
+        let right = self.regression(&sizes, &self.rates, BEND_RATE, returning_error)?;
         let direction = self.up.cross(&right.direction);
         (right.slope > LEAN).then_some(Estimate { direction, error: right.error, evidence: "the lean in bends" })
     }
@@ -118,7 +118,7 @@ impl Level {
             x * (along * along - across * across) + y * (2.0 * along * across)
         };
         let doubled: Vec<Vector3<f64>> = forces.iter().map(doubled).collect();
-        let line = self.regression(&vec![1.0; doubled.len()], &doubled, 0.0, lasting)?;
+        let line = self.regression(&vec![1.0; doubled.len()], &doubled, 0.0, lasting_error)?;
         let angle = 0.5 * line.direction.dot(&y).atan2(line.direction.dot(&x));
         let direction = x * angle.cos() + y * angle.sin();
         Some(Estimate { direction, error: (0.5 * line.error).max(LEAST_ERROR), evidence: "straight accelerations" })
@@ -169,7 +169,7 @@ impl Level {
 }
 
 /// Lengths of the parts between changes of the yaw rate's sign, within the limits of [`CLUSTER`].
-fn bends(yaw_rates: &[f64]) -> Vec<usize> {
+fn bend_lengths(yaw_rates: &[f64]) -> Vec<usize> {
     let mut lengths = Vec::new();
     let mut start = 0;
     for k in 1..yaw_rates.len() {
@@ -195,12 +195,12 @@ struct Regression {
 }
 
 /// A disturbance that lasts for a bend: brakings and accelerations.
-fn lasting(products: &[f64]) -> f64 {
+fn lasting_error(products: &[f64]) -> f64 {
     (products.len() as f64 * products.iter().map(|product| product * product).sum::<f64>()).sqrt()
 }
 
 /// A disturbance that returns at the end of a bend: a vehicle that rolls into it rolls back.
-fn returning(products: &[f64]) -> f64 {
+fn returning_error(products: &[f64]) -> f64 {
     products.iter().sum()
 }
 

@@ -48,7 +48,7 @@ pub fn find(
     }
     let up = gravity.normalize();
     let Forward { direction, error, evidence, may_be_backward } = forward::find(&blocks, &up)?;
-    let rotation = axes(&up, &direction);
+    let rotation = mounting_rotation(&up, &direction);
     let (option, degrees) = (option(&rotation), error.to_degrees());
     if error > LARGEST_ERROR {
         return Err(message![
@@ -66,14 +66,14 @@ pub fn find(
         " gives the same."
     ];
     if may_be_backward {
-        let turned = self::option(&axes(&up, &-direction));
+        let turned = self::option(&mounting_rotation(&up, &-direction));
         warning.push(message![" If that acceleration is a braking, forward is backward: use ", turned, "."]);
     }
     Ok((rotation, warning))
 }
 
 /// Rotation from the sensor's axes to the vehicle's, of the upward and the forward direction.
-fn axes(up: &Vector3<f64>, forward: &Vector3<f64>) -> Matrix3<f64> {
+fn mounting_rotation(up: &Vector3<f64>, forward: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_rows(&[forward.transpose(), up.cross(forward).transpose(), up.transpose()])
 }
 

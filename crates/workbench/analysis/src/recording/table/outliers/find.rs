@@ -52,14 +52,14 @@ pub fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
     let deviation = |k: usize| (values[k] - median(values[window(k, NEIGHBOURS)].iter().copied())).abs();
     let deviations: Vec<f64> = (0..values.len()).map(deviation).collect();
     let is_spike = |&k: &usize| {
-        let around = || spread(deviations[window(k, AROUND)].iter().copied());
+        let around = || robust_spread(deviations[window(k, AROUND)].iter().copied());
         deviations[k] > least_spike && (values[k].abs() > largest || deviations[k] > SPREADS * around())
     };
     (0..values.len()).filter(is_spike).collect()
 }
 
 /// Standard deviation of sizes, which a few spikes among them do not change.
-fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
+fn robust_spread(sizes: impl Iterator<Item = f64>) -> f64 {
     // The 90 % quantile of sizes in standard deviations: a tenth of the samples may be spikes.
     const QUANTILE: f64 = 1.645;
     let sizes = sorted(sizes);

@@ -34,7 +34,7 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<Message>, RecordingE
             let mut wrong = [errors, spikes].concat();
             wrong.sort_unstable();
             warnings.push(repair_warning(table, quantity, &wrong).into());
-            let repaired = interpolated(values, &wrong);
+            let repaired = interpolated_over(values, &wrong);
             table.columns.insert(quantity, repaired);
         } else if !spikes.is_empty() {
             warnings.push(spike_warning(table, quantity, &spikes));
@@ -44,7 +44,8 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<Message>, RecordingE
 }
 
 fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> Message {
-    let (value, times) = (shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si), times(table, errors));
+    let (value, times) =
+        (shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si), listed_times(table, errors));
     message![
         "is {value}, as loggers write it where they have no value, {times}; use ",
         given("repair", "True"),
@@ -58,7 +59,7 @@ fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> String
          its range, and the peaks are cut off. They cannot be repaired.",
         quantity.key(),
         shown(table.value(quantity, tops[0])),
-        times(table, tops)
+        listed_times(table, tops)
     )
 }
 
@@ -67,13 +68,13 @@ fn repair_warning(table: &Table, quantity: Quantity, wrong: &[usize]) -> String 
         1 => format!("a sample of column {} is", quantity.key()),
         count => format!("{count} samples of column {} are", quantity.key()),
     };
-    format!("Repaired: {samples} interpolated over, {}.", times(table, wrong))
+    format!("Repaired: {samples} interpolated over, {}.", listed_times(table, wrong))
 }
 
 fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> Message {
     let values = spikes.iter().map(|&spike| table.value(quantity, spike));
     let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
-    let (key, times) = (quantity.key(), times(table, spikes));
+    let (key, times) = (quantity.key(), listed_times(table, spikes));
     message![
         "Column {key} has isolated spikes of up to {largest:.1} in SI units, {times}. If no blow caused them, use ",
         given("repair", "True"),
@@ -82,7 +83,7 @@ fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> Message
 }
 
 /// Times and lines of samples, for a message.
-fn times(table: &Table, samples: &[usize]) -> String {
+fn listed_times(table: &Table, samples: &[usize]) -> String {
     // Largest number of times that a message lists.
     const MOST_LISTED: usize = 5;
     let shown: Vec<String> = samples
@@ -97,7 +98,7 @@ fn times(table: &Table, samples: &[usize]) -> String {
 
 /// The values with those at the ascending indices `wrong` on straight lines
 /// between their neighbours.
-fn interpolated(values: &[f64], wrong: &[usize]) -> Vec<f64> {
+fn interpolated_over(values: &[f64], wrong: &[usize]) -> Vec<f64> {
     let mut repaired = values.to_vec();
     for part in wrong.chunk_by(|a, b| a + 1 == *b) {
         let (first, last) = (part[0], part[part.len() - 1]);
