@@ -1,27 +1,41 @@
-"""The force that the frames on the wire let a rider feel, by the default rig's geometry.
+"""The force that the frames on the wire let a rider feel, by the rig's geometry.
 
-The lengths give the platform's pose by Newton's method, the poses the head's acceleration by second differences, and the
-attitude gravity's part. Frames of 10 ms with lengths in um make an error of about 0.01 m/s2, so that nothing needs smoothing.
+The lengths, or the rods from the ends of the arms, give the platform's pose by Newton's method. The poses give the head's
+acceleration by second differences, and the attitude gravity's part. Frames of 10 ms with lengths in um make an error of about 0.01 m/s2, so that nothing needs smoothing.
 """
 
 import numpy as np
+from rig import RIG, machine
 
 GRAVITY = 9.80665
 # Time within which a jolt is a change of the felt force [s].
 SPAN = 0.02
 # Time without frames from which on a controller's legs stand [s].
 STANDS = 0.05
+
+
+def joints(table):
+    if "joints" in table:
+        return np.array(table["joints"])
+    angles = np.radians(table["degrees"])
+    return table["radius"] * np.stack([np.cos(angles), np.sin(angles), np.zeros(6)], axis=1)
+
+
+MACHINE, _, _ = machine(RIG)
+BASE, PLATFORM = joints(MACHINE["base"]), joints(MACHINE["platform"])
 # The rider's head above the platform's joints [m].
-HEAD = np.array([0.0, 0.0, 1.2])
+HEAD = np.array([0.0, 0.0, MACHINE["head"]["height"]])
 
 
-def joints(radius, degrees):
-    angles = np.radians(degrees)
-    return radius * np.stack([np.cos(angles), np.sin(angles), np.zeros(6)], axis=1)
-
-
-BASE = joints(1.0, [-8, 8, 112, 128, 232, 248])
-PLATFORM = joints(0.85, [-52, 52, 68, 172, 188, 292])
+def rods(lengths):
+    """Foot and length of what leads to the platform: the legs, or the rods of arms at these arcs."""
+    if "crank" not in MACHINE:
+        return BASE, lengths
+    crank = MACHINE["crank"]
+    heading, angles = np.radians(crank["headingDegrees"]), lengths / crank["arm"]
+    across = np.cos(angles)
+    arms = np.stack([across * np.cos(heading), across * np.sin(heading), np.sin(angles)], axis=2)
+    return BASE + crank["arm"] * arms, np.full_like(lengths, crank["rod"])
 
 
 def rotations(angles):
@@ -38,9 +52,10 @@ def rotations(angles):
 def poses(lengths, guesses):
     """Positions and rotations of the platform with these lengths, near guesses of x, y, z, roll, pitch and yaw."""
     position, rotation = guesses[:, :3].copy(), rotations(guesses[:, 3:])
+    feet, lengths = rods(lengths)
     for _ in range(8):
         arms = np.einsum("nij,kj->nki", rotation, PLATFORM)
-        legs = position[:, None] + arms - BASE
+        legs = position[:, None] + arms - feet
         found = np.linalg.norm(legs, axis=2)
         along = legs / found[:, :, None]
         rows = np.concatenate([along, np.cross(arms, along)], axis=2)

@@ -1,6 +1,7 @@
 """Pulls each plug of a rig once: vehicle -> `moris live` -> controller, with emulators of both and of a browser.
 
     python3 tests/live/plugs.py [SECONDS] [--picture FILE]
+    MORIS_PLUGS_RIG=crank-person python3 tests/live/plugs.py
 
 Without a time the plugs follow each other at once; with one they are spread over it, as in a ride. Says what happened, and draws
 it. Fails if a leg leaves its stroke or its speed, if the frames let a rider feel a jolt, or if an event has not the effect that
@@ -25,7 +26,7 @@ from pathlib import Path
 
 from drawing import draw
 from felt import jolts
-from rig import INTERVAL, LOCKS, STEP, Browser, Controller, Live, Vehicle
+from rig import INTERVAL, LOCKS, Browser, Controller, Live, Vehicle
 
 from fuzz import packet
 
@@ -255,7 +256,7 @@ def ride(seconds, picture):
         said = (word + f" ({count} times)" * (count > 1) for word, count in Counter(one.controller.words).items())
         print(f"Ctrl-C: {', '.join(said)}; the recording's error is the exit status\n{printed}")
         one.judge()
-        print(f"{one.controller.frames} frames, of which legs change by at most {one.controller.step / STEP:.2f} of what is allowed")
+        print(f"{one.controller.frames} frames, of which legs change by at most {one.controller.step / one.controller.most:.2f} of what is allowed")
         if picture:
             Path(picture).write_text(draw(one.controller.rows, one.live.states, one.plugs))
 

@@ -1,6 +1,7 @@
 """`moris live` between an emulated vehicle, an emulated controller and an emulated browser. For the scripts beside this file."""
 
 import json
+import math
 import os
 import signal
 import socket
@@ -19,14 +20,13 @@ sys.path.insert(0, str(ROOT / "examples"))
 from vehicle import line  # noqa: E402
 
 LIVE = [os.environ["MORIS"], "live"] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris-live", "--"]
-# The default rig's stroke, and its largest leg speed with the steps between two frames lost [m, m/s].
-STROKE = (1.0, 1.6)
-FASTEST = 1.05
-# The time between frames of the form csv [s], and the largest change of a leg from frame to frame [m].
+# The time between frames of the form csv [s].
 INTERVAL = 0.01
-STEP = 1.2 * 1.0 * INTERVAL
 # Linux's option for the time at which a packet arrived, however late it is read.
 TIMESTAMP = 35 if sys.platform == "linux" else None
+
+# The machine: a rig of examples/rigs.
+RIG = os.environ.get("MORIS_PLUGS_RIG", "default")
 
 # Where locks of controllers lie: those of earlier runs would say how the last session of a port has ended.
 LOCKS = tempfile.TemporaryDirectory()
@@ -38,10 +38,26 @@ def free_port():
         return free.getsockname()[1]
 
 
+def machine(name):
+    """A rig of examples/rigs, its actuators' stroke, and their largest speed [m, m/s]: arcs of the arms where it has cranks."""
+    import tomllib  # of Python 3.11
+
+    rig = tomllib.loads((ROOT / "examples" / "rigs" / f"{name}.toml").read_text())
+    if "crank" not in rig:
+        legs = rig["actuator"]
+        return rig, (legs["minLength"], legs["maxLength"]), legs["velocityLimit"]
+    crank = rig["crank"]
+    ends = (crank["arm"] * math.radians(crank[f"{end}AngleDegrees"]) for end in ("min", "max"))
+    return rig, tuple(ends), crank["arm"] * crank["velocityLimit"]
+
+
 class Controller:
     """Receives frames of the form csv; holds what a controller may not see, and all numbers if it `keeps` them."""
 
     def __init__(self, keeps=False):
+        _, self.stroke, speed = machine(RIG)
+        # The largest speed with the steps between two frames lost, and the largest change from frame to frame [m/s, m].
+        self.fastest, self.most = 1.05 * speed, 1.2 * speed * INTERVAL
         self.port = free_port()
         self.frames = 0
         self.keeps = keeps
@@ -88,18 +104,18 @@ class Controller:
         self.word = "frame"
         legs = numbers[:6]
         self.frames += 1
-        if not all(STROKE[0] <= leg <= STROKE[1] for leg in legs):
+        if not all(self.stroke[0] - 1e-6 <= leg <= self.stroke[1] + 1e-6 for leg in legs):
             self.faults.append(f"{now} s: a leg beyond its stroke: {legs}")
         if self.last:
             step = max(abs(leg - before) for leg, before in zip(legs, self.last[1]))
             self.step = max(self.step, step)
             self.gap = max(self.gap, arrival - self.last[2])
             self.speed = step / INTERVAL
-            if step > STEP:
+            if step > self.most:
                 self.faults.append(f"{now} s: a leg {1e3 * step:.1f} mm from the last frame")
         if self.last and now > self.last[0]:
             fastest = max(abs(leg - before) for leg, before in zip(legs, self.last[1])) / (now - self.last[0])
-            if fastest > FASTEST:
+            if fastest > self.fastest:
                 self.faults.append(f"{now} s: a leg at {fastest:.2f} m/s")
         self.last = now, legs, arrival
         if self.keeps:
@@ -140,7 +156,7 @@ class Live:
     def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE, settled=True, locks=LOCKS.name):
         self.port = free_port()
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
-        command = [*LIVE, *source, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
+        command = [*LIVE, *source, "--rig", RIG, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
         self.process = subprocess.Popen(
             command,
             cwd=ROOT,

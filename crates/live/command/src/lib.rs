@@ -280,7 +280,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         (Device::moog(rig), moog::INTERVAL, None, LegPlace::own())
     } else {
         let template = tables::frames(&options.frames)?;
-        let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
+        let encoder = Encoder::new(&template, rig).with_context(|| format!("--frames {}", options.frames))?;
         let place = match options.dry {
             true => LegPlace::own(),
             false => LegPlace::of(&template, &encoder, options.settled && !was_left, options.slow_start),
@@ -343,7 +343,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (to_journal, journal) = RingBuffer::new(8192);
     let (to_forecast, parking) = RingBuffer::new(1);
     console::line(&format!("commands: {COMMANDS}; Ctrl-C parks and ends"));
-    if let Some(advice) = place.advice(rig.max_length - rig.min_length) {
+    if let Some(advice) = place.advice(rig.stroke_length()) {
         console::line(&advice);
     }
     if let Some(server) = &server {
@@ -354,11 +354,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     thread::spawn(move || watch(&listening.failed, Part::Commands, || commands::read(commands::input(), commands)));
     let interval = frames::whole_steps(if options.dry { interval.max(0.1) } else { interval });
     let rig = &setup.parameters.rig;
-    let actuators = Actuators {
-        speed: rig.velocity_limit,
-        acceleration: rig.acceleration_limit,
-        stroke: [rig.min_length, rig.max_length],
-    };
+    let actuators = Actuators { speed: rig.velocity_limit, acceleration: rig.acceleration_limit, stroke: rig.stroke() };
     occupied.iter_mut().for_each(|occupied| occupied.leave(true));
     let summary = thread::scope(|scope| {
         let (shared, desk) = (&*shared, &desk);
@@ -485,7 +481,7 @@ fn replay(options: &Options, text: &str, out: &mut dyn Write) -> Result<ExitCode
     let mut state = None;
     let template = tables::frames(&options.frames)?;
     let rig = options.setup.load()?.parameters.rig;
-    let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
+    let encoder = Encoder::new(&template, &rig)?;
     let mut bytes = Vec::new();
     let mut lines = String::new();
     let replayed = log::replay(text, |session| {

@@ -23,6 +23,8 @@ pub struct LegPlace {
     doubted: Option<f64>,
     /// Speed with which the controller goes to its first length by itself \[m/s\].
     slow_speed: Option<f64>,
+    /// Length of the actuators' stroke \[m\].
+    stroke: f64,
     /// The controller is asked.
     asks: bool,
     /// The last report and its time \[s\].
@@ -45,6 +47,7 @@ impl LegPlace {
             given: settled.then_some(Legs::Settled),
             is_given_before: settled,
             slow_speed: slow_start.or(template.slow_start),
+            stroke: encoder.stroke_length(),
             asks: encoder.asks(),
             ..LegPlace::default()
         }
@@ -105,9 +108,11 @@ impl LegPlace {
 
     /// The controller has reported these lengths \[m\].
     pub fn report(&mut self, now: f64, lengths: [f64; 6]) {
-        // Change of the legs from which on they are not at rest [m].
+        // Change of the legs from which on they are not at rest [m], and as a part of their stroke.
         const AT_REST_DISTANCE: f64 = 0.003;
-        let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > AT_REST_DISTANCE);
+        const AT_REST_PART: f64 = 0.02;
+        let least = AT_REST_DISTANCE.min(AT_REST_PART * self.stroke);
+        let moved = |from: &[f64; 6]| lengths.iter().zip(from).any(|(to, from)| (to - from).abs() > least);
         let was_long_ago = self.report.is_some_and(|(at, _)| now - at > REPORT_VALIDITY);
         if was_long_ago || self.rest.is_none_or(|(_, from)| moved(&from)) {
             self.rest = Some((now, lengths));
@@ -119,12 +124,14 @@ impl LegPlace {
     /// last frames have left `away` \[m\] from their lowest pose are settled if a person says so
     /// twice: false the first time.
     pub fn give(&mut self, legs: Legs, now: f64, away: f64) -> bool {
-        // Way from the last frame to the lowest pose [m] from which on a person is asked to look
-        // again, and the time for it [s].
+        // Way from the last frame to the lowest pose [m], or part of the stroke, from which on a
+        // person is asked to look again, and the time for it [s].
         const RECHECK_DISTANCE: f64 = 0.02;
+        const RECHECK_PART: f64 = 0.1;
         const SECOND_LOOK: f64 = 20.0;
         let was_doubted = self.doubted.take().is_some_and(|at| now - at <= SECOND_LOOK);
-        if legs == Legs::Settled && away > RECHECK_DISTANCE && !was_doubted && !self.is_own {
+        let is_away = away > RECHECK_DISTANCE.min(RECHECK_PART * self.stroke);
+        if legs == Legs::Settled && is_away && !was_doubted && !self.is_own {
             self.doubted = Some(now);
             return false;
         }
@@ -184,12 +191,13 @@ impl LegPlace {
 #[cfg(test)]
 mod tests {
     use moris_live::frame::shipped;
+    use moris_washout::Rig;
 
     use super::*;
 
     fn of(name: &str, settled: bool, slow_start: Option<f64>) -> LegPlace {
         let template = shipped(name).unwrap().parse().unwrap();
-        LegPlace::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, slow_start)
+        LegPlace::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, slow_start)
     }
 
     #[test]

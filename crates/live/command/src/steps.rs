@@ -290,8 +290,8 @@ impl Steps<'_> {
             return;
         }
         self.record(Happening::Legs(legs), summary);
-        let rig = &self.session.washout().parameters().rig;
-        let hold = (rig.max_length - rig.min_length) / self.place.slow_speed();
+        let stroke = self.session.washout().parameters().rig.stroke_length();
+        let hold = stroke / self.place.slow_speed();
         let located = self.session.locate(legs);
         let is_known = matches!(legs, Legs::Settled | Legs::Reported(_));
         self.frames.is_placed = located.is_ok() && is_known && !self.place.starts_settled();
@@ -321,6 +321,7 @@ mod tests {
     use moris_live::frame::{Encoder, shipped};
     use moris_live::log::{header, replay};
     use moris_live::{Motion, Sample, Settings};
+    use moris_washout::Rig;
     use rtrb::RingBuffer;
 
     use super::*;
@@ -341,7 +342,7 @@ mod tests {
 
     fn place(frames: &str, settled: bool) -> LegPlace {
         let template = shipped(frames).unwrap().parse().unwrap();
-        LegPlace::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, None)
+        LegPlace::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, None)
     }
 
     fn with_place<T>(place: LegPlace, test: impl FnOnce(&mut Computed) -> T) -> T {

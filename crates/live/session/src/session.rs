@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use moris_interface::{Group, Reader, refuse, slots_of};
+use moris_interface::{Group, Reader, slots_of};
 use moris_laps::Laps;
 use moris_washout::interface::{AngularVelocityFrame, Output};
 use moris_washout::motion::orientation::Orientation;
@@ -100,20 +100,22 @@ pub enum Refusal {
     /// The legs' place is given while they follow commands.
     #[error("the legs follow commands in the state {}; their place is given in the state off", .0.name())]
     Commanded(State),
-    /// A reported length is none of this rig.
+    /// A reported position is none of this rig.
     #[error(
-        "actuator {} is reported to be {length} m long, which is outside its stroke from {shortest} to {longest} m; \
+        "actuator {} is reported at {position} {unit}, which is outside its stroke from {least} to {greatest} {unit}; \
          check the report's unit and the rig file", .leg + 1
     )]
-    Length {
-        /// The leg, from 0.
+    Position {
+        /// The actuator, from 0.
         leg: usize,
-        /// Its reported length \[m\].
-        length: f64,
-        /// The shortest length \[m\].
-        shortest: f64,
-        /// The longest length \[m\].
-        longest: f64,
+        /// Its reported length, or the angle of its arm.
+        position: f64,
+        /// The shortest length, or the lowest angle.
+        least: f64,
+        /// The longest length, or the highest angle.
+        greatest: f64,
+        /// Unit of the three: m for legs, degrees for cranks.
+        unit: &'static str,
     },
 }
 
@@ -124,9 +126,9 @@ pub struct Commands {
     pub state: State,
     /// Time since the session's start \[s\].
     pub time: f64,
-    /// Lengths of the actuators \[m\].
+    /// Lengths of the actuators, or arcs of the cranks' arms above level \[m\].
     pub length: [f64; 6],
-    /// Velocities of the legs \[m/s\].
+    /// Their rates \[m/s\].
     pub velocity: [f64; 6],
     /// Pose of the platform.
     pub pose: Pose,
@@ -239,15 +241,6 @@ impl Session {
     /// The first parameter that cannot be used, and why.
     pub fn new(parameters: &Parameters, settings: &Settings) -> Result<Self, ParameterError> {
         let mut parameters = *parameters;
-        if parameters.rig.has_cranks() {
-            return refuse(
-                "crank.arm",
-                format!(
-                    "is {} m, but a live session commands lengths of legs; use the FMU, Rust or Python for a rig with cranks",
-                    parameters.rig.crank_arm
-                ),
-            );
-        }
         parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;
         let at_rest = Motion::at_rest();
         let washout = Washout::new(&parameters)?.starting_with(&at_rest.input(false));
@@ -293,8 +286,8 @@ impl Session {
             located: settings.starts_settled,
             begin: settled,
             settled,
-            neutral: output.length,
-            stroke: rig.max_length - rig.min_length,
+            neutral: output.actuators(rig)[0],
+            stroke: rig.stroke_length(),
             commands,
             washout,
         };
@@ -648,7 +641,8 @@ impl Session {
         // wash-out of the yaw goes on for long.
         const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
         let [distance, speed] = AT_NEUTRAL.map(|part| part * self.stroke);
-        (0..6).all(|k| (output.length[k] - self.neutral[k]).abs() < distance && output.leg_velocity[k].abs() < speed)
+        let [position, rate] = output.actuators(&self.washout.parameters().rig);
+        (0..6).all(|k| (position[k] - self.neutral[k]).abs() < distance && rate[k].abs() < speed)
     }
 
     /// True if the way down can begin: the cue is nearly out, and the legs are slow.
@@ -656,8 +650,9 @@ impl Session {
         // Part of the cue, and of the actuators' speed, below which the way down may begin.
         const DESCENT_CUE: f64 = 0.2;
         const DESCENT_SPEED: f64 = 0.25;
-        let slow = DESCENT_SPEED * self.washout.parameters().rig.velocity_limit;
-        self.washout.engagement() < DESCENT_CUE && output.leg_velocity.iter().all(|speed| speed.abs() < slow)
+        let rig = &self.washout.parameters().rig;
+        let slow = DESCENT_SPEED * rig.velocity_limit;
+        self.washout.engagement() < DESCENT_CUE && output.actuators(rig)[1].iter().all(|speed| speed.abs() < slow)
     }
 
     /// Advances on the way between the lengths at rest and neutral.
@@ -701,7 +696,8 @@ impl Session {
     fn command(&mut self, now: f64, output: Output) {
         let part = self.travel.fraction();
         let before = self.commands.length;
-        let length = std::array::from_fn(|k| self.begin[k] + part * (output.length[k] - self.begin[k]));
+        let [position, _] = output.actuators(&self.washout.parameters().rig);
+        let length = std::array::from_fn(|k| self.begin[k] + part * (position[k] - self.begin[k]));
         let velocity = std::array::from_fn(|k| (length[k] - before[k]) / STEP);
         let pose = pose_between(&self.geometry, &output, &length, part, Some(&self.commands.pose));
         let heave = pose.position.z - self.washout.parameters().rig.neutral_height;

@@ -2,9 +2,9 @@
 
 use moris_live::frame::{Encoder, Frames, SHIPPED, Values, shipped};
 use moris_live::{Session, Settings};
-use moris_washout::Parameters;
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::motion::orientation::Orientation;
+use moris_washout::{Parameters, Rig};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 const LENGTH: [f64; 6] = [1.0, 1.15, 1.3, 1.45, 1.6, 9.0];
 
 fn frame(text: &str) -> Vec<u8> {
-    let encoder = Encoder::new(&text.parse::<Frames>().unwrap(), [1.0, 1.6]).unwrap();
+    let encoder = Encoder::new(&text.parse::<Frames>().unwrap(), &Rig::default()).unwrap();
     let mut out = vec![1, 2, 3];
     encoder.frame(&Values { length: LENGTH, ..Values::default() }, &mut out);
     out
@@ -60,7 +60,7 @@ fn seen(frame: &[u8]) -> Isometry3<f64> {
 
 #[test]
 fn vr_pose_gives_the_headset_the_pose_of_the_platform() {
-    let encoder = Encoder::new(&shipped("vr-pose").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
+    let encoder = Encoder::new(&shipped("vr-pose").unwrap().parse().unwrap(), &Rig::default()).unwrap();
     let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
     let neutral = session.washout().parameters().rig.neutral_height;
     let mut commands = *session.step();
@@ -95,12 +95,60 @@ fn vr_pose_gives_the_headset_the_pose_of_the_platform() {
 
 #[test]
 fn numbers_of_a_template_have_their_width_and_order() {
-    let encoder = |frame: &str| Encoder::new(&format!("{TEMPLATE}frame = '{frame}'").parse().unwrap(), [1.0, 1.6]);
+    let encoder = |frame: &str| Encoder::new(&format!("{TEMPLATE}frame = '{frame}'").parse().unwrap(), &Rig::default());
     let mut out = Vec::new();
     encoder("x:f32 x:f32le*2 x:f64*-0.5").unwrap().frame(&Values { pose: [1.0; 6], ..Values::default() }, &mut out);
     assert_eq!(out, [0x3F, 0x80, 0, 0, 0, 0, 0, 0x40, 0xBF, 0xE0, 0, 0, 0, 0, 0, 0]);
     for wrong in ["x:f16", "x:f64*inf", "x:f64*", "leg1:f64", "x:f64be"] {
         assert!(format!("{TEMPLATE}frame = '{wrong}'").parse::<Frames>().is_err(), "{wrong}");
+    }
+}
+
+/// Arms of 0.1 m: 30 and -45 degrees, level, 12, -6 and 60 degrees.
+#[test]
+fn angles_of_cranks_have_zeros_directions_and_units() {
+    let arms = [30.0, -45.0, 0.0, 12.0, -6.0, 60.0_f64];
+    let rig = Rig { crank_arm: 0.1, ..Rig::default() };
+    let values = Values { length: arms.map(|degrees| 0.1 * degrees.to_radians()), ..Values::default() };
+    let scales =
+        "zero-degrees = [0, 90, 90, 0, 2.5, 0]\nreversed = [2, 4]\npulse-per-degree = 10\nsteps-per-turn = 7200\n";
+    let template = |frame: &str| format!("{TEMPLATE}{scales}frame = \"{frame}\"").parse::<Frames>().unwrap();
+    let sent = |frame: &str| {
+        let mut out = Vec::new();
+        Encoder::new(&template(frame), &rig).unwrap().frame(&values, &mut out);
+        out
+    };
+    let line = |unit: &str, form: &str| {
+        let fields: Vec<String> = (1..=6).map(|crank| format!("{unit}{crank}:{form}")).collect();
+        String::from_utf8(sent(&fields.join(" ',' "))).unwrap()
+    };
+    // The motor's angle: 0 + 30, 90 + 45, 90 + 0, 0 - 12, 2.5 - 6, 0 + 60.
+    assert_eq!(line("degrees", "1"), "30.0,135.0,90.0,-12.0,-3.5,60.0");
+    assert_eq!(line("radians", "4"), "0.5236,2.3562,1.5708,-0.2094,-0.0611,1.0472");
+    assert_eq!(line("pulse", "0"), "1800,2850,2400,1380,1465,2100");
+    // Twenty steps a degree.
+    assert_eq!(line("steps", "0"), "600,2700,1800,-240,-70,1200");
+    // A quarter of a microsecond, and signed steps.
+    assert_eq!(sent("pulse1:u16*4 steps5:i16le"), [0x1C, 0x20, 0xBA, 0xFF]);
+    let encoder = Encoder::new(&template("degrees1:1"), &rig).unwrap();
+    assert!(encoder.moves_actuators());
+    for report in [
+        "degrees,30,135,90,-12,-3.5,60",
+        "pulse,1800,2850,2400,1380,1465,2100",
+        "{\"steps\":[600,2700,1800,-240,-70,1200]}",
+    ] {
+        let arcs = encoder.reported(report.as_bytes()).unwrap();
+        assert!((0..6).all(|k| (arcs[k] - values.length[k]).abs() < 1e-12), "{report}: {arcs:?}");
+    }
+    assert_eq!(encoder.reported(b"legs,0.01,0.02,0,0,0,0"), Some([0.01, 0.02, 0.0, 0.0, 0.0, 0.0]));
+    let refused = |template: &Frames, rig: &Rig| Encoder::new(template, rig).unwrap_err().to_string();
+    assert!(refused(&template("degrees1:1"), &Rig::default()).contains("use length1 or leg1"));
+    for (token, key) in [("pulse3:0", "pulse-per-degree"), ("steps3:0", "steps-per-turn")] {
+        let reason = format!("{TEMPLATE}frame = '{token}'").parse::<Frames>().unwrap_err().to_string();
+        assert!(reason.contains(key), "{reason}");
+    }
+    for wrong in ["degrees7:1", "degrees0:1", "degrees:1", "pulse1:dec"] {
+        assert!(format!("{TEMPLATE}{scales}frame = '{wrong}'").parse::<Frames>().is_err(), "{wrong}");
     }
 }
 
@@ -150,16 +198,21 @@ fn templates_that_make_no_sense_are_refused() {
     }
 }
 
+/// A rig for the frames of this name: those of servos have angles of cranks.
+fn rig_for(name: &str) -> Rig {
+    Rig { crank_arm: if name == "servos" { 0.1 } else { 0.0 }, ..Rig::default() }
+}
+
 #[test]
 fn a_template_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
     for (name, text) in SHIPPED {
         let frames: Frames = text.parse().unwrap();
-        let encoder = Encoder::new(&frames, [1.0, 1.6]).unwrap();
+        let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();
         assert_eq!(encoder.moves_actuators(), name != "vr-pose", "{name}");
         assert_eq!(encoder.asks(), ["csv", "json"].contains(&name), "{name}");
         assert_eq!(frames.slow_start.is_some(), ["csv", "json"].contains(&name), "{name}");
     }
-    let encoder = Encoder::new(&shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
+    let encoder = Encoder::new(&shipped("csv").unwrap().parse().unwrap(), &Rig::default()).unwrap();
     let mut out = Vec::new();
     encoder.ask(&mut out);
     assert_eq!(out, b"legs?\n");
@@ -171,7 +224,7 @@ proptest! {
         for (name, text) in SHIPPED {
             let frames: Frames = text.parse().unwrap();
             assert_eq!(frames.name, name);
-            let encoder = Encoder::new(&frames, [1.0, 1.6]).unwrap();
+            let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();
             let mut out = Vec::new();
             encoder.frame(&Values { length, time, ..Values::default() }, &mut out);
             prop_assert!(!out.is_empty());
@@ -188,7 +241,7 @@ proptest! {
 fn of_tokens(tokens: &str, values: &Values) -> Vec<u8> {
     let text = format!("name = \"own\"\nabout = \"own\"\nnote = \"own\"\nframe = \"{tokens}\"");
     let mut out = Vec::new();
-    Encoder::new(&text.parse().unwrap(), [1.0, 1.6]).unwrap().frame(values, &mut out);
+    Encoder::new(&text.parse().unwrap(), &Rig::default()).unwrap().frame(values, &mut out);
     out
 }
 

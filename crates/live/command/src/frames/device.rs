@@ -88,6 +88,14 @@ impl Device {
         }
     }
 
+    /// Positions of the actuators that a template's controller has answered \[m\].
+    pub fn reported(&self, answer: &[u8]) -> Option<[f64; 6]> {
+        match self {
+            Device::Template(encoder, _) => encoder.reported(answer),
+            Device::Moog { .. } => None,
+        }
+    }
+
     /// True for a device that answers.
     pub fn answers(&self) -> bool {
         matches!(self, Device::Moog { .. })

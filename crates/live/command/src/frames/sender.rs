@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use moris_live::Event;
-use moris_live::frame::{Values, reported};
+use moris_live::frame::Values;
 use rtrb::{Consumer, Producer};
 
 use super::super::contact::Contact;
@@ -246,7 +246,7 @@ impl<'a> Sender<'a> {
         let mut newest = None;
         for _ in 0..MOST_ANSWERS {
             let Some(answer) = self.sink.receive(packet) else { break };
-            let mut take = |answer: &[u8]| newest = reported(answer).or(newest);
+            let mut take = |answer: &[u8]| newest = self.device.reported(answer).or(newest);
             if is_line { self.answers.take(answer, take) } else { take(answer) }
         }
         if let Some(lengths) = newest {

@@ -4,6 +4,8 @@ use std::net::UdpSocket;
 use std::thread;
 use std::time::Duration;
 
+use moris_live::frame;
+
 use crate::rig::{Live, free_port, lengths};
 
 #[test]
@@ -184,4 +186,70 @@ fn a_session_that_was_killed_is_not_followed_by_a_settled_one_unless_a_person_sa
     live.wait_for("legs: settled");
     live.signal("KILL");
     live.end();
+}
+
+/// Pulses of servos that stand at -20 degrees and are reported so: up from there, down to the
+/// lowest arms, and silence once the plug is pulled.
+#[test]
+fn cranks_glide_from_reported_angles_park_and_are_silent_after_a_pulled_plug() {
+    let directory = tempfile::tempdir().unwrap();
+    let template = frame::shipped("servos").unwrap();
+    let template = template.replace("reversed = []", "reversed = [2, 4, 6]\nask = \"'?' 0A\"\nstop = \"'stop' 0A\"");
+    std::fs::write(directory.path().join("own.toml"), template).unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let address = socket.local_addr().unwrap();
+    let from = format!("udp:{}", free_port());
+    let arguments = ["--format", "csv", "--rig", "crank-person", "--frames", "own.toml"];
+    let mut live = Live::with(directory.path(), &from, &format!("udp:{address}"), &arguments, thread::spawn(Vec::new));
+    socket.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    // The degrees of the arms in frames until a question, which is answered with these.
+    let listen = |socket: &UdpSocket, angles: &str, questions: usize| {
+        let (mut packet, mut asked, mut frames) = ([0; 2000], 0, Vec::new());
+        while asked < questions {
+            let (length, from) = socket.recv_from(&mut packet).unwrap();
+            let text = str::from_utf8(&packet[..length]).unwrap();
+            if text == "?\n" {
+                asked += 1;
+                socket.send_to(angles.as_bytes(), from).unwrap();
+            } else if text.contains(',') {
+                let pulses = text.trim().split(',').map(|pulse| pulse.parse::<f64>().unwrap());
+                let degrees =
+                    pulses.zip([1.0, -1.0].into_iter().cycle()).map(|(pulse, sign)| sign * (pulse - 1500.0) / 10.0);
+                frames.push(degrees.collect::<Vec<f64>>());
+            }
+        }
+        frames
+    };
+    assert!(
+        listen(&socket, "degrees,-20,20,-20,20,-20,20\n", 4).is_empty(),
+        "a frame before anybody knows where the arms are"
+    );
+    thread::sleep(Duration::from_millis(100));
+    live.command("start");
+    live.wait_for("legs: as the controller reports");
+    live.wait_for("neutral");
+    live.command("park");
+    live.wait_for("settled");
+    live.command("stop");
+    // In the state off the controller is asked again.
+    let frames = listen(&socket, "degrees,-52,52,-52,52,-52,52\n", 4);
+    let of = |frame: &Vec<f64>, angle: f64| frame.iter().all(|found| (found - angle).abs() < 0.6);
+    assert!(of(&frames[0], -20.0), "{:?}", frames[0]);
+    assert!(frames.iter().any(|frame| of(frame, 0.0)));
+    assert!(of(frames.last().unwrap(), -52.2), "{:?}", frames.last());
+    // A quarter of 6 rad/s on the way, in frames of 20 ms, and as much again for late ones.
+    let fastest =
+        frames.windows(2).flat_map(|pair| (0..6).map(|k| (pair[1][k] - pair[0][k]).abs())).fold(0.0, f64::max);
+    assert!(fastest < 3.5, "{fastest} degrees from frame to frame");
+    thread::sleep(Duration::from_millis(100));
+    live.command("start");
+    live.wait_for("homing");
+    drop(socket);
+    live.wait_for("fault");
+    let socket = UdpSocket::bind(address).unwrap();
+    socket.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    assert!(listen(&socket, "", 4).is_empty(), "a frame before the fault is cleared");
+    live.interrupt();
+    live.wait_for("off");
+    assert!(!live.end().0.success(), "the session was in a fault");
 }

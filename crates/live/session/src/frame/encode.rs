@@ -3,23 +3,30 @@
 use std::io::Write;
 use std::ops::Range;
 
+use moris_washout::Rig;
 use nalgebra::Vector3;
 
+use super::motors::{Motors, UNITS};
+use super::report::report;
 use super::{Frames, FramesError};
 use crate::session::Commands;
 
-/// Quantities of a frame besides the actuators' positions, in SI units.
+/// Quantities of a frame besides the actuators' positions, in SI units. A length is the arc of the
+/// arm's end of a crank, and a velocity its rate. Angles of a crank's motor, such as `degrees1`,
+/// are quantities as well: radians, degrees, pulse and steps.
 pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
     velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave own_x own_y own_z";
+/// Place of the first motor's angle, which follow the quantities: six of each unit.
+const FIRST_ANGLE_PLACE: usize = 26;
 
 /// Values of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Values {
     /// Time \[s\].
     pub time: f64,
-    /// Lengths of the actuators \[m\].
+    /// Lengths of the actuators, or arcs of the cranks' arms \[m\].
     pub length: [f64; 6],
-    /// Velocities of the legs \[m/s\].
+    /// Their rates \[m/s\].
     pub velocity: [f64; 6],
     /// Position of the platform \[m\], its roll, pitch and yaw \[rad\].
     pub pose: [f64; 6],
@@ -103,6 +110,16 @@ enum Token {
     },
 }
 
+impl Token {
+    /// The place of its quantity.
+    fn place(&self) -> Option<usize> {
+        match self {
+            Token::Quantity { place, .. } | Token::Float { place, .. } | Token::Scaled { place, .. } => Some(*place),
+            _ => None,
+        }
+    }
+}
+
 /// Form of a whole number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Whole {
@@ -174,15 +191,25 @@ pub struct Encoder {
     range: Option<[f64; 2]>,
     reversed: [bool; 6],
     stroke: [f64; 2],
+    motors: Motors,
 }
 
 impl Encoder {
-    /// The encoder for actuators of these shortest and longest lengths \[m\].
+    /// The encoder for a rig's actuators.
     ///
     /// # Errors
-    /// A token is unknown.
-    pub fn new(frames: &Frames, stroke: [f64; 2]) -> Result<Self, FramesError> {
-        Ok(Encoder {
+    /// A token is unknown, or has angles for a rig with legs.
+    pub fn new(frames: &Frames, rig: &Rig) -> Result<Self, FramesError> {
+        let encoder = Self::of_any_rig(frames, rig)?;
+        if !rig.has_cranks() && encoder.places().any(|place| place >= FIRST_ANGLE_PLACE) {
+            return Err(FramesError::Angles);
+        }
+        Ok(encoder)
+    }
+
+    /// As [`Encoder::new`], but with angles for any rig.
+    pub(super) fn of_any_rig(frames: &Frames, rig: &Rig) -> Result<Self, FramesError> {
+        let encoder = Encoder {
             ask: tokens(&frames.ask)?,
             start: tokens(&frames.start)?,
             frame: tokens(&frames.frame)?,
@@ -190,21 +217,46 @@ impl Encoder {
             stop: tokens(&frames.stop)?,
             range: frames.range.map(|range| range.map(|end| end as f64)),
             reversed: std::array::from_fn(|leg| frames.reversed.contains(&(leg + 1))),
-            stroke,
-        })
+            stroke: rig.stroke(),
+            motors: Motors::new(frames, rig),
+        };
+        let units = encoder.places().filter_map(|place| place.checked_sub(FIRST_ANGLE_PLACE));
+        units.map(|place| place / 6).try_for_each(|unit| encoder.motors.check(unit))?;
+        Ok(encoder)
+    }
+
+    /// Places of the quantities in all its strings.
+    fn places(&self) -> impl Iterator<Item = usize> {
+        let all = [&self.ask, &self.start, &self.frame, &self.park, &self.stop];
+        all.into_iter().flatten().filter_map(Token::place)
     }
 
     /// True if its frames have positions of actuators.
     pub fn moves_actuators(&self) -> bool {
-        // Places of the lengths and velocities among them.
+        // Places of the lengths and velocities among the quantities.
         const LENGTH_PLACES: Range<usize> = 1..13;
-        self.frame.iter().any(|token| match token {
-            Token::Binary { .. } | Token::Decimal { .. } => true,
-            Token::Quantity { place, .. } | Token::Float { place, .. } | Token::Scaled { place, .. } => {
-                LENGTH_PLACES.contains(place)
-            }
-            Token::Bytes(_) | Token::Count(_) | Token::Checksum { .. } => false,
+        self.frame.iter().any(|token| match (token, token.place()) {
+            (Token::Binary { .. } | Token::Decimal { .. }, _) => true,
+            (_, Some(place)) => LENGTH_PLACES.contains(&place) || place >= FIRST_ANGLE_PLACE,
+            _ => false,
         })
+    }
+
+    /// Length of the actuators' stroke \[m\].
+    pub fn stroke_length(&self) -> f64 {
+        self.stroke[1] - self.stroke[0]
+    }
+
+    /// Positions of the actuators \[m\] in a controller's answer: lengths or arcs after `legs`, or
+    /// angles of motors after the name of a unit. None in other packets.
+    pub fn reported(&self, answer: &[u8]) -> Option<[f64; 6]> {
+        match report(answer)? {
+            (None, lengths) => Some(lengths),
+            (Some(unit), numbers) => {
+                self.motors.check(unit).ok()?;
+                Some(std::array::from_fn(|crank| self.motors.arc(unit, crank, numbers[crank])))
+            }
+        }
     }
 
     /// True if it can ask for the legs' lengths.
@@ -249,7 +301,7 @@ impl Encoder {
                     whole.push(self.number(*leg, values, ends), sent.clone(), out);
                 }
                 Token::Scaled { place, factor, whole } => {
-                    whole.push((factor * values.quantity(*place)).round() as i64, 0..whole.width, out);
+                    whole.push((factor * self.quantity(*place, values)).round() as i64, 0..whole.width, out);
                 }
                 Token::Count(whole) => whole.push(wrapped(values.count.into(), *whole), 0..whole.width, out),
                 Token::Checksum { kind, from, whole } => {
@@ -259,7 +311,7 @@ impl Encoder {
                 // Writing to a vector cannot fail.
                 Token::Decimal { leg } => drop(write!(out, "{}", self.number(*leg, values, SIXTEEN_BITS))),
                 Token::Float { place, factor, is_double, little } => {
-                    let value = factor * values.quantity(*place);
+                    let value = factor * self.quantity(*place, values);
                     let from = out.len();
                     if *is_double {
                         out.extend(value.to_be_bytes());
@@ -271,9 +323,17 @@ impl Encoder {
                     }
                 }
                 Token::Quantity { place, factor, decimals } => {
-                    drop(write!(out, "{:.decimals$}", factor * values.quantity(*place)));
+                    drop(write!(out, "{:.decimals$}", factor * self.quantity(*place, values)));
                 }
             }
+        }
+    }
+
+    /// The quantity at a place, or the angle of a motor.
+    fn quantity(&self, place: usize, values: &Values) -> f64 {
+        match place.checked_sub(FIRST_ANGLE_PLACE) {
+            Some(angle) => self.motors.number(angle / 6, angle % 6, values.length[angle % 6]),
+            None => values.quantity(place),
         }
     }
 
@@ -331,7 +391,7 @@ fn token(word: &str) -> Option<Token> {
         return Some(token);
     }
     let Some(leg) = name.strip_prefix("leg") else {
-        let place = QUANTITIES.split(' ').position(|quantity| quantity == name)?;
+        let place = place_of(name)?;
         let (kind, factor) = form.split_once('*').unwrap_or((form, "1"));
         let factor = factor.parse().ok().filter(|factor: &f64| factor.is_finite())?;
         if let Some(bits) = kind.strip_prefix('f') {
@@ -357,6 +417,16 @@ fn token(word: &str) -> Option<Token> {
         "lo" => Some(half(1..2)),
         _ => Whole::of(form).map(|whole| Token::Binary { leg, whole, sent: 0..whole.width }),
     }
+}
+
+/// The place of a quantity, or of a motor's angle.
+fn place_of(name: &str) -> Option<usize> {
+    let angles = UNITS.iter().zip((FIRST_ANGLE_PLACE..).step_by(6));
+    let angle = angles.filter_map(|(unit, first)| {
+        let crank = name.strip_prefix(unit)?.parse::<usize>().ok().filter(|crank| (1..=6).contains(crank))?;
+        Some(first + crank - 1)
+    });
+    QUANTITIES.split(' ').position(|quantity| quantity == name).or(angle.last())
 }
 
 /// A counter, or a checksum from a byte on: `count:u8`, `sum:u8`, `xor@2:u8`.

@@ -11,6 +11,7 @@
 //! | `leg1:i16` | the same as a signed number, spread over all of its range without `range`: i8 to i32 |
 //! | `leg1:dec` | the same in decimal digits |
 //! | `length1:6`, `x:1*1000` | a quantity, times a factor, with so many decimals: see [`QUANTITIES`] |
+//! | `degrees1:2`, `radians1`, `pulse1`, `steps1` | the angle of a crank's motor as a quantity: see [`Frames::zero_degrees`] |
 //! | `x:i16*1000` | a quantity times a factor as a whole number, signed or not; the nearest one at its ends |
 //! | `count:u8` | the number of the frame, which begins at 0 again |
 //! | `sum:u8`, `xor:u8` | sum or exclusive or of the bytes before it; `sum@2:u8`: from the third one on |
@@ -18,6 +19,7 @@
 //!
 //! ```
 //! use moris_live::frame::{Encoder, Values};
+//! use moris_washout::Rig;
 //!
 //! let text = r#"
 //!     name = "own"
@@ -28,7 +30,7 @@
 //!     frame = "'A' leg1:dec 'B' leg2:dec 0A"
 //!     stop = "'X' 0A"
 //! "#;
-//! let encoder = Encoder::new(&text.parse()?, [1.0, 1.6])?;
+//! let encoder = Encoder::new(&text.parse()?, &Rig::default())?;
 //! let mut frame = Vec::new();
 //! encoder.frame(&Values { length: [1.15; 6], ..Values::default() }, &mut frame);
 //! assert_eq!(frame, b"A250B750\n");
@@ -36,14 +38,15 @@
 //! ```
 
 mod encode;
+mod motors;
 mod report;
 
 use std::str::FromStr;
 
+use moris_washout::Rig;
 use serde::Deserialize;
 
 pub use encode::{Encoder, QUANTITIES, Values};
-pub use report::reported;
 
 /// A template of frames.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -58,9 +61,21 @@ pub struct Frames {
     /// Numbers for the shortest and the longest actuator: 0 and 65,535 by default, or the ends of
     /// signed numbers.
     pub range: Option<[i64; 2]>,
-    /// Actuators, from 1, whose numbers fall with their length.
+    /// Actuators, from 1, whose numbers fall with their length; cranks whose motor turns against
+    /// its arm.
     #[serde(default)]
     pub reversed: Vec<usize>,
+    /// Angle of each crank's motor while the arm is level \[deg\]; the motor's angle is this one
+    /// plus that of the arm, or minus it where the crank is reversed.
+    #[serde(default)]
+    pub zero_degrees: [f64; 6],
+    /// Servo pulse at a motor's angle of 0 \[us\].
+    #[serde(default = "usual_pulse_centre")]
+    pub pulse_centre: f64,
+    /// Change of the servo pulse with the motor's angle \[us/deg\]; needed for `pulse1`.
+    pub pulse_per_degree: Option<f64>,
+    /// Steps of a motor in a turn of the arm, its gear included; needed for `steps1`.
+    pub steps_per_turn: Option<f64>,
     /// Time between frames \[s\].
     #[serde(default = "millisecond")]
     pub interval: f64,
@@ -69,7 +84,8 @@ pub struct Frames {
     /// Speed of a leg with which the controller goes from anywhere to its first length \[m/s\], if
     /// it limits that by itself.
     pub slow_start: Option<f64>,
-    /// Sent before a start: asks for the legs' lengths, which [`reported`] reads from the answer.
+    /// Sent before a start: asks for the legs' positions, which [`Encoder::reported`] reads from the
+    /// answer.
     #[serde(default)]
     pub ask: String,
     /// Sent when the platform starts.
@@ -89,6 +105,10 @@ fn millisecond() -> f64 {
     1e-3
 }
 
+fn usual_pulse_centre() -> f64 {
+    1500.0
+}
+
 /// Reason for which a template cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FramesError {
@@ -98,9 +118,12 @@ pub enum FramesError {
     /// A token is unknown.
     #[error("the token {0} is none of moris-live's")]
     Token(String),
-    /// A number is out of its range.
+    /// A number is out of its range, or missing.
     #[error("{0}")]
     Range(&'static str),
+    /// Angles for a rig that has none.
+    #[error("the frames have angles of cranks, but this rig has legs: use length1 or leg1, or a rig with cranks")]
+    Angles,
 }
 
 impl FromStr for Frames {
@@ -123,19 +146,27 @@ impl FromStr for Frames {
         if frames.range.iter().flatten().any(|end| !(-(1 << 40)..=1 << 40).contains(end)) {
             return Err(FramesError::Range("range has numbers of at most 40 bits"));
         }
-        Encoder::new(&frames, [0.0, 1.0])?;
+        let factors = [frames.pulse_per_degree, frames.steps_per_turn].into_iter().flatten();
+        if factors.into_iter().any(|factor| !(1e-3..=1e9).contains(&factor)) {
+            return Err(FramesError::Range("pulse-per-degree and steps-per-turn must be from 0.001 to 1e9"));
+        }
+        if frames.zero_degrees.iter().chain([&frames.pulse_centre]).any(|number| !(-1e5..=1e5).contains(number)) {
+            return Err(FramesError::Range("zero-degrees and pulse-centre must be from -1e5 to 1e5"));
+        }
+        Encoder::of_any_rig(&frames, &Rig::default())?;
         Ok(frames)
     }
 }
 
 /// The shipped templates, each with its name and text.
-pub const SHIPPED: [(&str, &str); 7] = [
+pub const SHIPPED: [(&str, &str); 8] = [
     ("json", include_str!("tables/json.toml")),
     ("csv", include_str!("tables/csv.toml")),
     ("amc-aasd15a", include_str!("tables/amc-aasd15a.toml")),
     ("motion4sim", include_str!("tables/motion4sim.toml")),
     ("bff", include_str!("tables/bff.toml")),
     ("simtools", include_str!("tables/simtools.toml")),
+    ("servos", include_str!("tables/servos.toml")),
     ("vr-pose", include_str!("tables/vr-pose.toml")),
 ];
 

@@ -1,25 +1,38 @@
 //! Reports of a controller.
 
-use serde::Deserialize;
+use serde_json::Value;
 
-#[derive(Deserialize)]
-struct Report {
-    legs: [f64; 6],
+use super::motors::UNITS;
+
+/// Six numbers of a report, and their place in [`UNITS`]; none for lengths \[m\].
+pub type Report = (Option<usize>, [f64; 6]);
+
+/// The numbers in the answer of a controller: the word `legs` or one of [`UNITS`] and six numbers
+/// between commas, or an object with a list of that name. None in other packets.
+pub fn report(answer: &[u8]) -> Option<Report> {
+    let text = str::from_utf8(answer).ok()?.trim();
+    let names = std::iter::once((None, "legs")).chain((0..).map(Some).zip(UNITS));
+    let object: Option<Value> = serde_json::from_str(text).ok();
+    for (unit, name) in names {
+        let numbers = match &object {
+            Some(object) => object.get(name).and_then(|list| serde_json::from_value(list.clone()).ok()),
+            None => text.strip_prefix(name).and_then(|rest| rest.strip_prefix(',')).and_then(listed),
+        };
+        if let Some(numbers) = numbers {
+            return Some((unit, numbers));
+        }
+    }
+    None
 }
 
-/// The legs' lengths \[m\] in the answer of a controller: the word `legs` and six numbers between
-/// commas, or an object with a list `legs`. None in other packets.
-pub fn reported(answer: &[u8]) -> Option<[f64; 6]> {
-    let text = str::from_utf8(answer).ok()?.trim();
-    let Some(list) = text.strip_prefix("legs,") else {
-        return serde_json::from_str(text).ok().map(|Report { legs }| legs);
-    };
+/// Six numbers between commas.
+fn listed(list: &str) -> Option<[f64; 6]> {
     let mut fields = list.split(',');
-    let mut lengths = [0.0; 6];
-    for length in &mut lengths {
-        *length = fields.next()?.trim().parse().ok()?;
+    let mut numbers = [0.0; 6];
+    for number in &mut numbers {
+        *number = fields.next()?.trim().parse().ok()?;
     }
-    fields.next().is_none().then_some(lengths)
+    fields.next().is_none().then_some(numbers)
 }
 
 #[cfg(test)]
@@ -27,10 +40,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_are_read_from_both_forms_and_from_nothing_else() {
-        let expected = Some([1.1, 1.2, 1.3, 1.4, 1.5, 1.6]);
-        assert_eq!(reported(b"legs,1.1, 1.2,1.3,1.4,1.5,1.6\n"), expected);
-        assert_eq!(reported(b"{\"legs\":[1.1,1.2,1.3,1.4,1.5,1.6]}\n"), expected);
+    fn numbers_are_read_from_both_forms_and_from_nothing_else() {
+        let numbers = [1.1, 1.2, 1.3, 1.4, 1.5, 1.6];
+        for (unit, name) in [(None, "legs"), (Some(1), "degrees"), (Some(3), "steps")] {
+            let expected = Some((unit, numbers));
+            assert_eq!(report(format!("{name},1.1, 1.2,1.3,1.4,1.5,1.6\n").as_bytes()), expected);
+            assert_eq!(report(format!("{{\"{name}\":[1.1,1.2,1.3,1.4,1.5,1.6]}}\n").as_bytes()), expected);
+        }
         for wrong in [
             &b""[..],
             b"legs?\n",
@@ -41,7 +57,7 @@ mod tests {
             b"{\"arms\":[1,1,1,1,1,1]}",
             b"\xFF\xFE",
         ] {
-            assert_eq!(reported(wrong), None, "{wrong:?}");
+            assert_eq!(report(wrong), None, "{wrong:?}");
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Places of the legs: stop and start, restarts, a lost controller, parking.
 
-use moris_live::{Event, Legs, Motion, Refusal, STEP, Sample, Session, Settings, State};
-use moris_washout::Parameters;
+use moris_live::{Commands, Event, Legs, Motion, Refusal, STEP, Sample, Session, Settings, State};
+use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{Geometry, leg_lengths};
+use moris_washout::{Parameters, Rig};
 
 /// A session that is stepped, with the legs' speeds and accelerations judged.
 struct Judged {
@@ -12,7 +13,11 @@ struct Judged {
 
 impl Judged {
     fn new(settings: &Settings) -> Judged {
-        let session = Session::new(&Parameters::default(), settings).unwrap();
+        Self::on(&Parameters::default(), settings)
+    }
+
+    fn on(parameters: &Parameters, settings: &Settings) -> Judged {
+        let session = Session::new(parameters, settings).unwrap();
         let before = [session.commands().length; 2];
         Judged { session, before }
     }
@@ -124,7 +129,7 @@ fn the_way_home_begins_at_reported_lengths() {
     let geometry = Geometry::from(&judged.session.washout().parameters().rig);
     let reported = [1.35, 1.31, 1.42, 1.38, 1.29, 1.44];
     let wrong = judged.session.locate(Legs::Reported([1.3, 1.3, 1300.0, 1.3, 1.3, 1.3])).unwrap_err().to_string();
-    assert!(wrong.starts_with("actuator 3 is reported to be 1300 m long") && wrong.contains("unit"), "{wrong}");
+    assert!(wrong.starts_with("actuator 3 is reported at 1300 m, ") && wrong.contains("unit"), "{wrong}");
     assert!(judged.session.locate(Legs::Reported([f64::NAN; 6])).is_err() && !judged.session.is_located());
     judged.session.locate(Legs::Reported(reported)).unwrap();
     judged.before = [reported; 2];
@@ -200,10 +205,88 @@ fn the_settled_pose_of_a_platform_that_hangs_is_its_lowest() {
     assert!(commands.length.iter().all(|length| (length - 1.588).abs() < 1e-9), "{:?}", commands.length);
 }
 
+/// A platform with arms of 184 mm at -60 to 60 degrees; joints 6, 5 and 4 mirror 1, 2 and 3.
+fn with_cranks() -> Parameters {
+    let joints = |half: [[f64; 2]; 3]| {
+        std::array::from_fn(|i| {
+            let [x, y] = half[i.min(5 - i)];
+            Vector3::new(if i < 3 { x } else { -x }, y, 0.0)
+        })
+    };
+    let arm = 0.184_15;
+    let rig = Rig {
+        base: joints([[0.2032, 0.351_953], [0.4064, 0.0], [0.2032, -0.351_953]]),
+        platform: joints([[0.306_456, 0.257_147], [0.375_924, 0.136_825], [0.069_468, -0.393_972]]),
+        neutral_height: 0.648_134,
+        crank_arm: arm,
+        crank_rod: 0.7239,
+        crank_heading: [150.0, -90.0, 30.0, 150.0, -90.0, 30.0].map(f64::to_radians),
+        crank_min_angle: -60f64.to_radians(),
+        crank_max_angle: 60f64.to_radians(),
+        velocity_limit: 6.0 * arm,
+        acceleration_limit: 60.0 * arm,
+        ..Rig::default()
+    };
+    let mut parameters = Parameters { rig, ..Parameters::default() };
+    parameters.safety.position_limit = Vector3::new(0.29, 0.28, 0.1);
+    parameters
+}
+
+/// Rods and arms as they are in each pose: |p + R a - b - arm| = rod.
 #[test]
-fn cranks_are_refused_because_a_session_commands_lengths() {
-    let mut parameters = Parameters::default();
-    parameters.rig.crank_arm = 0.2;
-    let refusal = Session::new(&parameters, &Settings::default()).unwrap_err();
-    assert!(refusal.variable == "crank.arm" && refusal.reason.contains("0.2 m"), "{refusal}");
+fn cranks_go_from_their_lowest_arms_to_neutral_and_back() {
+    let parameters = with_cranks();
+    let rig = parameters.rig;
+    let geometry = Geometry::from(&rig);
+    let mut judged = Judged::on(&parameters, &Settings::default());
+    let closes = |session: &Session| {
+        let Commands { length, pose, .. } = session.commands();
+        let rotation = pose.orientation.rotation;
+        for (k, arc) in length.iter().enumerate() {
+            let (sin, cos) = (arc / rig.crank_arm).sin_cos();
+            let (across, along) = rig.crank_heading[k].sin_cos();
+            let arm = rig.crank_arm * Vector3::new(cos * along, cos * across, sin);
+            let rod = pose.position + rotation * rig.platform[k] - rig.base[k] - arm;
+            assert!((rod.norm() - rig.crank_rod).abs() < 1e-9, "{} m", rod.norm());
+        }
+        assert!(geometry.transmission(pose) >= 0.3 - 1e-9, "{}", geometry.transmission(pose));
+    };
+    // With a numerical search of the heave in numpy the transmission is 0.3 at -52.37 degrees.
+    let lowest = judged.session.commands().length;
+    let degrees = lowest.map(|arc| (arc / rig.crank_arm).to_degrees());
+    assert!(degrees.iter().all(|angle| (-52.4..-52.0).contains(angle)), "{degrees:?}");
+    judged.session.handle(Event::Start).unwrap();
+    while judged.session.state() != State::Neutral {
+        judged.run(STEP);
+        closes(&judged.session);
+        assert!(judged.session.time() < 10.0);
+    }
+    assert!(judged.session.commands().length.iter().all(|arc| arc.abs() < 0.03 * 0.386), "level arms");
+    judged.session.handle(Event::Engage).unwrap();
+    judged.run(20.0);
+    assert!(judged.session.commands().washout.felt_specific_force.x.abs() > 0.05, "no cue");
+    judged.session.handle(Event::Park).unwrap();
+    judged.until(State::Settled, 9.0);
+    closes(&judged.session);
+    let parked = judged.session.commands().length;
+    assert!((0..6).all(|k| (parked[k] - lowest[k]).abs() < 1e-9), "{parked:?}");
+}
+
+#[test]
+fn cranks_begin_at_reported_angles_within_their_arc() {
+    let mut judged = Judged::on(&with_cranks(), &Settings { starts_settled: false, ..Settings::default() });
+    let arm = judged.session.washout().parameters().rig.crank_arm;
+    let arcs = [10.0, -12.0, 5.0, 0.0, -20.0, 8.0].map(|degrees: f64| arm * degrees.to_radians());
+    let wrong = judged.session.locate(Legs::Reported([arm * 1.5; 6])).unwrap_err().to_string();
+    assert!(wrong.starts_with("actuator 1 is reported at 85.943669 degrees"), "{wrong}");
+    assert!(wrong.contains("from -60 to 60 degrees"), "{wrong}");
+    judged.session.locate(Legs::Reported(arcs)).unwrap();
+    judged.before = [arcs; 2];
+    judged.session.handle(Event::Start).unwrap();
+    judged.run(STEP);
+    let commands = judged.session.commands();
+    assert!((0..6).all(|k| (commands.length[k] - arcs[k]).abs() < 1e-6), "{:?}", commands.length);
+    let found = leg_lengths(&Geometry::from(&judged.session.washout().parameters().rig), &commands.pose);
+    assert!((0..6).all(|k| (found[k] - commands.length[k]).abs() < 1e-9), "{found:?}");
+    judged.until(State::Neutral, 10.0);
 }
