@@ -3,7 +3,7 @@
     cargo build-fmu
     python3 examples/14_worst_case.py RECORDINGS... [--strategy NAMES] [--points NUMBER] [--rig FILE] [--platform FILE]
 
-The washout's legs command StewartPlatform.fmu, a platform with dynamics; the washout gets no feedback. Machines have 50 to
+The washout's legs or cranks command StewartPlatform.fmu, a platform with dynamics; the washout gets no feedback. Machines have 50 to
 150 % of the load, 70 to 130 % of the bandwidth and 0 to 50 ms of dead time. All combinations of nominal, least and largest are
 tried, then random points. Needs the package `moris`, FMPy and NumPy.
 """
@@ -25,12 +25,11 @@ STRATEGIES = ["classical", "adaptive", "optimal", "predictive", "robust"]
 COMMAND_RATE = 500  # commands to the legs a second
 LOADS, BANDWIDTHS, DEAD_TIMES = (0.5, 1.5), (0.7, 1.3), (0.0, 0.05)  # multiples of the nominal, and s
 LEAST_DESIRED_FORCE = 0.03  # RMS of a channel that counts, and least error [m/s²]
-COMMANDS = [f"command[{leg}].length" for leg in range(1, 7)]
 FELT = [f"rider.specificForce.{axis}" for axis in "xyz"]
 MASSES = ["platform.mass", "rider.mass", "payload.mass"]
 INERTIAS = [f"{part}.inertia.{element}" for part in ("platform", "rider") for element in ("xx", "yy", "zz", "xy", "xz", "yz")]
 ERROR, SHAKE, JOLT = range(3)
-OF_RIG = ("rig.", "head.", "actuator.minLength", "actuator.maxLength")  # parameters that the washout's rig gives the platform
+OF_RIG = ("rig.", "head.", "crank.", "actuator.minLength", "actuator.maxLength")  # parameters that the washout's rig gives the platform
 
 
 class Machine:
@@ -47,12 +46,13 @@ class Machine:
         values = {name: value for name, value in parameters.items() if name in self.references}
         self.fmu.setReal([self.references[name] for name in values], list(values.values()))
 
-    def felt(self, lengths, leans, step):
+    def felt(self, commanded, leans, step):
         """Specific force that the rider feels at each command (N, 3) [m/s²], and whether speed or force was limited."""
-        inputs = [self.references[name] for name in (*COMMANDS, "rider.lean")]
+        quantity, positions = commanded
+        inputs = [self.references[name] for name in (*(f"command[{leg}].{quantity}" for leg in range(1, 7)), "rider.lean")]
         outputs = [self.references[name] for name in FELT]
         flags = [self.references[f"status.{name}"] for name in ("driveLimited", "forceLimited", "atStop")]
-        commands = np.column_stack([lengths, leans])
+        commands = np.column_stack([positions, leans])
         slopes = np.diff(commands, axis=0) / step
         self.fmu.setupExperiment(startTime=0.0)
         self.fmu.enterInitializationMode()
@@ -118,7 +118,9 @@ def on_machine(task):
     rides, limited = [], np.zeros(2, bool)
     for recording, simulation in commanded(files, strategy, rig):
         machine = Machine({name: value for name, value in simulation.parameters.items() if name.startswith(OF_RIG)} | platform)
-        felt, found = machine.felt(simulation["actuator.length"], simulation["rider.lean"], 1 / COMMAND_RATE)
+        quantity = "angle" if simulation.parameters["crank.arm"] else "length"
+        commands = quantity, simulation[f"actuator.{quantity}"]
+        felt, found = machine.felt(commands, simulation["rider.lean"], 1 / COMMAND_RATE)
         machine.close()
         rides.append((recording, simulation["vehicle.specificForce"], felt))
         limited |= found

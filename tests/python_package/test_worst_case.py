@@ -25,7 +25,7 @@ def felt_on(worst_case, simulation, **changed):
     parameters = worst_case.default_platform() | {name.replace("_", ".", 1): value for name, value in changed.items()}
     machine = worst_case.Machine(parameters)
     try:
-        return machine.felt(simulation["actuator.length"], simulation["rider.lean"], STEP)
+        return machine.felt(("length", simulation["actuator.length"]), simulation["rider.lean"], STEP)
     finally:
         machine.close()
 

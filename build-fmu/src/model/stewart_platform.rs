@@ -50,5 +50,7 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
 /// The platform starts at neutral, and its commands are those of neutral.
 fn commands_at_neutral(start: &[f64]) -> NamedValues {
     let rig = overlaid(&Rig::default(), &values_of(&STEWART_PLATFORM.functions.identity, start));
-    (1..).zip(neutral_lengths(&rig)).map(|(leg, length)| (format!("command[{leg}].length"), length)).collect()
+    let (quantity, unit) = if rig.has_cranks() { ("angle", rig.crank_arm) } else { ("length", 1.0) };
+    let neutral = (1..).zip(neutral_lengths(&rig));
+    neutral.map(|(leg, position)| (format!("command[{leg}].{quantity}"), position / unit)).collect()
 }

@@ -18,12 +18,6 @@ pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Para
     parameters.check_ranges()?;
     check_torso(setting.torso_length, setting.head_height, "platform")?;
     // The rules for a rig are the washout's, in the washout's internal step.
-    if rig.has_cranks() {
-        return refuse(
-            "crank.arm",
-            format!("is {} m, but this platform's actuators are legs; set it to 0", rig.crank_arm),
-        );
-    }
     check_rig(rig, StructureParameters::START.max_step)?;
     check_tunable(parameters, at_rest)
 }

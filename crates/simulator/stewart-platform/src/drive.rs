@@ -1,4 +1,4 @@
-//! A leg's drive: a second-order response to the command, within limits of speed, acceleration and
+//! The drive of a leg, or of a crank along its arc: a second-order response to the command, within limits of speed, acceleration and
 //! stroke.
 
 use moris_washout::motion::Motion;
@@ -29,14 +29,15 @@ impl Drive {
     /// For a step of `step` seconds.
     pub fn new(parameters: &Parameters, step: f64) -> Self {
         let (actuators, rig) = (&parameters.actuators, &parameters.rig);
+        let [min, max] = rig.stroke();
         Drive {
             step,
             bandwidth: actuators.bandwidth,
             damping: actuators.damping,
             response: Response::new(actuators.bandwidth, actuators.damping, step),
             limits: Limits {
-                min: rig.min_length,
-                max: rig.max_length,
+                min,
+                max,
                 velocity: rig.velocity_limit,
                 acceleration: rig.acceleration_limit,
                 longest_step: parameters.setting.max_step,

@@ -9,6 +9,8 @@
 //! - F: forces of the legs; L: lengths of the legs; J: Jacobian of the legs.
 //! - M: inertia matrix of the body at the origin; c: its weight and its velocity-dependent forces.
 //! - d: accelerations of the legs while x'' is zero.
+//!
+//! With cranks L are the arcs of the arms' ends, and F the forces along them: a torque per arm.
 
 use moris_washout::platform::{Geometry, PlatformMotion, jacobian, leg_accelerations};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};

@@ -53,12 +53,16 @@ impl Field for Inertia {
 interface! {
     /// Commands to the actuators, and the rider's lean.
     pub struct Input: Input, Continuous {
-        /// Commanded length of the actuator, from base joint to platform joint; a length outside the stroke is rejected.
+        /// Commanded length of the actuator, from base joint to platform joint; a length outside the stroke is rejected. Without effect with cranks.
         "command[#].length" length: [f64; 6] [M] { 0.0 ..= 200.0 } = DEFAULT_NEUTRAL_LENGTHS;
         /// Commanded rate of the actuator's length, which extrapolates the command during a communication step; 0 holds the command.
         "command[#].velocity" velocity: [f64; 6] [M_PER_S] { -100.0 ..= 100.0 } = [0.0; 6];
         /// Lean of the rider's torso relative to the mock-up, positive to the right; it moves the head.
         "rider.lean" lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
+        /// Commanded angle of the crank's arm above its heading; an angle outside crank.minAngle to crank.maxAngle is rejected. Without effect with legs.
+        "command[#].angle" angle: [f64; 6] [RAD] { -7.0 ..= 7.0 } = [0.0; 6];
+        /// Commanded angular velocity of the crank's arm, which extrapolates the angle as command[#].velocity does the length.
+        "command[#].angularVelocity" angular_velocity: [f64; 6] [RAD_PER_S] { -100.0 ..= 100.0 } = [0.0; 6];
     }
 }
 
@@ -77,13 +81,13 @@ interface! {
         "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Angular acceleration of the platform in the base frame.
         "platform.angularAcceleration.@" angular_acceleration: Vector3<f64> [RAD_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
-        /// Length of the actuator, from base joint to platform joint.
+        /// Length of the actuator, from base joint to platform joint; with cranks, the distance from axle to platform joint.
         "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], starts_from(&["rig."]);
         /// Rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
         /// Acceleration of the actuator's length.
         "actuator[#].acceleration" leg_acceleration: [f64; 6] [M_PER_S2] = [0.0; 6];
-        /// Force of the actuator's drive along the actuator, positive where it pushes; within actuator.forceLimit.
+        /// Force of the actuator's drive along the actuator, positive where it pushes; with cranks, of the arm's end along its circle, positive upward. Within actuator.forceLimit.
         "actuator[#].force" force: [f64; 6] [N] = [0.0; 6], starts_from(&["gravity", "payload.", "platform.", "rider.", "rig."]);
         /// Force of the stop at an end of the actuator's stroke, positive where it pushes; in an impact its mean over an internal step.
         "actuator[#].stopForce" stop_force: [f64; 6] [N] = [0.0; 6];
@@ -103,6 +107,10 @@ interface! {
         "status.atStop" at_stop: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0, starts_from(&["actuator.", "rig."]);
+        /// Angle of the crank's arm above its heading; 0 with legs.
+        "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], starts_from(&["crank.", "rig."]);
+        /// Angular velocity of the crank's arm; 0 with legs.
+        "actuator[#].angularVelocity" angular_rate: [f64; 6] [RAD_PER_S] = [0.0; 6];
     }
 }
 
@@ -115,7 +123,7 @@ interface! {
         "actuator.damping" damping: f64 { 0.05 ..= 10.0 } = std::f64::consts::FRAC_1_SQRT_2, main(5);
         /// Dead time between a command and the drive's response.
         "actuator.deadTime" dead_time: f64 [S] { 0.0 ..= 10.0 } = 0.004, main(6);
-        /// Largest force of an actuator's drive, in both directions.
+        /// Largest force of an actuator's drive, in both directions; with cranks, the torque divided by crank.arm.
         "actuator.forceLimit" force_limit: f64 [N] { 1e-3 ..= 1e9 } = 4000.0, main(7);
     }
 }
@@ -179,7 +187,7 @@ const DEFAULT_NEUTRAL_LENGTHS: [f64; 6] = [
     1.299_962_822_323_89,
 ];
 
-/// Lengths of a rig's legs at neutral \[m\].
+/// Lengths of a rig's legs, or arcs of its cranks, at neutral \[m\].
 pub fn neutral_lengths(rig: &Rig) -> [f64; 6] {
     leg_lengths(&Geometry::from(rig), &Pose::neutral(rig))
 }

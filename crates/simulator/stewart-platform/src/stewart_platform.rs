@@ -4,7 +4,9 @@ use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterErro
 use moris_washout::cueing::evaluator::{Felt, felt};
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::platform::LocationFrame;
-use moris_washout::platform::{Geometry, Legs, PlatformMotion, Pose, motion_of_legs};
+use moris_washout::platform::{
+    Geometry, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations, motion_of_legs,
+};
 use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
@@ -127,19 +129,20 @@ impl Model for StewartPlatform {
 
     /// Advances by `step` seconds with commands that change at the commanded rates.
     ///
-    /// Any input is safe: a length outside the stroke is rejected, and the previous command is
+    /// Any input is safe: a length or angle outside the stroke is rejected, and the previous command is
     /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
     /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     fn step(&mut self, input: &Input, step: f64) {
-        // Range of the commanded velocities [m/s].
+        // Range of the commanded velocities [m/s], and of the angular ones [rad/s].
         const VELOCITY_RANGE: (f64, f64) = bounds_of(Input::ROWS, "command[#].velocity");
-        let end = std::array::from_fn(|i| {
-            input.length[i] + step * input.velocity[i].clamp(VELOCITY_RANGE.0, VELOCITY_RANGE.1)
-        });
-        self.step_between(input, &Input { length: end, ..*input }, step);
+        let after = |from: &[f64; 6], rate: &[f64; 6]| {
+            std::array::from_fn(|i| from[i] + step * rate[i].clamp(VELOCITY_RANGE.0, VELOCITY_RANGE.1))
+        };
+        let (length, angle) = (after(&input.length, &input.velocity), after(&input.angle, &input.angular_velocity));
+        self.step_between(input, &Input { length, angle, ..*input }, step);
     }
 
-    /// Advances by `step` seconds. The lengths and the rider's lean change linearly from `start` to
+    /// Advances by `step` seconds. The commands and the rider's lean change linearly from `start` to
     /// `end`; the commanded rates are ignored.
     fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
@@ -147,8 +150,8 @@ impl Model for StewartPlatform {
         }
         let step = step.min(MOST_INTERNAL_STEPS * self.parameters.setting.max_step);
         self.limited = DriveStatus::default();
-        let from = self.possible(&start.length);
-        let to = self.possible(&end.length);
+        let from = self.possible(start);
+        let to = self.possible(end);
         self.commands.push(&Ramp { duration: step, from, to });
         let kept = self.now.lean;
         let (lean, leaning) = (lean_or(start.lean, kept), lean_or(end.lean, kept));
@@ -163,8 +166,11 @@ impl Model for StewartPlatform {
     /// Lengths change at the slopes that the host sets, and at the commanded
     /// rates where it sets none.
     fn input_after(start: &Input, slope: &Input, step: f64) -> Input {
-        let rates = std::array::from_fn(|i| if slope.length[i] != 0.0 { slope.length[i] } else { start.velocity[i] });
-        start.extrapolated(&Input { length: rates, velocity: [0.0; 6], ..*slope }, step)
+        let rates = |slope: &[f64; 6], rate: &[f64; 6]| {
+            std::array::from_fn(|i| if slope[i] != 0.0 { slope[i] } else { rate[i] })
+        };
+        let (length, angle) = (rates(&slope.length, &start.velocity), rates(&slope.angle, &start.angular_velocity));
+        start.extrapolated(&Input { length, velocity: [0.0; 6], angle, angular_velocity: [0.0; 6], ..*slope }, step)
     }
 
     /// The outputs now.
@@ -201,6 +207,8 @@ impl Model for StewartPlatform {
             felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
             felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
             stroke_margin: self.stroke_margin(&self.now.legs).1,
+            angle: now.angular_rate,
+            angular_rate: self.angles(&self.now.acceleration.into()),
             ..Output::default()
         }
     }
@@ -212,12 +220,15 @@ impl StewartPlatform {
         &self.parameters
     }
 
-    /// The commands inside the stroke; in place of any other, the last one that was inside.
-    fn possible(&mut self, lengths: &[f64; 6]) -> [f64; 6] {
-        let stroke = self.parameters.rig.min_length..=self.parameters.rig.max_length;
-        for (last, length) in self.last_command.iter_mut().zip(lengths) {
-            if stroke.contains(length) {
-                *last = *length;
+    /// The commanded lengths or arcs inside the stroke \[m\]; in place of any other, the last one that
+    /// was inside.
+    fn possible(&mut self, input: &Input) -> [f64; 6] {
+        let rig = &self.parameters.rig;
+        let [start, end] = rig.stroke();
+        let commands = if rig.has_cranks() { input.angle.map(|angle| rig.crank_arm * angle) } else { input.length };
+        for (last, command) in self.last_command.iter_mut().zip(commands) {
+            if (start..=end).contains(&command) {
+                *last = command;
             } else {
                 self.limited.command = true;
             }
@@ -270,8 +281,8 @@ impl StewartPlatform {
     /// The step in which every leg reaches its target, if the drives have the force for it; their
     /// forces follow from the motion.
     fn free_step(&self, targets: &[DriveTarget; 6], step: f64) -> Option<Next> {
-        let rig = &self.parameters.rig;
-        if targets.iter().any(|target| !(rig.min_length..=rig.max_length).contains(&target.motion.position)) {
+        let [start, end] = self.parameters.rig.stroke();
+        if targets.iter().any(|target| !(start..=end).contains(&target.motion.position)) {
             return None;
         }
         let mean = Vector6::from_fn(|i, _| (targets[i].motion.velocity - self.now.legs.velocity[i]) / step);
@@ -290,20 +301,18 @@ impl StewartPlatform {
     /// The step with limited forces, or with legs at a stop: the legs' motion follows from the
     /// body's.
     fn constrained_step(&self, targets: &[DriveTarget; 6], step: f64) -> Next {
-        let (rig, limit) = (&self.parameters.rig, self.parameters.actuators.force_limit);
+        let ([start, end], limit) = (self.parameters.rig.stroke(), self.parameters.actuators.force_limit);
         let Legs { length, velocity } = self.now.legs;
         let dynamics = self.dynamics(&motion_ahead(&self.now.motion, 0.5 * step));
         let free = Vector6::from(velocity) + step * dynamics.leg_accelerations(&Vector6::zeros());
         let demand: [Leg; 6] = std::array::from_fn(|i| Leg {
             demand: targets[i].motion.velocity,
             // A stop is inelastic: the leg ends the step at rest there.
-            slowest: (2.0 * (rig.min_length - length[i]) / step - velocity[i]).min(0.0),
-            fastest: (2.0 * (rig.max_length - length[i]) / step - velocity[i]).max(0.0),
+            slowest: (2.0 * (start - length[i]) / step - velocity[i]).min(0.0),
+            fastest: (2.0 * (end - length[i]) / step - velocity[i]).max(0.0),
         });
         let Outcome { velocity: reached, force } = solve(&free, &(step * dynamics.leg_mobility()), &demand, limit);
-        let length = std::array::from_fn(|i| {
-            (length[i] + 0.5 * step * (velocity[i] + reached[i])).clamp(rig.min_length, rig.max_length)
-        });
+        let length = std::array::from_fn(|i| (length[i] + 0.5 * step * (velocity[i] + reached[i])).clamp(start, end));
         Next {
             legs: Legs { length, velocity: reached.into() },
             force: Some(force),
@@ -321,9 +330,27 @@ impl StewartPlatform {
         force.map(|force| force.clamp(-limit, limit))
     }
 
+    /// Arcs of cranks, or their derivatives, as those of the arms' angles \[rad\]; 0 with legs.
+    fn angles(&self, arcs: &[f64; 6]) -> [f64; 6] {
+        let rig = &self.parameters.rig;
+        if rig.has_cranks() { arcs.map(|arc| arc / rig.crank_arm) } else { [0.0; 6] }
+    }
+
+    /// The lengths of the legs with their rates and accelerations; with cranks, the distances from
+    /// axle to platform joint.
+    fn lengths(&self, instant: &Instant) -> (Legs, [f64; 6]) {
+        let geometry = Geometry::from(&self.parameters.rig);
+        if geometry.cranks.is_none() {
+            return (instant.legs, instant.acceleration.into());
+        }
+        let distances = geometry.with_legs();
+        (inverse_kinematics(&distances, &instant.motion), leg_accelerations(&distances, &instant.motion))
+    }
+
     /// The outputs at an instant, with nothing limited.
     fn output_at(&self, instant: &Instant) -> Output {
         let Instant { motion, legs, force, lean, .. } = instant;
+        let (lengths, leg_acceleration) = self.lengths(instant);
         let drive = self.within_force_limit(*force);
         let felt = self.felt(motion, *lean);
         let PlatformMotion { position, velocity, acceleration, orientation, angular_velocity, angular_acceleration } =
@@ -335,15 +362,17 @@ impl StewartPlatform {
             orientation: orientation.angles,
             angular_velocity,
             angular_acceleration,
-            length: legs.length,
-            leg_velocity: legs.velocity,
-            leg_acceleration: instant.acceleration.into(),
+            length: lengths.length,
+            leg_velocity: lengths.velocity,
+            leg_acceleration,
             force: drive.into(),
             stop_force: (force - drive).into(),
             total_power: drive.dot(&Vector6::from(legs.velocity)),
             felt_specific_force: felt.specific_force,
             felt_angular_velocity: felt.angular_velocity,
             stroke_margin: self.stroke_margin(legs).0,
+            angle: self.angles(&legs.length),
+            angular_rate: self.angles(&legs.velocity),
             ..Output::default()
         }
     }
@@ -357,10 +386,9 @@ impl StewartPlatform {
 
     /// The smallest distance of a leg from an end of its stroke \[m\], and its rate \[m/s\].
     fn stroke_margin(&self, legs: &Legs) -> (f64, f64) {
-        let rig = &self.parameters.rig;
-        let margins = legs.length.iter().zip(&legs.velocity).flat_map(|(&length, &velocity)| {
-            [(length - rig.min_length, velocity), (rig.max_length - length, -velocity)]
-        });
+        let [start, end] = self.parameters.rig.stroke();
+        let margins = legs.length.iter().zip(&legs.velocity);
+        let margins = margins.flat_map(|(&length, &velocity)| [(length - start, velocity), (end - length, -velocity)]);
         margins.fold((f64::INFINITY, 0.0), |nearest, next| if next.0 < nearest.0 { next } else { nearest })
     }
 }

@@ -6,7 +6,12 @@ use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 fn input(k: usize) -> Input {
     let t = k as f64 * 0.001;
     let swing = |i: usize| 0.35 * (5.0 * t + i as f64).sin() + if k % 700 < 350 { 0.2 } else { -0.2 };
-    Input { length: std::array::from_fn(|i| 1.3 + swing(i)), velocity: [f64::NAN; 6], lean: t.sin() }
+    Input {
+        length: std::array::from_fn(|i| 1.3 + swing(i)),
+        velocity: [f64::NAN; 6],
+        lean: t.sin(),
+        ..Input::default()
+    }
 }
 
 #[test]

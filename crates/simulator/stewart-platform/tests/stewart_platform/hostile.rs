@@ -5,6 +5,8 @@ use moris_interface::SlotModel;
 use moris_stewart_platform::{Input, Model, Output, Parameters, StewartPlatform};
 use proptest::prelude::*;
 
+use crate::cranks::with_cranks;
+
 /// A commanded length, sane or not.
 fn length() -> impl Strategy<Value = f64> {
     prop_oneof![6 => 0.95..1.65_f64, 2 => -50.0..50.0_f64, 1 => Just(f64::NAN), 1 => Just(1e300), 1 => Just(f64::NEG_INFINITY)]
@@ -16,7 +18,13 @@ fn velocity() -> impl Strategy<Value = f64> {
 
 fn input() -> impl Strategy<Value = Input> {
     (prop::array::uniform6(length()), prop::array::uniform6(velocity()), prop_oneof![-1.0..1.0_f64, Just(f64::NAN)])
-        .prop_map(|(length, velocity, lean)| Input { length, velocity, lean })
+        .prop_map(|(length, velocity, lean)| Input {
+            length,
+            velocity,
+            lean,
+            angle: velocity,
+            angular_velocity: length,
+        })
 }
 
 fn step() -> impl Strategy<Value = f64> {
@@ -26,8 +34,9 @@ fn step() -> impl Strategy<Value = f64> {
 fn parameters() -> impl Strategy<Value = Parameters> {
     let actuators = (1.0..400.0_f64, 0.1..3.0_f64, prop_oneof![Just(0.0), 1e-5..0.2_f64], 0.0..1.0_f64);
     let masses = (1.0..2000.0_f64, 0.0..500.0_f64, -0.8..0.8_f64, -0.8..0.8_f64);
-    (actuators, masses, prop_oneof![Just(0.001), 1e-4..0.01_f64]).prop_map(|(actuators, masses, max_step)| {
-        let mut parameters = Parameters::default();
+    let steps = prop_oneof![Just(0.001), 1e-4..0.01_f64];
+    (actuators, masses, steps, any::<bool>()).prop_map(|(actuators, masses, max_step, has_cranks)| {
+        let mut parameters = if has_cranks { with_cranks() } else { Parameters::default() };
         let (mass, payload, x, y) = masses;
         parameters.masses.platform_mass = mass;
         parameters.masses.payload_mass = payload;
@@ -66,13 +75,17 @@ fn check(parameters: &Parameters, platform: &StewartPlatform) -> Result<(), Test
     }
     let limit = parameters.actuators.force_limit;
     for i in 0..6 {
-        let (length, force, stop) = (output.length[i], output.force[i], output.stop_force[i]);
-        prop_assert!((parameters.rig.min_length..=parameters.rig.max_length).contains(&length), "leg {i}: {length}");
+        let (force, stop) = (output.force[i], output.stop_force[i]);
+        let (rig, [start, end]) = (&parameters.rig, parameters.rig.stroke());
+        let position = if rig.has_cranks() { rig.crank_arm * output.angle[i] } else { output.length[i] };
+        // 0 at the short end, 1 at the long one.
+        let place = (position - start) / (end - start);
+        prop_assert!((-1e-12..=1.0 + 1e-12).contains(&place), "actuator {i}: {position} m");
         prop_assert!(force.abs() <= limit, "drive {i}: {force}");
         // The long end pulls, the short end pushes.
         prop_assert!(stop == 0.0 || output.at_stop, "stop {i}: {stop}");
-        prop_assert!(stop >= 0.0 || length > 1.5, "stop {i}: {stop} at {length}");
-        prop_assert!(stop <= 0.0 || length < 1.1, "stop {i}: {stop} at {length}");
+        prop_assert!(stop >= 0.0 || place > 0.83, "stop {i}: {stop} at {place}");
+        prop_assert!(stop <= 0.0 || place < 0.17, "stop {i}: {stop} at {place}");
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 mod allocation;
 #[path = "../../../../../tests/cases/mod.rs"]
 mod cases;
+mod cranks;
 mod hostile;
 mod lean;
 mod refusals;

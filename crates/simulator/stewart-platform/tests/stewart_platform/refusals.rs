@@ -29,7 +29,7 @@ fn each_names_its_variable() {
         ("head.torsoLength", |p| p.setting.torso_length = 1.5),
         ("rig.neutralHeight", |p| p.rig.neutral_height = 2.0),
         ("actuator.minLength", |p| p.rig.min_length = 1.7),
-        ("crank.arm", |p| p.rig.crank_arm = 0.2),
+        ("crank.rod", |p| p.rig.crank_arm = 0.2),
         ("rig.base, rig.platform", |p| p.rig.platform = p.rig.base),
     ];
     for (variable, change) in cases {

@@ -15,7 +15,7 @@ pub struct NominalPlatform {
     location: LocationFrame,
     gravity: f64,
     /// The commands at the step's start; none before the first.
-    last: Option<[f64; 6]>,
+    last: Option<Input>,
 }
 
 impl NominalPlatform {
@@ -34,9 +34,9 @@ impl NominalPlatform {
 
 impl Machine for NominalPlatform {
     fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNELS] {
-        let input = |length: [f64; 6]| Input { length, ..Input::default() };
-        let start = self.last.replace(commanded.length).unwrap_or(commanded.length);
-        self.platform.step_between(&input(start), &input(commanded.length), step);
+        let input = Input { length: commanded.length, angle: commanded.angle, ..Input::default() };
+        let start = self.last.replace(input).unwrap_or(input);
+        self.platform.step_between(&start, &input, step);
         let output = self.platform.output();
         let motion = PlatformMotion {
             position: output.position,
