@@ -13,3 +13,8 @@ export function inDegrees(values) {
   for (let k = 0; k < made.length; k += 1) made[k] = values[k] * DEGREES;
   return made;
 }
+
+/** How the positions of a rig's actuators are shown: lengths of legs, or angles of arms. */
+export const actuatorsOf = ({ cranks }) => (cranks
+  ? { name: "Arm", heading: "Cranks", title: "Angle", unit: "\u00b0", digits: 1, shown: (arcs) => inDegrees(arcs).map((arc) => arc / cranks.arm) }
+  : { name: "Leg", heading: "Legs", title: "Length", unit: "m", digits: 3, shown: (lengths) => lengths });

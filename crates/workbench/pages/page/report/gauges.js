@@ -2,6 +2,7 @@
 
 import { fixed } from "../shared/format.js";
 import { element } from "../shared/dom.js";
+import { actuatorsOf } from "./axes.js";
 import { rgb, strokeColour } from "../shared/palette.js";
 
 export class Gauges {
@@ -11,19 +12,24 @@ export class Gauges {
       const needle = element("div", { class: "needle" });
       const value = element("span", { class: "value" });
       const track = element("div", { class: "track" }, [needle]);
-      box.append(element("div", { class: "gauge" }, [element("span", {}, [`leg ${i + 1}`]), track, value]));
-      return { needle, value };
+      const name = element("span", {});
+      box.append(element("div", { class: "gauge" }, [name, track, value]));
+      return { needle, value, name };
     });
   }
 
-  update(state, stroke) {
+  update(state, rig) {
+    const { stroke } = rig;
     const [shortest, longest] = stroke;
-    this.box.title = `Length of each leg between ${fixed(shortest, 3)} and ${fixed(longest, 3)} m`;
-    this.gauges.forEach(({ needle, value }, i) => {
+    const { name: kind, title, unit, digits, shown } = actuatorsOf(rig);
+    const text = (position) => `${fixed(shown([position])[0], digits)} ${unit}`;
+    this.box.title = `${title} of each ${kind.toLowerCase()} between ${text(shortest)} and ${text(longest)}`;
+    this.gauges.forEach(({ needle, value, name }, i) => {
+      name.textContent = `${kind.toLowerCase()} ${i + 1}`;
       const fraction = (state.legs[i] - shortest) / (longest - shortest);
       needle.style.left = `${100 * Math.min(1, Math.max(0, fraction))}%`;
       needle.style.background = rgb(strokeColour(state.legs[i], stroke));
-      value.textContent = `${fixed(state.legs[i], 3)} m`;
+      value.textContent = text(state.legs[i]);
     });
   }
 }

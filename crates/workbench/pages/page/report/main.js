@@ -205,7 +205,7 @@ function drawMachine() {
   view.rig = now.run.rig;
   const state = stateAt(now.run, now.time);
   view.drawState(state, colour(now.run.colour));
-  gauges.update(state, now.run.rig.stroke);
+  gauges.update(state, now.run.rig);
   chips.update(state);
 }
 

@@ -2,12 +2,13 @@
 
 import { element } from "../shared/dom.js";
 import { DASHES } from "../shared/palette.js";
-import { AXES, inDegrees, LEGS, TURNS } from "./axes.js";
+import { actuatorsOf, AXES, inDegrees, LEGS, TURNS } from "./axes.js";
 
 const overlay = new Set();
 
 /** Every channel of a run: name, unit, values. */
 function channelsOf(run) {
+  const actuators = actuatorsOf(run.rig);
   const cues = [["desired", run.desired], ["felt", run.felt]].flatMap(([what, cue]) => [
     ...AXES.map(([name], i) => [`${name}, ${what}`, "m/s\u00b2", cue.specific_force[i]]),
     ...TURNS.map((name, i) => [`${name} rate, ${what}`, "\u00b0/s", inDegrees(cue.angular_velocity[i])]),
@@ -17,7 +18,7 @@ function channelsOf(run) {
     ...run.position.map((values, i) => [`Position ${AXES[i][1]}`, "m", values]),
     ...run.orientation.map((values, i) => [TURNS[i], "\u00b0", inDegrees(values)]),
     ...run.tilt.map((values, i) => [`Tilt, ${TURNS[i].toLowerCase()}`, "\u00b0", inDegrees(values)]),
-    ...run.legs.map((values, i) => [`Leg ${i + 1}`, "m", values]),
+    ...run.legs.map((values, i) => [`${actuators.name} ${i + 1}`, actuators.unit, actuators.shown(values)]),
   ].map(([name, unit, values]) => ({ name, unit, values }));
 }
 

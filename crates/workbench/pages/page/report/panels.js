@@ -4,7 +4,7 @@ import { DEGREES } from "../shared/format.js";
 import { colour, DASHES } from "../shared/palette.js";
 import { report } from "./data.js";
 import { extent } from "./thin.js";
-import { AXES, inDegrees, LEGS, THREE, TURNS } from "./axes.js";
+import { actuatorsOf, AXES, inDegrees, LEGS, THREE, TURNS } from "./axes.js";
 import { overlaid } from "./overlay.js";
 
 /** Cues that vary less than this are not worth a chart: m/s2, degrees/s. */
@@ -55,6 +55,7 @@ const bothWays = (limit) => (limit > 0 ? [-limit, limit] : []);
 /** The sections of the page for a run: heading, charts, and a note where something is left out. */
 export function sections(run) {
   const position = ({ position: [x, y, z], rig }) => [x, y, z.map((value) => value - rig.neutral_height)];
+  const actuators = actuatorsOf(run.rig);
   const forces = AXES.map(([name, axis]) => `${name}, ${axis}`);
   const rates = TURNS.map((name, i) => `${name} rate, ${AXES[i][1]}`);
   return [
@@ -68,8 +69,8 @@ export function sections(run) {
       { title: "Tilt", unit: "\u00b0", ...series(run, ({ tilt }) => tilt, ["roll", "pitch"], THREE, inDegrees), least: 1 },
       { title: "Tilt rate", unit: "\u00b0/s", ...series(run, ({ tilt_rate: rate }) => rate, ["roll", "pitch"], THREE, inDegrees), limits: bothWays(run.limits.tilt_rate * DEGREES), least: 1 },
     ] },
-    { heading: "Legs", of_run: true, charts: [
-      { title: "Length", unit: "m", ...series(run, ({ legs }) => legs, ["1", "2", "3", "4", "5", "6"], LEGS), limits: run.rig.stroke, height: 190, digits: 3 },
+    { heading: actuators.heading, of_run: true, charts: [
+      { title: actuators.title, unit: actuators.unit, ...series(run, ({ legs }) => legs, ["1", "2", "3", "4", "5", "6"], LEGS, actuators.shown), limits: actuators.shown(run.rig.stroke), height: 190, digits: actuators.digits },
     ] },
     ...furtherSections(),
     ...overlaid(run),

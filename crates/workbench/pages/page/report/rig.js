@@ -1,6 +1,7 @@
 // The rig: its file, and what it can do.
 
 import { element } from "../shared/dom.js";
+import { DEGREES } from "../shared/format.js";
 import { asComment, written } from "./parameter-file.js";
 
 /** Text of the rig file; `of(name)` is a parameter's value. */
@@ -9,11 +10,19 @@ export function rigFile({ heading, rig_name: name, actuator_diameter: diameter }
   const axes = (item) => `[${["x", "y", "z"].map((axis) => real(of(item(axis)))).join(", ")}]`;
   const joints = (where) => [1, 2, 3, 4, 5, 6].map((leg) => `  ${axes((axis) => `rig.${where}[${leg}].${axis}`)},`).join("\n");
   const lines = (prefix, names) => names.map((one) => `${one} = ${real(of(`${prefix}.${one}`))}`);
+  const arm = of("crank.arm");
+  const cranks = () => [
+    "[crank]", ...lines("crank", ["arm", "rod"]),
+    `headingDegrees = [${[1, 2, 3, 4, 5, 6].map((crank) => real(of(`crank.heading[${crank}]`) * DEGREES)).join(", ")}]`,
+    ...["minAngle", "maxAngle"].map((end) => `${end}Degrees = ${real(of(`crank.${end}`) * DEGREES)}`), ...lines("crank", ["leastTransmission"]),
+    ...["velocityLimit", "accelerationLimit"].map((limit) => `${limit} = ${real(of(`actuator.${limit}`) / arm)}`),
+  ];
+  const legs = () => ["[actuator]", ...lines("actuator", ["minLength", "maxLength", "velocityLimit", "accelerationLimit"])];
   return [
     `# ${asComment(heading)}`, `name = ${JSON.stringify(asComment(`${name}, changed`))}`, ...lines("rig", ["neutralHeight"]),
     "", "[base]", "joints = [", joints("base"), "]",
     "", "[platform]", "joints = [", joints("platform"), "]",
-    "", "[actuator]", ...lines("actuator", ["minLength", "maxLength", "velocityLimit", "accelerationLimit"]),
+    "", ...(arm > 0 ? cranks() : legs()),
     ...(diameter === null ? [] : [`diameter = ${real(diameter)}`]),
     "", "[head]", ...lines("head", ["height", "torsoLength"]),
     "", "[safety]", ...["positionLimit", "velocityLimit", "accelerationLimit"].map((limit) => `${limit} = ${axes((axis) => `safety.${axis}.${limit}`)}`),

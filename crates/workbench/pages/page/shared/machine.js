@@ -5,8 +5,15 @@ import { plus, rolled, turned } from "./vector.js";
 /** A point of the platform in the base frame. */
 export const onPlatform = (state, point) => plus(state.position, turned(state.rotation, point));
 
-/** Both ends of each leg. */
-export const legEnds = (rig, state) => rig.base.map((joint, i) => [joint, onPlatform(state, rig.platform[i])]);
+/** Both ends of each leg; of a crank the axle, the end of the arm and the joint. */
+export const legEnds = (rig, state) => rig.base.map((joint, i) => {
+  const top = onPlatform(state, rig.platform[i]);
+  if (!rig.cranks) return [joint, top];
+  const { arm, heading } = rig.cranks;
+  const angle = state.legs[i] / arm;
+  const level = arm * Math.cos(angle);
+  return [joint, plus(joint, [level * Math.cos(heading[i]), level * Math.sin(heading[i]), arm * Math.sin(angle)]), top];
+});
 
 /** A point of the rider's torso, `height` above the seat along the back, `aside` to the left and `ahead`: it leans with the rider. */
 export function onTorso(rig, state, height, aside = 0, ahead = 0) {

@@ -113,22 +113,25 @@ export class View {
 
   addPlates(state) {
     const paint = channels(colour("--plate"));
-    for (const face of plate(this.rig.base, 0.03)) this.addPolygon(face, paint);
-    for (const face of plate(this.rig.platform, 0.05)) this.addPolygon(face.map((point) => onPlatform(state, point)), paint);
+    const thin = this.rig.cranks ? Math.min(1, this.rig.cranks.arm / 0.15) : 1;
+    for (const face of plate(this.rig.base, 0.03 * thin)) this.addPolygon(face, paint);
+    for (const face of plate(this.rig.platform, 0.05 * thin)) this.addPolygon(face.map((point) => onPlatform(state, point)), paint);
   }
 
   addLegs(state) {
-    const body = 0.62 * this.rig.stroke[0];
+    const { cranks, stroke } = this.rig;
     const ends = legEnds(this.rig, state);
-    ends.forEach(([foot, top], i) => {
+    const size = cranks ? Math.min(1, cranks.arm / 0.15) : 1;
+    ends.forEach((points, i) => {
+      const [foot, top] = [points[0], points.at(-1)];
       // Parked legs are meant to be at their end.
-      const paint = state.parked ? channels(colour("--leg-easy")) : strokeColour(state.legs[i], this.rig.stroke);
+      const paint = state.parked ? channels(colour("--leg-easy")) : strokeColour(state.legs[i], stroke);
       const along = direction(minus(top, foot));
-      const mouth = plus(foot, scaled(body, along));
-      this.addRod([mouth, top], 0.035, mixed(paint, [255, 255, 255], 0.35));
-      this.addRod([foot, mouth], 0.075, paint);
-      this.addBall(foot, 0.045, paint);
-      this.addBall(top, 0.04, paint);
+      const mouth = cranks ? points[1] : plus(foot, scaled(0.62 * stroke[0], along));
+      this.addRod([mouth, top], 0.035 * size, mixed(paint, [255, 255, 255], 0.35));
+      this.addRod([foot, mouth], 0.075 * size, paint);
+      this.addBall(foot, 0.045 * size, paint);
+      this.addBall(top, 0.04 * size, paint);
     });
     this.drawnLegs = ends.map((pair) => pair.map((point) => this.camera.project(point)).map(({ x, y }) => [x, y]));
   }

@@ -53,12 +53,24 @@ pub struct Rig {
     pub platform: [[f64; 3]; 6],
     /// Height of the platform frame's origin in the base frame at neutral \[m\].
     pub neutral_height: f64,
-    /// Shortest and longest length of a leg \[m\].
+    /// Shortest and longest length of a leg, or lowest and highest arc of a crank's arm \[m\].
     pub stroke: [f64; 2],
+    /// The cranks in the place of legs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cranks: Option<Cranks>,
     /// Height of the upright rider's head above the platform frame's origin \[m\].
     pub head_height: f64,
     /// Length of the torso, about whose lower end the rider leans \[m\].
     pub torso_length: f64,
+}
+
+/// Arms of cranks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Cranks {
+    /// Length of an arm \[m\].
+    pub arm: f64,
+    /// Headings of the level arms, from x towards y \[rad\].
+    pub heading: [f64; 6],
 }
 
 impl From<&Parameters> for Rig {
@@ -69,6 +81,7 @@ impl From<&Parameters> for Rig {
             platform: rig.platform.map(Into::into),
             neutral_height: rig.neutral_height,
             stroke: rig.stroke(),
+            cranks: rig.has_cranks().then_some(Cranks { arm: rig.crank_arm, heading: rig.crank_heading }),
             head_height: structure.head_height,
             torso_length: structure.torso_length,
         }
@@ -101,7 +114,7 @@ pub struct Run {
     /// Orientation of the platform: roll, pitch, yaw \[rad\].
     #[serde(serialize_with = "curves")]
     pub orientation: [Vec<f64>; 3],
-    /// The legs' lengths \[m\].
+    /// The legs' lengths, or the arcs of the cranks' arms \[m\].
     #[serde(serialize_with = "curves")]
     pub legs: [Vec<f64>; 6],
     /// Tilt coordination's part of roll and pitch \[rad\].

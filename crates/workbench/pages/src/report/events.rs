@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::report::data::{LimitHistory, Rig, Run};
+use crate::report::data::{Cranks, LimitHistory, Rig, Run};
 use moris_simulation::TiltLimit;
 
 /// A stretch of time in which something was limited.
@@ -169,17 +169,33 @@ fn of_actuators(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
     let [shortest, longest] = rig.stroke;
     let (middle, half) = (0.5 * (shortest + longest), 0.5 * (longest - shortest));
     let farthest = |leg: &[f64], side: f64| at.of(leg).iter().fold(0.0, |far, x| f64::max(far, side * (x - middle)));
-    let of_legs = |value: &dyn Fn(&[f64]) -> f64, limit: f64, text: String| -> Vec<Utilisation> {
-        let of_leg = |(leg, i): (&Vec<f64>, i32)| Utilisation::new(format!("leg {i}"), value(leg), limit, text.clone());
+    let name = if rig.cranks.is_some() { "crank" } else { "leg" };
+    let of_legs = |value: &dyn Fn(&[f64]) -> f64, limit: f64, text: &str| -> Vec<Utilisation> {
+        let of_leg =
+            |(leg, i): (&Vec<f64>, i32)| Utilisation::new(format!("{name} {i}"), value(leg), limit, text.to_owned());
         run.legs.iter().zip(1..).map(of_leg).collect()
     };
-    let short = of_legs(&|leg| farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m"));
-    let long = of_legs(&|leg| farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m"));
     let (speed, acceleration) = (limits.actuator_velocity, limits.actuator_acceleration);
+    let texts = match rig.cranks {
+        None => [
+            format!("shortest length of {shortest:.3} m"),
+            format!("greatest length of {longest:.3} m"),
+            format!("speed limit of {speed:.2} m/s"),
+            format!("acceleration limit of {acceleration:.1} m/s²"),
+        ],
+        Some(Cranks { arm, .. }) => [
+            format!("lowest angle of {:.1}°", (shortest / arm).to_degrees()),
+            format!("highest angle of {:.1}°", (longest / arm).to_degrees()),
+            format!("speed limit of {:.2} rad/s", speed / arm),
+            format!("acceleration limit of {:.0} rad/s²", acceleration / arm),
+        ],
+    };
+    let short = of_legs(&|leg| farthest(leg, -1.0), half, &texts[0]);
+    let long = of_legs(&|leg| farthest(leg, 1.0), half, &texts[1]);
     [
         [short, long].concat(),
-        of_legs(&|leg| at.peak_rate(leg), speed, format!("speed limit of {speed:.2} m/s")),
-        of_legs(&|leg| at.peak_second_rate(leg), acceleration, format!("acceleration limit of {acceleration:.1} m/s²")),
+        of_legs(&|leg| at.peak_rate(leg), speed, &texts[2]),
+        of_legs(&|leg| at.peak_second_rate(leg), acceleration, &texts[3]),
     ]
 }
 
@@ -225,6 +241,7 @@ mod tests {
         platform: [[0.0; 3]; 6],
         neutral_height: 1.1,
         stroke: [1.0, 1.6],
+        cranks: None,
         head_height: 1.2,
         torso_length: 0.75,
     };
@@ -312,6 +329,20 @@ mod tests {
         let [event] = &events(&run, &RIG)[..] else { panic!("one event") };
         assert_eq!((event.kind, event.from, event.to), (Kind::Soft, 0.89, 1.0));
         assert_eq!(event.why, "ahead of a limit; leg 3 at 90 % of the greatest length of 1.600 m");
+    }
+
+    #[test]
+    fn a_crank_is_named_with_its_angle() {
+        // Arms of 0.5 m: 1 and 1.6 m are 2 and 3.2 rad.
+        let rig = Rig { cranks: Some(Cranks { arm: 0.5, ..Cranks::default() }), ..RIG };
+        let mut run = still();
+        run.limited.actuator[100] = true;
+        run.legs[3][100] = 1.0;
+        run.legs[4][100] = 1.6;
+        assert_eq!(
+            events(&run, &rig)[0].why,
+            "crank 4 at the lowest angle of 114.6°; crank 5 at the highest angle of 183.3°"
+        );
     }
 
     #[test]

@@ -329,7 +329,8 @@ impl Ride {
         view.extend(
             ["platform_roll", "platform_pitch", "platform_yaw"].into_iter().zip([turn.roll, turn.pitch, turn.yaw]),
         );
-        view.extend(["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"].into_iter().zip(out.length));
+        let [legs, _] = out.actuators(&self.washout.parameters().rig);
+        view.extend(["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"].into_iter().zip(legs));
         view.extend(lamps::NAMES.into_iter().zip(lamps));
         view.push(("scale", out.scale_factor));
         view
