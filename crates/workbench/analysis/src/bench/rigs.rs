@@ -1,4 +1,4 @@
-//! The rigs of the bench, which are the shipped ones with legs.
+//! The rigs of the bench: the shipped ones with legs, and two with cranks.
 
 use moris_setup::{Error, Setup, load_rig};
 
@@ -9,9 +9,9 @@ pub struct BenchRig {
     pub name: &'static str,
 }
 
-/// Every rig with legs, by stroke.
-pub const RIGS: [BenchRig; 12] = {
-    let mut rigs = [BenchRig { name: "" }; 12];
+/// Every rig with legs, by stroke, then a desk model and a person's simulator with cranks.
+pub const RIGS: [BenchRig; 14] = {
+    let mut rigs = [BenchRig { name: "" }; 14];
     let mut place = 0;
     while place < rigs.len() {
         rigs[place].name = moris_setup::RIGS[place].0;

@@ -17,29 +17,33 @@ fn rows(file: &Path) -> Vec<Vec<String>> {
 }
 
 const SHORT: [&str; 6] = ["--drive", "lane-change,paper-b", "--rig", "default", "--strategy", "classical,optimal"];
+const WITH_CRANKS: [&str; 6] =
+    ["--drive", "lane-change", "--rig", "default,crank-person", "--strategy", "classical,optimal"];
 
 #[test]
 fn the_bench_writes_the_same_bytes_twice_and_at_rest_has_the_desired_error() {
     let directory = tempfile::tempdir().unwrap();
-    let (code, printed, error) = bench(directory.path(), &SHORT);
+    let (code, printed, error) = bench(directory.path(), &WITH_CRANKS);
     assert_eq!(code, Some(0), "{error}");
-    assert!(printed.contains("moris bench 2: 2 drives on 1 rigs") && printed.contains("optimal, fit"), "{printed}");
+    assert!(printed.contains("moris bench 3: 1 drives on 2 rigs") && printed.contains("optimal, fit"), "{printed}");
     let file = directory.path().join("moris-report/bench.csv");
     let first = fs::read(&file).unwrap();
-    assert_eq!(bench(directory.path(), &SHORT).0, Some(0));
+    assert_eq!(bench(directory.path(), &WITH_CRANKS).0, Some(0));
     assert_eq!(first, fs::read(&file).unwrap());
 
     let rows = rows(&file);
-    // At rest, and two strategies at three scales.
+    // On legs and on cranks: at rest, and two strategies at three scales.
     assert_eq!(rows.len(), 1 + 2 * 7);
     let page = fs::read_to_string(directory.path().join("moris-report/bench.html")).unwrap();
-    for text in ["<th scope=\"row\">bound</th>", "best attained", "optimal, automatic", "Errors by drive", "paper-b"] {
+    for text in
+        ["<th scope=\"row\">bound</th>", "best attained", "optimal, automatic", "Errors by drive", "crank-person"]
+    {
         assert!(page.contains(text), "{text}");
     }
     assert!(printed.contains("best attained") && printed.contains("error/best"), "{printed}");
     let place = |name: &str| rows[0].iter().position(|head| head == name).unwrap();
     for row in &rows[1..] {
-        assert_eq!(row[0], "2");
+        assert_eq!(row[0], "3");
         let number = |name: &str| row[place(name)].parse::<f64>().unwrap();
         let [desired, error, bound] = ["desired y [m/s2]", "RMS error y [m/s2]", "bound y [m/s2]"].map(number);
         assert!(bound <= error && bound <= desired, "{row:?}");
