@@ -1,5 +1,5 @@
-//! The drive of a leg, or of a crank along its arc: a second-order response to the command, within limits of speed, acceleration and
-//! stroke.
+//! The drive of a leg, or of a crank along its arc: a second-order response to the command, within
+//! limits of speed, acceleration and stroke.
 
 use moris_washout::motion::Motion;
 use moris_washout::motion::braking_law::{Limits, approach_velocity};

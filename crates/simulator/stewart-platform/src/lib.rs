@@ -2,8 +2,9 @@
 //!
 //! The inputs are six commanded leg lengths. Each leg follows its command as a second-order system
 //! after a dead time, within limits of speed, acceleration, stroke and force. The outputs are the
-//! real leg lengths, the pose, the forces, and the specific force at the rider's head. On a rig with
-//! cranks angles of the arms stand in the place of lengths. The model serves to test a washout filter or a motion base's controller.
+//! real leg lengths, the pose, the forces, and the specific force at the rider's head. On a rig
+//! with cranks angles of the arms stand in the place of lengths. The model serves to test a washout
+//! filter or a motion base's controller.
 //!
 //! | module | contents |
 //! |---|---|

@@ -129,8 +129,8 @@ impl Model for StewartPlatform {
 
     /// Advances by `step` seconds with commands that change at the commanded rates.
     ///
-    /// Any input is safe: a length or angle outside the stroke is rejected, and the previous command is
-    /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
+    /// Any input is safe: a length or angle outside the stroke is rejected, and the previous
+    /// command is kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
     /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     fn step(&mut self, input: &Input, step: f64) {
         // Range of the commanded velocities [m/s], and of the angular ones [rad/s].
@@ -142,8 +142,8 @@ impl Model for StewartPlatform {
         self.step_between(input, &Input { length, angle, ..*input }, step);
     }
 
-    /// Advances by `step` seconds. The commands and the rider's lean change linearly from `start` to
-    /// `end`; the commanded rates are ignored.
+    /// Advances by `step` seconds. The commands and the rider's lean change linearly from `start`
+    /// to `end`; the commanded rates are ignored.
     fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
@@ -220,8 +220,8 @@ impl StewartPlatform {
         &self.parameters
     }
 
-    /// The commanded lengths or arcs inside the stroke \[m\]; in place of any other, the last one that
-    /// was inside.
+    /// The commanded lengths or arcs inside the stroke \[m\]; in place of any other, the
+    /// last one that was inside.
     fn possible(&mut self, input: &Input) -> [f64; 6] {
         let rig = &self.parameters.rig;
         let [start, end] = rig.stroke();

@@ -84,8 +84,8 @@ pub struct Frames {
     /// Speed of a leg with which the controller goes from anywhere to its first length \[m/s\], if
     /// it limits that by itself.
     pub slow_start: Option<f64>,
-    /// Sent before a start: asks for the legs' positions, which [`Encoder::reported`] reads from the
-    /// answer.
+    /// Sent before a start: asks for the legs' positions, which [`Encoder::reported`]
+    /// reads from the answer.
     #[serde(default)]
     pub ask: String,
     /// Sent when the platform starts.
