@@ -60,9 +60,10 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail, ensure};
 use moris_analysis::host::check_predictive;
 use moris_laps::Laps;
-use moris_live::frame::{Encoder, Values};
+use moris_live::frame::{Encoder, Frames as FrameTemplate, Values};
 use moris_live::{STEP, Session, Settings, log, moog};
 use moris_setup::Setup;
+use moris_washout::interface::AutomaticScale;
 use rtrb::RingBuffer;
 
 use commands::COMMANDS;
@@ -191,6 +192,11 @@ pub struct Options {
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "replay")]
     learn: Option<Option<PathBuf>>,
 
+    /// Start with the automatic scale that the last session has found. The file, one for each vehicle
+    /// and rig, is a parameter file; it is written at the end
+    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
+    learn_scale: Option<PathBuf>,
+
     /// Repeat a recorded session, as fast as possible, and check that each command is the same
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "record"])]
     replay: Option<PathBuf>,
@@ -262,7 +268,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if options.empty_loop {
         return empty_loop(options, out);
     }
-    let setup = options.setup.load_to_drive()?;
+    let setup = with_learned_scale(options)?.load_to_drive()?;
     let from = options.from.as_deref().unwrap_or_default();
     let input = Input::open(from, options)?;
     let features = &input.features;
@@ -289,7 +295,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         if encoder.asks() {
             sink.listen_if_it_can()?;
         }
-        (Device::of_template(encoder), template.interval, template.time_out, place)
+        let interval = line_interval(&sink, &encoder, &template)?;
+        (Device::of_template(encoder), interval, template.time_out, place)
     };
     let doubts = options.settled && was_left && !place.starts_settled();
     if doubts {
@@ -433,6 +440,13 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(part) = Part::ALL.into_iter().find(|part| shared.failed.has(*part)) {
         bail!("the thread that {} has failed by an error of this program", part.name());
     }
+    if let Some(file) = &options.learn_scale
+        && session.washout().parameters().automatic_scale.automatic == AutomaticScale::On
+    {
+        let text = format!("automaticScale.start = {:.3}\n", session.washout().output().scale_factor);
+        learned_road::replace_file(file, &text)
+            .with_context(|| format!("cannot keep the scale in {}", file.display()))?;
+    }
     if let (Some(Some(file)), Some(road)) = (&options.learn, session.road()) {
         learned_road::save(file, road.laps())?;
     }
@@ -442,6 +456,44 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     kept.unwrap_or(Ok(())).context("cannot record the session")?;
     written?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The options for rig and parameters, with the scale that the last session has found.
+fn with_learned_scale(options: &Options) -> Result<SetupOptions> {
+    let mut setup = options.setup.clone();
+    if let Some(file) = &options.learn_scale
+        && file.try_exists().with_context(|| file.display().to_string())?
+    {
+        setup.parameters.push(file.to_str().context("--learn-scale: the file's name is no UTF-8")?.to_owned());
+    }
+    Ok(setup)
+}
+
+/// Time between frames \[s\]: the template's, or what a slower serial line takes for one, which is said.
+///
+/// # Errors
+/// The controller gives up before the line has carried a frame.
+fn line_interval(sink: &Sink, encoder: &Encoder, template: &FrameTemplate) -> Result<f64> {
+    // With as many digits as numbers of a frame have.
+    let values = Values { time: 1000.0, length: [1.234567; 6], pose: [-0.123456; 6], ..Values::default() };
+    let mut frame = Vec::new();
+    encoder.frame(&values, &mut frame);
+    let line_time = sink.line_time(frame.len());
+    if line_time <= template.interval {
+        return Ok(template.interval);
+    }
+    let line = format!("the serial line takes {:.0} ms for a frame of {} bytes", 1e3 * line_time, frame.len());
+    if template.time_out.is_some_and(|time_out| line_time >= time_out) {
+        bail!("{line}, and the controller stops sooner without one: use a higher rate of the line, or shorter frames");
+    }
+    // A tenth of the line stays free, so that no frame waits behind others.
+    let interval = frames::whole_steps(1.1 * line_time);
+    console::line(&format!(
+        "{line}: one is sent every {:.0} ms instead of every {:.0} ms; a higher rate of the line is better",
+        1e3 * interval,
+        1e3 * template.interval
+    ));
+    Ok(interval)
 }
 
 /// The laps of the road that are known at first.

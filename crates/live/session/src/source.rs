@@ -189,13 +189,7 @@ impl Source {
         let elsewhere = restarted || self.last.is_some_and(|last| is_elsewhere(&last, sample, time - self.stamp));
         (self.stamp, self.last) = (time, Some(*sample));
         let was_running = self.health == Health::Running;
-        if !was_running && !self.confirms(elsewhere) {
-            return accepted;
-        }
-        let elsewhere = if was_running { elsewhere } else { std::mem::take(&mut self.is_elsewhere) };
-        (self.health, self.last_good, self.confirming) = (Health::Running, arrival, 0);
-        accepted.is_new = elsewhere || !was_running;
-        if accepted.is_new {
+        if elsewhere {
             self.spikes.clear();
         }
         let (judgement, was_spike) = self.spikes.judge(time, sample);
@@ -204,8 +198,19 @@ impl Source {
             self.counts.bad += 1;
             self.dropped = Some(DropReason::Spike);
         }
+        // Silence follows, until the vehicle is seen again.
+        if self.spikes.are_frequent() {
+            self.confirming = 0;
+            return accepted;
+        }
+        if !was_running && (judgement == Judgement::Doubtful || !self.confirms(elsewhere)) {
+            return accepted;
+        }
+        let elsewhere = if was_running { elsewhere } else { std::mem::take(&mut self.is_elsewhere) };
+        (self.health, self.last_good, self.confirming) = (Health::Running, arrival, 0);
+        accepted.is_new = elsewhere || !was_running;
         if let Judgement::Used(confirmed) = judgement {
-            accepted.confirmed = confirmed;
+            accepted.confirmed = confirmed.filter(|_| !accepted.is_new);
             accepted.time = Some(time);
         }
         if !was_running {

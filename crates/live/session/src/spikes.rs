@@ -3,12 +3,47 @@
 
 use crate::motion::{CHANNEL_COUNT, Channels, Sample};
 
+/// Thresholds of spikes; arrays have forces, rates, angles and the speed.
+struct SpikeLimits {
+    /// Least deviation of a spike, as for recordings.
+    min_deviation: [f64; CHANNEL_COUNT],
+    /// Deviation that a vehicle makes in a blow, not again and again.
+    violent_deviation: [f64; CHANNEL_COUNT],
+    /// Usual changes from sample to sample beyond which one is a spike.
+    change_factor: f64,
+    /// Samples over which changes and violent samples are averaged.
+    averaged_samples: f64,
+    /// Fraction of violent samples up to which two that are alike are a blow, which itself is two of them.
+    blow_fraction: f64,
+    /// Samples alike beyond that fraction which are no spike: 60 ms at 100 Hz.
+    alike_samples: u32,
+    /// Fraction of violent samples beyond which nothing is believed.
+    unbelievable_fraction: f64,
+    /// Time after which a sample says nothing of the next \[s\].
+    memory: f64,
+}
+
+const SPIKE_LIMITS: SpikeLimits = SpikeLimits {
+    min_deviation: [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, 0.5, 0.5, f64::INFINITY, 5.0],
+    violent_deviation: [25.0, 25.0, 40.0, 6.0, 6.0, 6.0, 0.5, 0.5, f64::INFINITY, 10.0],
+    change_factor: 10.0,
+    averaged_samples: 100.0,
+    blow_fraction: 0.03,
+    alike_samples: 6,
+    unbelievable_fraction: 0.25,
+    memory: 0.2,
+};
+
 /// The ride's usual changes, and a sample that has yet to be confirmed.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spikes {
     usual: Channels,
     last: Option<(f64, Sample)>,
     doubtful: Option<(f64, Sample)>,
+    /// Doubtful samples in a row that are alike.
+    alike: u32,
+    /// Fraction of the last samples that deviated violently from those before.
+    violent_fraction: f64,
 }
 
 /// Judgement of a sample.
@@ -33,19 +68,15 @@ impl Spikes {
         }
     }
 
+    /// True while so many samples deviate violently that no vehicle can be seen in them.
+    pub fn are_frequent(&self) -> bool {
+        self.violent_fraction > SPIKE_LIMITS.unbelievable_fraction
+    }
+
     /// Judges a sample of this time. The second value is true if a doubtful one before it was a
     /// spike.
     pub fn judge(&mut self, time: f64, sample: &Sample) -> (Judgement, bool) {
-        // Least deviation of a spike, as for recordings: forces, rates, angles, speed.
-        const MIN_SPIKE_DEVIATION: [f64; CHANNEL_COUNT] =
-            [5.0, 5.0, 5.0, 1.0, 1.0, 1.0, f64::INFINITY, f64::INFINITY, f64::INFINITY, 5.0];
-        // Usual changes from sample to sample beyond which one is a spike.
-        const SPIKE_CHANGE_FACTOR: f64 = 10.0;
-        // Samples over which the usual change is averaged.
-        const AVERAGED_SAMPLES: f64 = 100.0;
-        // Time after which a sample says nothing of the next [s].
-        const LONG_AGO: f64 = 0.2;
-        let Some((before, last)) = self.last.filter(|(before, _)| time - before < LONG_AGO) else {
+        let Some((before, last)) = self.last.filter(|(before, _)| time - before < SPIKE_LIMITS.memory) else {
             (self.last, self.doubtful) = (Some((time, *sample)), None);
             return (Judgement::Used(None), false);
         };
@@ -54,34 +85,47 @@ impl Spikes {
         let change = (sample.motion.0 - previous).abs();
         // A spike counts little among the usual changes.
         let bounded =
-            Channels::from_fn(|k, _| change[k].min(1.3 * self.usual[k] + 0.2 * MIN_SPIKE_DEVIATION[k].min(1.0)));
+            Channels::from_fn(|k, _| change[k].min(1.3 * self.usual[k] + 0.2 * SPIKE_LIMITS.min_deviation[k].min(1.0)));
         let deviation = (sample.motion.0 - last.motion.0).abs();
         // What the ride does within a sample, it may do in each that has been lost.
         let gap = ((time - before) / 0.01).clamp(1.0, 10.0);
-        let is_far = (0..CHANNEL_COUNT)
-            .any(|k| deviation[k] > MIN_SPIKE_DEVIATION[k].max(SPIKE_CHANGE_FACTOR * self.usual[k]) * gap.sqrt());
-        self.usual += (bounded - self.usual) / AVERAGED_SAMPLES;
+        let is_violent = (0..CHANNEL_COUNT).any(|k| deviation[k] > SPIKE_LIMITS.violent_deviation[k]);
+        let is_far = is_violent
+            || (0..CHANNEL_COUNT).any(|k| {
+                deviation[k]
+                    > SPIKE_LIMITS.min_deviation[k].max(SPIKE_LIMITS.change_factor * self.usual[k]) * gap.sqrt()
+            });
+        self.usual += (bounded - self.usual) / SPIKE_LIMITS.averaged_samples;
+        let confirms = is_far && doubtful.is_some_and(|(_, doubtful)| are_alike(sample, &doubtful, &last));
+        // A blow among few spikes counts once where it begins, and once where it ends.
+        let is_counted = is_violent && !(confirms && self.violent_fraction < SPIKE_LIMITS.blow_fraction);
+        self.violent_fraction +=
+            (f64::from(u8::from(is_counted)) - self.violent_fraction) / SPIKE_LIMITS.averaged_samples;
         if !is_far {
             self.last = Some((time, *sample));
             return (Judgement::Used(None), doubtful.is_some());
         }
-        // Nearer to the doubtful one than that is to the last: both are true.
-        let confirms = doubtful.is_some_and(|(_, doubtful)| {
-            let scaled = |from: &Channels, to: &Channels| {
-                (0..CHANNEL_COUNT)
-                    .filter(|k| MIN_SPIKE_DEVIATION[*k].is_finite())
-                    .map(|k| ((from - to)[k] / MIN_SPIKE_DEVIATION[k]).abs())
-                    .fold(0.0, f64::max)
-            };
-            scaled(&sample.motion.0, &doubtful.motion.0) < 0.5 * scaled(&doubtful.motion.0, &last.motion.0)
-        });
-        if confirms {
+        self.alike = if confirms { self.alike + 1 } else { 0 };
+        let needed =
+            if self.violent_fraction < SPIKE_LIMITS.blow_fraction { 1 } else { SPIKE_LIMITS.alike_samples - 1 };
+        if self.alike >= needed {
             self.last = Some((time, *sample));
             return (Judgement::Used(doubtful), false);
         }
         self.doubtful = Some((time, *sample));
-        (Judgement::Doubtful, doubtful.is_some())
+        (Judgement::Doubtful, doubtful.is_some() && !confirms)
     }
+}
+
+/// True for a sample nearer to the doubtful one than that is to the last: both are true.
+fn are_alike(sample: &Sample, doubtful: &Sample, last: &Sample) -> bool {
+    let distance = |from: &Sample, to: &Sample| {
+        (0..CHANNEL_COUNT)
+            .filter(|k| SPIKE_LIMITS.min_deviation[*k].is_finite())
+            .map(|k| ((from.motion.0 - to.motion.0)[k] / SPIKE_LIMITS.min_deviation[k]).abs())
+            .fold(0.0, f64::max)
+    };
+    distance(sample, doubtful) < 0.5 * distance(doubtful, last)
 }
 
 #[cfg(test)]
@@ -120,6 +164,36 @@ mod tests {
                 assert!(found.len() + 900 / every + 1 >= 1000, "{}", found.len());
             }
         }
+    }
+
+    /// Numbers that nobody has chosen, from 0 to 1.
+    fn random(k: usize) -> f64 {
+        (k as f64 * 12.9898).sin().mul_add(43_758.545, 0.0).rem_euclid(1.0)
+    }
+
+    #[test]
+    fn spikes_in_a_row_are_left_out_where_there_are_many() {
+        let found = used(6000, |k| (k > 200 && random(k) < 0.1).then_some(90.0));
+        assert!(found.iter().filter(|surge| surge.abs() > 2.5).count() <= 2 && found.len() > 5000, "{}", found.len());
+    }
+
+    #[test]
+    fn spikes_in_every_second_sample_are_no_vehicle() {
+        let mut spikes = Spikes::default();
+        let mut first = None;
+        for k in 0..1000 {
+            let t = k as f64 * 0.01;
+            let surge = if k > 200 && random(k) < 0.5 { 40.0 } else { 2.0 * t.sin() };
+            spikes.judge(t, &sample(t, surge));
+            first = first.or(spikes.are_frequent().then_some(k));
+        }
+        assert!(first.is_some_and(|k| (201..300).contains(&k)) && spikes.are_frequent(), "{first:?}");
+        // A vehicle that is seen again is believed after 1.5 s.
+        for k in 1000..1150 {
+            let t = k as f64 * 0.01;
+            spikes.judge(t, &sample(t, 2.0 * t.sin()));
+        }
+        assert!(!spikes.are_frequent());
     }
 
     #[test]

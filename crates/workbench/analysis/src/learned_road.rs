@@ -73,17 +73,22 @@ pub fn load(file: &Path) -> Result<Laps> {
 /// # Errors
 /// It cannot be written. The file is as before then.
 pub fn save(file: &Path, laps: &Laps) -> Result<()> {
+    replace_file(file, &laps.text()).about(|| cannot_keep(file))
+}
+
+/// Writes a text to a file, whole or not at all.
+///
+/// # Errors
+/// It cannot be written. The file is as before then.
+pub fn replace_file(file: &Path, text: &str) -> io::Result<()> {
     // What a link points to is replaced, not the link.
     let target = file.canonicalize();
     let file = target.as_deref().unwrap_or(file);
     let part = temporary_file(file);
-    let written = write_whole(&part, laps.text().as_bytes()).and_then(|()| rename(&part, file));
-    written
-        .inspect_err(|_| {
-            // Half of a road is of no use; if it cannot be removed, it stays beside the old one.
-            let _ = remove_file(&part);
-        })
-        .about(|| cannot_keep(file))
+    write_whole(&part, text.as_bytes()).and_then(|()| rename(&part, file)).inspect_err(|_| {
+        // Half of a text is of no use; if it cannot be removed, it stays beside the old one.
+        let _ = remove_file(&part);
+    })
 }
 
 fn cannot_keep(file: &Path) -> String {

@@ -90,6 +90,21 @@ impl Sink {
         Some(&packet[..length])
     }
 
+    /// Time in which a serial line carries so many bytes, each with a start and a stop bit \[s\]; 0 by other ways.
+    pub fn line_time(&self, bytes: usize) -> f64 {
+        match self {
+            #[cfg(feature = "serial")]
+            Sink::Serial(serial) => {
+                let baud = serial.line.borrow().as_ref().and_then(|line| line.baud_rate().ok());
+                baud.map_or(0.0, |baud| 10.0 * bytes as f64 / f64::from(baud))
+            }
+            _ => {
+                let _ = bytes;
+                0.0
+            }
+        }
+    }
+
     /// True for a way on which answers are lines, in parts as they come.
     pub fn is_line(&self) -> bool {
         #[cfg(feature = "serial")]

@@ -20,12 +20,18 @@ fn live(directory: &Path, arguments: &[&str]) -> Output {
 const DRIVE: [&str; 8] =
     ["--from", "road.csv", "--strategy", "predictive", "--dry", "--engage", "--ignore-signs", "--for"];
 
+/// Start value of `automaticScale.start`.
+const START: f64 = 0.55;
+
 #[test]
 fn a_road_is_kept_in_its_file_and_known_by_the_next_session() {
     let directory = tempfile::tempdir().unwrap();
     recording(directory.path());
     let drive = |options: &[&str]| live(directory.path(), &[&DRIVE[..], options].concat());
-    let first = drive(&["20", "--learn=kart.laps", "--record", "first.txt"]);
+    let first = drive(&["20", "--learn=kart.laps", "--learn-scale", "kart.toml", "--record", "first.txt"]);
+    let scale = std::fs::read_to_string(directory.path().join("kart.toml")).unwrap();
+    let start: f64 = scale.trim().strip_prefix("automaticScale.start = ").unwrap().parse().unwrap();
+    assert!(start > 0.1 && start != START, "{scale}");
     assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
     let points = || {
         let text = std::fs::read_to_string(directory.path().join("kart.laps")).unwrap();
@@ -34,11 +40,12 @@ fn a_road_is_kept_in_its_file_and_known_by_the_next_session() {
     };
     let before = points();
     assert!(before > 80, "{before}");
-    let again = drive(&["20", "--learn=kart.laps", "--record", "second.txt"]);
+    let again = drive(&["20", "--learn=kart.laps", "--learn-scale", "kart.toml", "--record", "second.txt"]);
     assert!(again.status.success() && points() > before + 80);
-    // Both sessions are repeated to the bit; the second one has the road of the first.
-    for (record, known) in [("first.txt", 2), ("second.txt", before)] {
+    // Both sessions are repeated to the bit; the second one has the road and the scale of the first.
+    for (record, known, start) in [("first.txt", 2, START), ("second.txt", before, start)] {
         let text = std::fs::read_to_string(directory.path().join(record)).unwrap();
+        assert!(text.contains(&format!("parameter,automaticScale.start,{start:?}\n")), "{text:.4000}");
         assert_eq!(text.lines().filter(|line| line.starts_with("road,")).count(), known);
         let replayed = live(directory.path(), &["--replay", record]);
         let said = String::from_utf8(replayed.stdout).unwrap();

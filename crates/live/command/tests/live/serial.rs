@@ -137,6 +137,39 @@ fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
 }
 
 #[test]
+fn a_line_slower_than_the_frames_gets_fewer_of_them() {
+    let directory = tempfile::tempdir().unwrap();
+    let template = "name = 'slow'\nabout = ''\nnote = ''\ninterval = 0.01\nstop = \"'STOP' 0A\"\n\
+        frame = \"time:3 ',' leg1:dec 0A\"";
+    std::fs::write(directory.path().join("slow.toml"), template).unwrap();
+    let (mut master, line) = pair();
+    let controller = thread::spawn(move || {
+        let mut text = String::new();
+        let mut part = [0; 4096];
+        while !text.ends_with("STOP\n") {
+            let count = master.read(&mut part).unwrap();
+            text += str::from_utf8(&part[..count]).unwrap();
+        }
+        text
+    });
+    let to = format!("serial:{line}:1200");
+    let arguments = ["--format", "csv", "--frames", "slow.toml", "--settled"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.wait_for("instead of every 10 ms; a higher rate of the line is better");
+    live.command("start");
+    live.wait_for("homing");
+    live.interrupt();
+    live.wait_for("off");
+    assert!(live.end().0.success());
+    let text = controller.join().unwrap();
+    let times: Vec<f64> = text.lines().filter_map(|line| line.split_once(',')?.0.parse().ok()).collect();
+    // 13 to 15 bytes of 10 bits at 1,200 bits a second. The last frame comes with the stop.
+    let before_stop = &times[..times.len() - 1];
+    assert!(times.len() > 5 && before_stop.windows(2).all(|pair| pair[1] - pair[0] > 0.1), "{times:?}");
+}
+
+#[test]
 fn a_controller_reports_its_lengths_on_the_line() {
     let directory = tempfile::tempdir().unwrap();
     let asking = TEMPLATE.replace("stop =", "ask = \"'legs?' 0A\"\nstop =");

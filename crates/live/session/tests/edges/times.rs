@@ -171,6 +171,35 @@ fn spikes_that_no_vehicle_causes_are_left_out() {
     }
 }
 
+/// Spikes so large that a vehicle could just make one, so often that many stand side by side, and
+/// an attitude that swings by less than a teleport.
+#[test]
+fn what_no_vehicle_does_over_a_window_is_not_felt() {
+    type Fault = fn(&mut Sample, u64, f64);
+    // The first of many spikes may stand side by side, as in a blow, and are felt as one.
+    let faults: [(&str, f64, Fault); 4] = [
+        ("90 m/s2 in a tenth", 0.3, |sample, k, random| {
+            sample.motion.0[k as usize % 2] += if random < 0.1 { 90.0 } else { 0.0 };
+        }),
+        ("40 m/s2 in a half", 2.5, |sample, _, random| sample.motion.0[0] += if random < 0.5 { 40.0 } else { 0.0 }),
+        ("pitch by 0.69 rad", 0.5, |sample, k, _| sample.motion.0[7] += if k.is_multiple_of(2) { 0.69 } else { 0.0 }),
+        ("roll by 0.69 rad", 0.5, |sample, _, random| sample.motion.0[6] += if random < 0.5 { 0.69 } else { 0.0 }),
+    ];
+    for (name, bound, fault) in faults {
+        let all = packets(40.0, |t| {
+            let mut sample = sample(t, Some(t));
+            let k = (t * 100.0).round() as u64;
+            if t > 15.0 {
+                fault(&mut sample, k, (k as f64 * 12.9898).sin().mul_add(43_758.545, 0.0).rem_euclid(1.0));
+            }
+            Some(Packet { arrival: t, sample })
+        });
+        let (_, course) = ride(&all, 39.0, |_| ());
+        let jolt = course.jolt(14.0, 39.0);
+        assert!(jolt <= bound, "{name}: {jolt} m/s2");
+    }
+}
+
 #[test]
 fn a_loop_through_the_verticals_is_no_teleport() {
     use std::f64::consts::PI;
