@@ -105,6 +105,12 @@ def test_parquet_excel_matlab_and_mdf_files(ride, frame, expected, tmp_path):
         recording = moris.Recording(tmp_path / name)
         assert np.allclose(inputs(recording), expected, rtol=1e-14, atol=1e-15), name
         assert recording.name == name.split(".")[0]
+    # A matrix of samples by axes, and one of axes by samples.
+    force, rate = (np.array([ride[name] for name in names]) for names in (NAMES[1:4], NAMES[4:7]))
+    scipy.io.savemat(tmp_path / "matrices.mat", {"time": ride["time"], "acc": force.T, "gyr": rate})
+    columns = {name: f"{'acc' if k < 3 else 'gyr'}_{k % 3 + 1}" for k, name in enumerate(NAMES[1:7])}
+    found = inputs(moris.Recording(tmp_path / "matrices.mat", columns=columns))
+    assert np.allclose(found[:, :6], expected[:, :6], rtol=1e-14, atol=1e-15)
 
 
 def test_an_mdf_file_has_units_and_several_rates(ride, expected, tmp_path):

@@ -123,6 +123,13 @@ fn right_down(sample: Sample, up: f64) -> Sample {
     }
 }
 
+/// The ride in axes of which y points to the right, with rotations by the left hand.
+fn left_handed(sample: Sample) -> Sample {
+    let turned = |v: Vector3<f64>| Vector3::new(-v.x, v.y, -v.z);
+    let force = Vector3::new(sample.force.x, -sample.force.y, sample.force.z);
+    Sample { force, rate: turned(sample.rate), angle: turned(sample.angle), ..sample }
+}
+
 /// What a sensor reads that is turned and has no gyroscope.
 fn other_sensor(sample: Sample) -> Sample {
     Sample { force: Vector3::new(sample.force.y, sample.force.x, GRAVITY), rate: Vector3::zeros(), ..sample }
@@ -199,6 +206,9 @@ const ROWS: &[Row] = rows! {
     SIX, "", |k, ride| Sample { force: ride[k].rate, rate: ride[k].force, ..ride[k] }
         => ["accelerometer and gyroscope seem to be exchanged"],
         "columns = { ax = 'wx', ay = 'wy', az = 'wz', wx = 'ax', wy = 'ay', wz = 'az' }";
+    SIX, "", |k, ride| Sample { force: ride[k].rate, rate: ride[k].force / GRAVITY, ..ride[k] }
+        => ["which is gravity in g", "and --force-unit g"],
+        "force-unit = 'g'\ncolumns = { ax = 'wx', ay = 'wy', az = 'wz', wx = 'ax', wy = 'ay', wz = 'az' }";
     SIX, "gravity = 'removed'\nrate-unit = 'deg/s'",
         |k, ride| Sample { force: ride[k].rate, rate: ride[k].force, ..ride[k] }
         => ["accelerometer and gyroscope seem to be exchanged"], "";
@@ -279,6 +289,7 @@ const ROWS: &[Row] = rows! {
         => ["use --columns \"ax=-ax,ay=-ay,az=-az\""], "columns = { ax = '-ax', ay = '-ay', az = '-az' }";
     SIX, "", |k, ride| right_down(ride[k], -1.0) => ["use --axes forward-right-down"], "axes = 'forward-right-down'";
     SIX, "", |k, ride| right_down(ride[k], 1.0) => ["!wrong sign"], "";
+    ANGLES, "axes = 'forward-right-up'", |k, ride| left_handed(ride[k]) => [], "";
     SIX, "", |k, ride| { let mut s = ride[k]; s.rate.z = -s.rate.z; s }
         => ["backward: one of them has the wrong sign", "wz=-wz"], "columns = { wz = '-wz' }";
     // Delays.

@@ -361,8 +361,8 @@ fn a_quaternion_is_the_orientation() {
             [q.i, q.j, q.k, q.w].map(|part| scale * part).to_vec()
         }
     };
-    for axes in [Axes::ForwardLeftUp, Axes::ForwardRightDown] {
-        let sign = Axes::signs(axes)[2];
+    for axes in [Axes::ForwardLeftUp, Axes::ForwardRightDown, Axes::ForwardRightUp] {
+        let sign = Axes::force_signs(axes)[2];
         let turned = |text: &str| text.replace(&format!(",{GRAVITY},"), &format!(",{},", sign * GRAVITY));
         let options = ConventionOptions { axes: Some(axes), ..ConventionOptions::default() };
         let read = |text: String| read(&turned(&text), &options);

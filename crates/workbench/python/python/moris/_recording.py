@@ -36,7 +36,7 @@ class Recording:
     length_unit: "m", "km", "ft". position: True reads the columns x and y, or latitude and
         longitude, for simulate(learn=True).
     gravity: "included" as an accelerometer reads it, or "removed".
-    axes: "forward-left-up" or "forward-right-down". rate_frame, force_frame: "body" or "world".
+    axes: "forward-left-up", "forward-right-down" or "forward-right-up". rate_frame, force_frame: "body" or "world".
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
     empty_fields: "error" or "interpolate"; those of a table are NaN. repair: True to interpolate over a logger's error values and spikes.
     missing: "error", or "rest" to take ay az wx wy wz that the source lacks as at rest. lap: number of the lap to read where
@@ -195,8 +195,16 @@ def _matlab(path: Path) -> dict[str, Any]:
             columns.update({field: np.atleast_1d(value[field].item()) for field in value.dtype.names})
         else:
             columns[name] = np.atleast_1d(value)
-    longest = max((len(value) for value in columns.values() if value.ndim == 1), default=0)
-    return {name: value for name, value in columns.items() if value.ndim == 1 and len(value) == longest}
+    longest = max((max(value.shape) for value in columns.values() if value.ndim in (1, 2)), default=0)
+    found = {}
+    for name, value in columns.items():
+        if value.shape == (longest,):
+            found[name] = value
+        elif value.ndim == 2 and longest in value.shape:
+            # A matrix, of samples by axes or the other way round: a column of each axis.
+            rows = value.T if value.shape[0] == longest else value
+            found.update({f"{name}_{axis + 1}": row for axis, row in enumerate(rows)})
+    return found
 
 
 def _mdf(path: Path) -> dict[str, Any]:

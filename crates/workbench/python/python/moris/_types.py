@@ -39,7 +39,7 @@ class RecordingOptions(TypedDict, total=False):
     length_unit: Literal["m", "km", "ft"] | None
     position: bool | None
     gravity: Literal["included", "removed"] | None
-    axes: Literal["forward-left-up", "forward-right-down"] | None
+    axes: Literal["forward-left-up", "forward-right-down", "forward-right-up"] | None
     mounting: Sequence[float] | Literal["auto"] | None
     rate_frame: Literal["body", "world"] | None
     force_frame: Literal["body", "world"] | None

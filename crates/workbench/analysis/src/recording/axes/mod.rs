@@ -42,8 +42,8 @@ fn sensor_vector(
     sample: usize,
     quantity: fn(usize) -> Quantity,
 ) -> Vector3<f64> {
-    // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
-    let signs = conventions.axes.signs();
+    let is_force = matches!(quantity(0), Quantity::Force(_));
+    let signs = if is_force { conventions.axes.force_signs() } else { conventions.axes.rotation_signs() };
     Vector3::from_fn(|axis, _| table.value(quantity(axis), sample) * signs[axis])
 }
 

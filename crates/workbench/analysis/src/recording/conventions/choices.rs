@@ -45,6 +45,8 @@ choices! {
         "forward-left-up" ForwardLeftUp,
         /// x forward, y right, z down (aviation, SAE J670)
         "forward-right-down" ForwardRightDown,
+        /// x forward, y right, z up; rotations follow the left hand, as in game engines
+        "forward-right-up" ForwardRightUp,
     }
 }
 
@@ -80,11 +82,20 @@ choices! {
 }
 
 impl Axes {
-    /// Factors that turn x, y and z into x forward, y left, z up.
-    pub fn signs(self) -> [f64; 3] {
+    /// Factors that turn forces along x, y and z into those along x forward, y left, z up.
+    pub fn force_signs(self) -> [f64; 3] {
         match self {
             Axes::ForwardLeftUp => [1.0, 1.0, 1.0],
             Axes::ForwardRightDown => [1.0, -1.0, -1.0],
+            Axes::ForwardRightUp => [1.0, -1.0, 1.0],
+        }
+    }
+
+    /// The same for rates and angles about these axes. Left-handed axes turn the other way round.
+    pub fn rotation_signs(self) -> [f64; 3] {
+        match self {
+            Axes::ForwardRightUp => [-1.0, 1.0, -1.0],
+            _ => self.force_signs(),
         }
     }
 }

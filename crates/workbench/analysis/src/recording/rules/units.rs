@@ -125,13 +125,19 @@ pub fn exchanged_sensors(channels: &Channels, _: Quantity) -> Option<Message> {
         Vector3::from_fn(|axis, _| column(axis)) / table.unit(quantity(0)).0.in_si
     };
     let (force, rate) = (median_of(Quantity::Force), median_of(Quantity::Rate));
-    let is_gravity = (rate.norm() / STANDARD_GRAVITY - 1.0).abs() < EXCHANGED_GRAVITY_TOLERANCE;
-    if !is_gravity || force.norm() > MAX_EXCHANGED_FORCE || conventions.mounting.is_some() {
+    let is_in = |unit: &Unit| (rate.norm() * unit.in_si / STANDARD_GRAVITY - 1.0).abs() < EXCHANGED_GRAVITY_TOLERANCE;
+    let dimension = Quantity::Force(0).dimension();
+    let unit = dimension.units().find(is_in)?;
+    let is_si = unit == dimension.default_unit();
+    // An offset of 1 degree a second beside forces without gravity is nothing rare.
+    let may_be_offset = !is_si && conventions.gravity == Gravity::Removed;
+    if may_be_offset || force.norm() > MAX_EXCHANGED_FORCE || conventions.mounting.is_some() {
         return None;
     }
     let quantities = [0, 1, 2, 3, 4, 5].map(|k| if k < 3 { Quantity::Force(k) } else { Quantity::Rate(k - 3) });
     let columns = conventions.columns_of(&["wx", "wy", "wz", "ax", "ay", "az"], &quantities);
-    Some(text!["exchanged-sensors", gravity = rate.norm(), columns = columns])
+    let also = if is_si { Message::default() } else { text!["also", remedy = given(dimension.option(), unit.word)] };
+    Some(text!["exchanged-sensors", gravity = rate.norm(), unit = unit.word, columns = columns, also = also])
 }
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
@@ -150,7 +156,7 @@ pub fn gravity(channels: &Channels, _: Quantity) -> Option<Message> {
     let (unit, _) = table.unit(Quantity::Force(2));
     let raw = (median - added) / unit.in_si;
     let is_mounted = conventions.mounting.is_some();
-    let signs = if is_mounted { [1.0; 3] } else { conventions.axes.signs() };
+    let signs = if is_mounted { [1.0; 3] } else { conventions.axes.force_signs() };
     let size = raw.norm();
     let is_gravity_in = |other: &Unit| (0.75..1.25).contains(&(size * other.in_si / STANDARD_GRAVITY));
     let mut other_units = Quantity::Force(2).dimension().units().filter(|other| *other != unit);
@@ -203,7 +209,7 @@ fn meaning_of_median(median: &Vector3<f64>, channels: &Channels) -> Message {
             _ if channels.speed_of_bends().is_some_and(|speed| speed < 0.0) => {
                 text!["forces-opposite", opposite = opposite()]
             }
-            Axes::ForwardLeftUp => text!["z-down"],
+            Axes::ForwardLeftUp | Axes::ForwardRightUp => text!["z-down"],
             Axes::ForwardRightDown => text!["z-up"],
         }
     } else if median.norm() < GRAVITY_TOLERANCE {

@@ -91,7 +91,7 @@ impl Table {
         let missing: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_missing).collect();
         for &quantity in &missing {
             let is_vertical = quantity == Quantity::Force(2) && conventions.gravity == Gravity::Included;
-            let rest = if is_vertical { STANDARD_GRAVITY * conventions.axes.signs()[2] } else { 0.0 };
+            let rest = if is_vertical { STANDARD_GRAVITY * conventions.axes.force_signs()[2] } else { 0.0 };
             self.columns.insert(quantity, vec![rest; self.time.len()]);
         }
         if !missing.is_empty() {
