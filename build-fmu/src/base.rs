@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use crate::contents::Extras;
 use crate::{
-    Error, FmiVersion, FmuModel, FormOptions, MODELS, Platform, Sources, Start, archive, code_signature, contents,
+    Error, FMU_MODELS, FmiVersion, FmuModel, FormOptions, Platform, Sources, Start, archive, code_signature, contents,
     terminals,
 };
 
@@ -89,7 +89,7 @@ impl Base {
         let files = &unpacked.files;
         let root: Root = from_str(&unpacked.model_description()?)
             .map_err(|error| format!("has a {MODEL_DESCRIPTION} that cannot be read: {error}"))?;
-        let model = MODELS.iter().find(|model| model.name == root.model_name);
+        let model = FMU_MODELS.iter().find(|model| model.name == root.model_name);
         let model =
             model.ok_or_else(|| format!("is of the model {}, which this program does not know", root.model_name))?;
         let identity = &model.functions.identity;
@@ -127,7 +127,7 @@ impl Base {
         if starts.iter().any(|other| other != start) {
             return Err("has libraries with different start values; it is put together from several FMUs".to_owned());
         }
-        let extras = Extras { sources, terminals: files.contains_key(terminals::FILE) };
+        let extras = Extras { sources, terminals: files.contains_key(terminals::TERMINALS_PATH) };
         Ok(Base { model, fmi, libraries, extras })
     }
 

@@ -5,7 +5,7 @@ use crate::reference::{self, Stimuli};
 use crate::{FmiVersion, FmuModel, Platform, Sources, Start, documentation, terminals};
 
 /// Under which licences the FMU and its sources are: the choice is the user's.
-pub const LICENCES: &str = concat!(
+pub const LICENCE_TEXT: &str = concat!(
     "MORIS washout may be used under either of the two licences below, at your option.\n\n",
     "=== MIT ===\n\n",
     include_str!("../../LICENSE-MIT"),
@@ -34,7 +34,7 @@ pub fn contents(
 ) -> Contents {
     let mut contents = Contents::new();
     contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());
-    contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());
+    contents.insert("documentation/licenses/license.txt".to_owned(), LICENCE_TEXT.as_bytes().to_vec());
     contents.insert(fmi.icon_file().to_owned(), model.icon.to_vec());
     let description = match sources {
         None => model.model_description(fmi, start),
@@ -43,7 +43,7 @@ pub fn contents(
     contents.insert("modelDescription.xml".to_owned(), description.into_bytes());
     contents.extend(sources.iter().flat_map(|sources| sources.files(model, fmi)));
     if fmi.choose(*terminals, true) {
-        contents.insert(terminals::FILE.to_owned(), terminals::xml(model, fmi).into_bytes());
+        contents.insert(terminals::TERMINALS_PATH.to_owned(), terminals::xml(model, fmi).into_bytes());
     }
     let input = Stimuli::new(model.reference_input);
     let output = (model.functions.reference_output)(&input, start.slots());

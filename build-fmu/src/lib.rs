@@ -42,7 +42,7 @@ pub use error::Error;
 pub use fmi_version::FmiVersion;
 pub use fmu::{Built, build, compile_together, fmu, write_whole};
 pub use form_options::FormOptions;
-pub use model::{FmuModel, MODELS};
+pub use model::{FMU_MODELS, FmuModel};
 pub use own_fmu::OwnFmu;
 pub use platform::Platform;
 pub use sources::Sources;

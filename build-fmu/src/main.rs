@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use moris_build_fmu::{
-    Base, Error, FmiVersion, FmuModel, FormOptions, MODELS, Platform, Sources, Start, StartOptions, build,
+    Base, Error, FMU_MODELS, FmiVersion, FmuModel, FormOptions, Platform, Sources, Start, StartOptions, build,
     compile_together, workspace, write_whole,
 };
 
@@ -65,7 +65,7 @@ fn run_arguments(arguments: &Arguments) -> Result<(), Error> {
     let output = arguments.output.clone().unwrap_or_else(workspace::default_output);
     let chosen =
         |model: &&FmuModel| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
-    let models: Vec<&FmuModel> = MODELS.iter().filter(chosen).collect();
+    let models: Vec<&FmuModel> = FMU_MODELS.iter().filter(chosen).collect();
     let versions = fmi_versions(arguments)?;
     // Before anything is compiled.
     let starts = arguments.start.of_models(&models)?;
@@ -106,7 +106,7 @@ fn fmi_versions(arguments: &Arguments) -> Result<Vec<FmiVersion>, Error> {
 }
 
 fn model_names() -> PossibleValuesParser {
-    PossibleValuesParser::new(MODELS.iter().map(|model| model.name))
+    PossibleValuesParser::new(FMU_MODELS.iter().map(|model| model.name))
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ fn accepts_parameters(model: &FmuModel, alone: bool) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::MODELS;
+    use crate::FMU_MODELS;
     use crate::model::STEWART_PLATFORM;
 
     fn rig() -> StartOptions {
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn values_that_one_of_the_models_takes_are_not() {
-        let all: Vec<&FmuModel> = MODELS.iter().collect();
+        let all: Vec<&FmuModel> = FMU_MODELS.iter().collect();
         let both = StartOptions { parameters: vec!["paper".to_owned()], ..rig() };
         assert!(both.check_used(&all).is_ok());
         assert!(parameters("mine.toml").check_used(&[&MOTORCYCLE]).is_ok());

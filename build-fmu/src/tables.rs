@@ -4,11 +4,11 @@
 //! A table stands between the lines `<!-- table: NAME -->` and `<!-- end of table -->`.
 
 use moris_interface::{Causality, Kind, Row, shown};
-use moris_setup::SETS;
+use moris_setup::PARAMETER_SETS;
 use moris_washout::interface::TuningGroup;
 use moris_washout::presets;
 
-use crate::model::{MODELS, MOTORCYCLE, WASHOUT};
+use crate::model::{FMU_MODELS, MOTORCYCLE, WASHOUT};
 use crate::{FmuModel, Start};
 
 /// A table and its page.
@@ -20,7 +20,7 @@ pub struct Table {
 }
 
 /// Every table.
-pub const TABLES: &[Table] = &[
+pub const GENERATED_TABLES: &[Table] = &[
     Table { page: "docs/parameter-sets.md", name: "parameter sets", text: |_| parameter_sets() },
     Table { page: "docs/fmu.md", name: "enumerations", text: |_| enumeration_table() },
     Table { page: "docs/motorcycle.md", name: "path.course", text: enumeration_items },
@@ -49,7 +49,7 @@ impl Table {
 fn parameter_sets() -> String {
     let start = Start::own(&WASHOUT);
     let identity = &WASHOUT.functions.identity;
-    let sets: Vec<_> = SETS[1..].iter().map(|(name, set)| (name, presets::values(set))).collect();
+    let sets: Vec<_> = PARAMETER_SETS[1..].iter().map(|(name, set)| (name, presets::values(set))).collect();
     let names: Vec<String> = sets.iter().map(|(name, _)| format!("`{name}`")).collect();
     let mut text = table_line(
         &[&["variable", "unit", "start"][..], &names.iter().map(String::as_str).collect::<Vec<_>>()].concat(),
@@ -75,7 +75,7 @@ fn parameter_sets() -> String {
 /// The items of every enumeration with their numbers.
 fn enumeration_table() -> String {
     let mut text = table_line(&["model", "variable", "items"]) + &table_line(&["---"; 3]);
-    for model in MODELS {
+    for model in FMU_MODELS {
         for (row, start) in parameter_rows(model) {
             let Kind::Enumeration(enumeration) = row.kind else { continue };
             let items: Vec<String> = enumeration

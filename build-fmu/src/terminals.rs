@@ -9,7 +9,7 @@ use moris_model_description::{Element, to_xml};
 use crate::{FmiVersion, FmuModel};
 
 /// Path of the file in an FMU.
-pub const FILE: &str = "terminalsAndIcons/terminalsAndIcons.xml";
+pub const TERMINALS_PATH: &str = "terminalsAndIcons/terminalsAndIcons.xml";
 
 /// A group of variables.
 pub struct Terminal {

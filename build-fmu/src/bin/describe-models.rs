@@ -7,11 +7,11 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use moris_build_fmu::tables::{TABLES, Table};
-use moris_build_fmu::{FmiVersion, MODELS, Start, workspace};
+use moris_build_fmu::tables::{GENERATED_TABLES, Table};
+use moris_build_fmu::{FMU_MODELS, FmiVersion, Start, workspace};
 
 fn main() -> ExitCode {
-    for model in MODELS {
+    for model in FMU_MODELS {
         for &fmi in FmiVersion::SCALARS {
             let file = workspace::root().join(model.checked_in_description(fmi));
             if let Err(error) = write_in_folder(&file, &model.model_description(fmi, &Start::own(model))) {
@@ -21,7 +21,7 @@ fn main() -> ExitCode {
             println!("wrote {}", file.display());
         }
     }
-    for table in TABLES {
+    for table in GENERATED_TABLES {
         if let Err(error) = renew_table(table) {
             eprintln!("cannot write the table {} into {}: {error}", table.name, table.page);
             return ExitCode::FAILURE;

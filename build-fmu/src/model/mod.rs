@@ -1,4 +1,4 @@
-//! The models of which there are FMUs. A new one is a file here and an entry in [`MODELS`].
+//! The models of which there are FMUs. A new one is a file here and an entry in [`FMU_MODELS`].
 
 mod motorcycle;
 mod stewart_platform;
@@ -21,7 +21,7 @@ pub use stewart_platform::STEWART_PLATFORM;
 pub use washout::WASHOUT;
 
 /// Every model, in the order in which they are built.
-pub const MODELS: &[FmuModel] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
+pub const FMU_MODELS: &[FmuModel] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
 
 /// A part of the documentation.
 pub struct Section {
@@ -154,11 +154,12 @@ impl ModelFns {
 
 /// Terminals of both ends of a connection: a motorcycle's outputs are a washout's inputs, say.
 /// Kinds that are no standard's begin with an underscore.
-const VEHICLE: (&str, &str) = ("_moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
-const PREVIEW: (&str, &str) = ("_moris.preview", "Specific force to come at the rider's head");
-const RIDER: (&str, &str) = ("_moris.rider", "Lean of the rider");
-const ACTUATORS: (&str, &str) = ("_moris.actuators", "Lengths and velocities of the six actuators");
-const POSE: (&str, &str) = ("_moris.platform", "Position, velocity and acceleration of the platform");
+const VEHICLE_TERMINAL: (&str, &str) =
+    ("_moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
+const PREVIEW_TERMINAL: (&str, &str) = ("_moris.preview", "Specific force to come at the rider's head");
+const RIDER_TERMINAL: (&str, &str) = ("_moris.rider", "Lean of the rider");
+const ACTUATOR_TERMINAL: (&str, &str) = ("_moris.actuators", "Lengths and velocities of the six actuators");
+const POSE_TERMINAL: (&str, &str) = ("_moris.platform", "Position, velocity and acceleration of the platform");
 
 /// Members of a terminal of the vehicle.
 const VEHICLE_MEMBERS: &[(&str, &str)] = &[

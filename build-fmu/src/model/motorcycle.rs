@@ -8,7 +8,8 @@ use moris_motorcycle::path::table::from_csv;
 use moris_setup::{NamedValues, changed};
 
 use super::{
-    FmuModel, ModelFns, PREVIEW, PREVIEW_MEMBERS, RIDER, VEHICLE, VEHICLE_MEMBERS, example, row_terminal, section,
+    FmuModel, ModelFns, PREVIEW_MEMBERS, PREVIEW_TERMINAL, RIDER_TERMINAL, VEHICLE_MEMBERS, VEHICLE_TERMINAL, example,
+    row_terminal, section,
 };
 use crate::Error;
 
@@ -23,9 +24,9 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
     sections: &[section!("Motorcycle", "what", "Overview"), section!("Motorcycle", "connect", "Connections")],
     wording: &[example!("Motorcycle")],
     terminals: &[
-        row_terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
-        row_terminal("preview", PREVIEW, PREVIEW_MEMBERS),
-        row_terminal("rider", RIDER, &[("rider.lean", "lean")]),
+        row_terminal("vehicle", VEHICLE_TERMINAL, VEHICLE_MEMBERS),
+        row_terminal("preview", PREVIEW_TERMINAL, PREVIEW_MEMBERS),
+        row_terminal("rider", RIDER_TERMINAL, &[("rider.lean", "lean")]),
     ],
     icon: include_bytes!("../../icons/Motorcycle.png"),
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),
@@ -36,7 +37,7 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
 /// # Errors
 /// The file cannot be read, or is no path. Its values are checked with all start values.
 pub fn path_values(file: &Path) -> Result<NamedValues, Error> {
-    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT)
+    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::MAX_TEXT_SIZE)
         .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
     let path = from_csv(&text).map_err(|reason| Error::Path { file: file.to_owned(), reason })?;
     Ok(changed(&path))

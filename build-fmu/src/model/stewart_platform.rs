@@ -5,7 +5,10 @@ use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
-use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, example, row_terminal, section};
+use super::{
+    ACTUATOR_TERMINAL, FmuModel, ModelFns, POSE_MEMBERS, POSE_TERMINAL, RIDER_TERMINAL, Wording, example, row_terminal,
+    section,
+};
 
 /// The platform's FMU.
 pub const STEWART_PLATFORM: FmuModel = FmuModel {
@@ -39,9 +42,9 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
         example!("StewartPlatform"),
     ],
     terminals: &[
-        row_terminal("actuators", ACTUATORS, &[("command.length", "length"), ("command.velocity", "velocity")]),
-        row_terminal("rider", RIDER, &[("rider.lean", "lean")]),
-        row_terminal("platform", POSE, POSE_MEMBERS),
+        row_terminal("actuators", ACTUATOR_TERMINAL, &[("command.length", "length"), ("command.velocity", "velocity")]),
+        row_terminal("rider", RIDER_TERMINAL, &[("rider.lean", "lean")]),
+        row_terminal("platform", POSE_TERMINAL, POSE_MEMBERS),
     ],
     icon: include_bytes!("../../icons/StewartPlatform.png"),
     reference_input: include_str!("../../reference/StewartPlatform_in.csv"),

@@ -4,8 +4,8 @@ use moris_setup::NamedValues;
 use moris_washout::Washout;
 
 use super::{
-    ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, PREVIEW, PREVIEW_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording,
-    example, row_terminal, section,
+    ACTUATOR_TERMINAL, FmuModel, ModelFns, POSE_MEMBERS, POSE_TERMINAL, PREVIEW_MEMBERS, PREVIEW_TERMINAL,
+    VEHICLE_MEMBERS, VEHICLE_TERMINAL, Wording, example, row_terminal, section,
 };
 
 /// The washout's FMU.
@@ -36,10 +36,14 @@ pub const WASHOUT: FmuModel = FmuModel {
         example!("MorisWashout"),
     ],
     terminals: &[
-        row_terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
-        row_terminal("preview", PREVIEW, PREVIEW_MEMBERS),
-        row_terminal("actuators", ACTUATORS, &[("actuator.length", "length"), ("actuator.velocity", "velocity")]),
-        row_terminal("platform", POSE, POSE_MEMBERS),
+        row_terminal("vehicle", VEHICLE_TERMINAL, VEHICLE_MEMBERS),
+        row_terminal("preview", PREVIEW_TERMINAL, PREVIEW_MEMBERS),
+        row_terminal(
+            "actuators",
+            ACTUATOR_TERMINAL,
+            &[("actuator.length", "length"), ("actuator.velocity", "velocity")],
+        ),
+        row_terminal("platform", POSE_TERMINAL, POSE_MEMBERS),
     ],
     icon: include_bytes!("../../icons/MorisWashout.png"),
     reference_input: include_str!("../../reference/MorisWashout_in.csv"),

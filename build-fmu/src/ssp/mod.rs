@@ -8,7 +8,7 @@ use std::path::Path;
 use moris_setup::{NamedValues, parameter_file};
 
 use crate::archive::{self, Contents};
-use crate::contents::LICENCES;
+use crate::contents::LICENCE_TEXT;
 use crate::model::{MOTORCYCLE, STEWART_PLATFORM, WASHOUT};
 pub use vehicle::Vehicle;
 
@@ -40,7 +40,7 @@ pub struct System {
 }
 
 /// Path of the description in a package.
-pub const DESCRIPTION: &str = "SystemStructure.ssd";
+pub const DESCRIPTION_PATH: &str = "SystemStructure.ssd";
 
 /// Components and their models, in the order in which data flow through them.
 pub const COMPONENTS: [(&str, &FmuModel); 3] =
@@ -56,11 +56,11 @@ macro_rules! file {
 pub const MOTORCYCLE_SIMULATOR: System = System {
     name: "MotorcycleSimulator",
     whole: &[
-        (DESCRIPTION, file!("MotorcycleSimulator.ssd")),
+        (DESCRIPTION_PATH, file!("MotorcycleSimulator.ssd")),
         ("resources/MotorcycleSimulator.ssv", file!("MotorcycleSimulator.ssv")),
     ],
     flat: &[
-        (DESCRIPTION, file!("MotorcycleSimulator.flat.ssd")),
+        (DESCRIPTION_PATH, file!("MotorcycleSimulator.flat.ssd")),
         ("resources/washout.ssv", file!("MotorcycleSimulator.washout.ssv")),
     ],
     start_values: &[],
@@ -71,8 +71,8 @@ pub const MOTORCYCLE_SIMULATOR: System = System {
 /// from a set.
 pub const MOTORCYCLE_LAP: System = System {
     name: "MotorcycleLap",
-    whole: &[(DESCRIPTION, file!("MotorcycleLap.ssd"))],
-    flat: &[(DESCRIPTION, file!("MotorcycleLap.flat.ssd"))],
+    whole: &[(DESCRIPTION_PATH, file!("MotorcycleLap.ssd"))],
+    flat: &[(DESCRIPTION_PATH, file!("MotorcycleLap.flat.ssd"))],
     start_values: &[
         ("motorcycle", file!("MotorcycleLap.motorcycle.toml")),
         ("washout", file!("MotorcycleLap.washout.toml")),
@@ -89,7 +89,7 @@ impl System {
             Form::Whole => self.whole,
             Form::Flat => self.flat,
         };
-        let licences = ("documentation/licenses/license.txt", LICENCES);
+        let licences = ("documentation/licenses/license.txt", LICENCE_TEXT);
         let bytes = |&(path, text): &Text| (path.to_owned(), text.as_bytes().to_vec());
         texts.iter().chain([&licences]).map(bytes).collect()
     }
@@ -144,7 +144,7 @@ impl System {
     ) -> Result<Built, Error> {
         let mut contents = MOTORCYCLE_SIMULATOR.texts(Form::Flat);
         contents.retain(|path, _| !path.ends_with(".ssv"));
-        contents.insert(DESCRIPTION.to_owned(), vehicle.description.into_bytes());
+        contents.insert(DESCRIPTION_PATH.to_owned(), vehicle.description.into_bytes());
         contents.insert(vehicle::VEHICLE_FMU.to_owned(), vehicle.bytes);
         let components = &COMPONENTS[1..];
         let starts: Vec<Start> = components.iter().map(|(_, model)| Start::own(model)).collect();

@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use moris_build_fmu::archive::{Contents, pack};
 use moris_build_fmu::contents::{Extras, contents};
 use moris_build_fmu::model::WASHOUT;
-use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Platform, Start, workspace};
+use moris_build_fmu::{FMU_MODELS, FmiVersion, FmuModel, Platform, Start, workspace};
 use moris_model_description::Element;
 use moris_model_description::fmi2::Types;
 use moris_model_description::fmi3::Layout;
@@ -98,7 +98,7 @@ fn an_fmu_holds_what_fmi_3_asks_for() {
 
 #[test]
 fn every_model_description_is_the_checked_in_one() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         for &fmi in FmiVersion::SCALARS {
             let file = model.checked_in_description(fmi);
             let checked_in = std::fs::read_to_string(workspace::root().join(&file)).unwrap_or_default();
@@ -114,7 +114,7 @@ fn every_model_description_is_the_checked_in_one() {
 
 #[test]
 fn names_agree() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         let own = Start::own(model);
         let of_fmi3 = [Layout::Scalars, Layout::Arrays].map(|it| (model.functions.fmi3_description)(own.slots(), it));
         for description in [description(model)].iter().chain(&of_fmi3) {
@@ -160,7 +160,7 @@ fn the_archive_gives_back_what_was_put_in() {
 
 #[test]
 fn the_documentation_is_complete_and_needs_no_network() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         for &fmi in FmiVersion::ALL {
             let icon = fmi.choose("model.png", "terminalsAndIcons/icon.png");
             let page = documentation(model, fmi);
@@ -189,7 +189,7 @@ fn check_page(model: &FmuModel, page: &str) {
 
 #[test]
 fn the_documentation_of_arrays_has_their_names() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         let page = documentation(model, FmiVersion::Fmi3(Layout::Arrays)).replace("<wbr>", "").replace('\u{a0}', " ");
         for row in model.functions.identity.rows {
             if row.causality != moris_interface::Causality::Independent {
@@ -206,7 +206,7 @@ fn the_documentation_of_arrays_has_their_names() {
 /// Variables that the hand-written sections name, as far as they are named in full.
 #[test]
 fn the_documentation_names_variables_that_exist() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         for &fmi in FmiVersion::ALL {
             let names = variable_names(model, fmi);
             let page = documentation(model, fmi);
@@ -230,7 +230,7 @@ fn the_documentation_names_variables_that_exist() {
 
 #[test]
 fn an_icon_is_a_square_png_of_256_pixels() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         assert!(model.icon.starts_with(b"\x89PNG\r\n\x1a\n"));
         assert_eq!(&model.icon[12..24], b"IHDR\0\0\x01\0\0\0\x01\0");
     }
@@ -272,7 +272,7 @@ fn table(text: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
 
 #[test]
 fn a_reference_ride_is_there_and_has_every_real_output() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         let ride = reference_ride(model, FmiVersion::Fmi2);
         assert_eq!(reference_ride(model, FmiVersion::Fmi3(Layout::Scalars)), ride, "names and values are the same");
         let [_, _, input, output] = ride;
@@ -309,7 +309,7 @@ fn the_washouts_reference_ride_is_as_expected() {
 /// where that has no column.
 #[test]
 fn a_reference_ride_in_arrays_has_the_same_numbers() {
-    for model in MODELS {
+    for model in FMU_MODELS {
         let identity = &model.functions.identity;
         let start = Start::own(model);
         let [manifest, experiment, scalar_tables @ ..] = reference_ride(model, FmiVersion::Fmi2);

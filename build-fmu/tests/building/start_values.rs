@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use moris_build_fmu::contents::{Extras, contents};
 use moris_build_fmu::model::{STEWART_PLATFORM, WASHOUT};
-use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Start};
+use moris_build_fmu::{FMU_MODELS, FmiVersion, FmuModel, Start};
 use moris_model_description::fmi3::Layout;
 use moris_setup::rig_file::RigFile;
 use moris_setup::{NamedValues, load_rig, load_set};
@@ -100,7 +100,7 @@ fn a_platform_s_commands_follow_its_rig() {
         assert!((command - start_of(&WASHOUT, &washout, &format!("actuator[{leg}].length"))).abs() < 1e-12);
         assert!((command - start_of(&STEWART_PLATFORM, &start, &format!("actuator[{leg}].length"))).abs() < 1e-9);
     }
-    let with_a_rig: Vec<&str> = MODELS.iter().filter(|model| model.has_rig()).map(|model| model.name).collect();
+    let with_a_rig: Vec<&str> = FMU_MODELS.iter().filter(|model| model.has_rig()).map(|model| model.name).collect();
     assert_eq!(with_a_rig, ["MorisWashout", "StewartPlatform"]);
 }
 

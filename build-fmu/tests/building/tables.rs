@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use moris_build_fmu::tables::TABLES;
+use moris_build_fmu::tables::GENERATED_TABLES;
 use moris_build_fmu::workspace;
-use moris_setup::SETS;
+use moris_setup::PARAMETER_SETS;
 use moris_washout::presets::values;
 use roxmltree::Document;
 
@@ -33,7 +33,7 @@ fn code(cell: &str) -> &str {
 
 #[test]
 fn every_table_is_that_of_the_models() {
-    for expected in TABLES {
+    for expected in GENERATED_TABLES {
         let page = read(expected.page);
         let renewed = expected.within(&page).expect(expected.name);
         assert!(renewed == page, "{} in {} is stale: run `cargo describe-models`", expected.name, expected.page);
@@ -56,8 +56,8 @@ fn the_table_of_sets_has_the_values_of_every_set_and_no_others() {
         let (value, unit) = start(code(&row[0]));
         assert_eq!((row[1].as_str(), row[2].parse()), (unit.as_str(), Ok(value)), "{}", row[0]);
     }
-    assert_eq!(rows[0].len(), 3 + SETS.len() - 1);
-    for (column, (name, set)) in (3..).zip(&SETS[1..]) {
+    assert_eq!(rows[0].len(), 3 + PARAMETER_SETS.len() - 1);
+    for (column, (name, set)) in (3..).zip(&PARAMETER_SETS[1..]) {
         assert_eq!(code(&rows[0][column]), *name);
         let printed: BTreeMap<String, f64> = rows[1..]
             .iter()

@@ -2,7 +2,7 @@
 
 use moris_build_fmu::archive::pack;
 use moris_build_fmu::model::{MOTORCYCLE, WASHOUT};
-use moris_build_fmu::ssp::{COMPONENTS, DESCRIPTION, Form, MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR, SYSTEMS, System};
+use moris_build_fmu::ssp::{COMPONENTS, DESCRIPTION_PATH, Form, MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR, SYSTEMS, System};
 use moris_build_fmu::{FmuModel, Start};
 use moris_interface::{Causality, Kind};
 use moris_setup::load_set;
@@ -12,7 +12,7 @@ const ENDS: [&str; 4] = ["startElement", "startConnector", "endElement", "endCon
 
 /// The description of a system.
 pub fn structure(system: &System, form: Form) -> String {
-    String::from_utf8(system.texts(form)[DESCRIPTION].clone()).expect("a text")
+    String::from_utf8(system.texts(form)[DESCRIPTION_PATH].clone()).expect("a text")
 }
 
 /// Connections between components: from a component's output, to a component's input.
@@ -101,9 +101,9 @@ fn a_package_is_the_same_every_time() {
         let contents = MOTORCYCLE_SIMULATOR.texts(form);
         let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
         let parameters = format!("resources/{parameters}.ssv");
-        assert_eq!(paths, [DESCRIPTION, "documentation/licenses/license.txt", &*parameters]);
+        assert_eq!(paths, [DESCRIPTION_PATH, "documentation/licenses/license.txt", &*parameters]);
         assert!(pack(&contents).unwrap() == pack(&MOTORCYCLE_SIMULATOR.texts(form)).unwrap());
-        assert!(MOTORCYCLE_LAP.texts(form).keys().eq([DESCRIPTION, "documentation/licenses/license.txt"]));
+        assert!(MOTORCYCLE_LAP.texts(form).keys().eq([DESCRIPTION_PATH, "documentation/licenses/license.txt"]));
     }
 }
 

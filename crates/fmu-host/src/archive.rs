@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::files::{ArchiveError, TEXT, check_unpacked, open_archive};
+use crate::files::{ArchiveError, MAX_TEXT_SIZE, check_unpacked, open_archive};
 use tempfile::TempDir;
 
 use crate::HostError;
@@ -25,7 +25,7 @@ pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
 
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, HostError> {
-    crate::files::text(path, TEXT).map_err(|source| HostError::File { path: path.into(), source })
+    crate::files::text(path, MAX_TEXT_SIZE).map_err(|source| HostError::File { path: path.into(), source })
 }
 
 /// Where the shared library for this platform lies in an unpacked FMU.

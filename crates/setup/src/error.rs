@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use moris_interface::ParameterError;
 
 use crate::names::suggestion;
-use crate::parameter_sets::SETS;
-use crate::rigs::RIGS;
+use crate::parameter_sets::PARAMETER_SETS;
+use crate::rigs::SHIPPED_RIGS;
 
 /// Why a rig file, a parameter file or both together cannot be used, in words that say what to do.
 #[derive(Debug, thiserror::Error)]
@@ -18,13 +18,13 @@ pub enum Error {
     /// Neither a file nor the name of a shipped set.
     #[error(
         "{name} is neither a file nor a parameter set that is shipped{}",
-        suggestion(nearest, &format!("shipped are {}", SETS.map(|(name, _)| name).join(", ")))
+        suggestion(nearest, &format!("shipped are {}", PARAMETER_SETS.map(|(name, _)| name).join(", ")))
     )]
     NoSuchSet { name: String, nearest: Vec<String> },
     /// Neither a file nor the name of a shipped rig.
     #[error(
         "{name} is neither a file nor a rig that is shipped{}",
-        suggestion(nearest, &format!("shipped are {}", RIGS.map(|(name, _)| name).join(", ")))
+        suggestion(nearest, &format!("shipped are {}", SHIPPED_RIGS.map(|(name, _)| name).join(", ")))
     )]
     NoSuchRig { name: String, nearest: Vec<String> },
     /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows

@@ -24,6 +24,6 @@ mod setup;
 pub use error::Error;
 pub use named_values::{NamedValues, all, changed, differing, overlaid, values_of};
 pub use names::nearest;
-pub use parameter_sets::SETS;
-pub use rigs::RIGS;
+pub use parameter_sets::PARAMETER_SETS;
+pub use rigs::SHIPPED_RIGS;
 pub use setup::{Setup, load_rig, load_set, set_name};

@@ -3,7 +3,7 @@
 use moris_washout::presets::{ADAPTIVE, CLASSICAL, OPTIMAL, PAPER, PREVIEW, ROBUST};
 
 /// The texts of the parameter sets that are shipped, by the names that users write.
-pub const SETS: [(&str, &str); 7] = [
+pub const PARAMETER_SETS: [(&str, &str); 7] = [
     ("default", ""),
     ("classical", CLASSICAL),
     ("paper", PAPER),

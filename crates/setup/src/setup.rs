@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use moris_fmu_host::files::TEXT;
+use moris_fmu_host::files::MAX_TEXT_SIZE;
 use moris_interface::{Group, Row};
 use moris_washout::{Parameters, check, presets};
 
 use crate::named_values::{all, differing, overlaid};
 use crate::names::nearest;
 use crate::rig_file::RigFile;
-use crate::{Error, NamedValues, RIGS, SETS, parameter_file, rig_file};
+use crate::{Error, NamedValues, PARAMETER_SETS, SHIPPED_RIGS, parameter_file, rig_file};
 
 /// A washout's parameters from files and sets, checked, and their names.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,11 +71,11 @@ impl Setup {
 /// There is no such rig or file, or [`rig_file::read`] rejects the file.
 pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
     let name = file.display().to_string();
-    if let Some((_, rig)) = RIGS.iter().find(|(known, _)| *known == name) {
+    if let Some((_, rig)) = SHIPPED_RIGS.iter().find(|(known, _)| *known == name) {
         return rig_file::read(rig, &name);
     }
     if is_no_file(file) {
-        let nearest = nearest(&name, RIGS.iter().map(|(known, _)| *known));
+        let nearest = nearest(&name, SHIPPED_RIGS.iter().map(|(known, _)| *known));
         return Err(Error::NoSuchRig { name, nearest });
     }
     rig_file::read(&file_text(file)?, &name)
@@ -92,19 +92,19 @@ fn is_no_file(name: &Path) -> bool {
 /// # Errors
 /// There is no such set or file, or [`parameter_file::read`] rejects the file.
 pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
-    if let Some((_, set)) = SETS.iter().find(|(known, _)| *known == name) {
+    if let Some((_, set)) = PARAMETER_SETS.iter().find(|(known, _)| *known == name) {
         return Ok(presets::values(set).into_iter().map(|(variable, value)| (variable.to_owned(), value)).collect());
     }
     let file = Path::new(name);
     if is_no_file(file) {
-        let nearest = nearest(name, SETS.iter().map(|(known, _)| *known));
+        let nearest = nearest(name, PARAMETER_SETS.iter().map(|(known, _)| *known));
         return Err(Error::NoSuchSet { name: name.to_owned(), nearest });
     }
     parameter_file::read(&file_text(file)?, name, rows)
 }
 
 fn file_text(file: &Path) -> Result<String, Error> {
-    moris_fmu_host::files::text(file, TEXT).map_err(|reason| Error::Read { file: file.to_owned(), reason })
+    moris_fmu_host::files::text(file, MAX_TEXT_SIZE).map_err(|reason| Error::Read { file: file.to_owned(), reason })
 }
 
 /// The name of a set; of a file that without directory and extension.

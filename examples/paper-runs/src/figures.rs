@@ -8,7 +8,7 @@ use plotters::style::{BLACK, RGBColor};
 
 use crate::chart::{Curve, Panel, Stroke, draw};
 use crate::trace::{Sample, Trace};
-use moris_simulation::drives::runs::{A, B, C, TOWN};
+use moris_simulation::drives::runs::{RUN_A, RUN_B, RUN_C, TOWN_RUN};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
 const COLOUR_BLUE: RGBColor = RGBColor(0, 114, 178);
@@ -22,9 +22,9 @@ const PANEL_HEIGHT: u32 = 560;
 /// # Errors
 /// A run is missing from the traces, or a file cannot be written.
 pub fn write_figures(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>> {
-    let a = traces_of_run(traces, A.name)?;
-    let b = traces_of_run(traces, B.name)?;
-    let c = traces_of_run(traces, C.name)?;
+    let a = traces_of_run(traces, RUN_A.name)?;
+    let b = traces_of_run(traces, RUN_B.name)?;
+    let c = traces_of_run(traces, RUN_C.name)?;
     let figures = [
         ("figure-5.svg", vec![force_panel("Figure 5 (a)", &a, 0), force_panel("Figure 5 (b)", &a, 2)]),
         ("figure-6.svg", vec![rate_panel("Figure 6 (a)", &a, 1), leg_panel("Figure 6 (b)", a[0])]),
@@ -45,7 +45,7 @@ pub fn write_figures(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>>
 /// # Errors
 /// One of these runs is missing from the traces, or the file cannot be written.
 pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
-    let (c, town) = (traces_of_run(traces, C.name)?, traces_of_run(traces, TOWN.name)?);
+    let (c, town) = (traces_of_run(traces, RUN_C.name)?, traces_of_run(traces, TOWN_RUN.name)?);
     let panels = [("a", &c, 0), ("b", &town, 0), ("c", &town, 1)]
         .map(|(letter, runs, axis)| with_roughest_second(force_panel(&format!("Strategies ({letter})"), runs, axis)));
     draw(path, &panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
@@ -57,7 +57,7 @@ pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
 /// The ride is missing from the traces, or the file cannot be written.
 pub fn write_ride(path: &Path, traces: &[Trace]) -> Result<()> {
     const RIDE_PANEL_HEIGHT: u32 = 360;
-    let ride = traces_of_run(traces, TOWN.name)?;
+    let ride = traces_of_run(traces, TOWN_RUN.name)?;
     let surge = "Surge: what the vehicle asks for, and what the rider feels".to_owned();
     let panels = [
         with_roughest_second(Panel { title: surge, ..force_panel("", &ride, 0) }),
@@ -175,7 +175,7 @@ fn trace_curve(label: &str, colour: RGBColor, stroke: Stroke, trace: &Trace, val
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter_set::STRATEGIES;
+    use crate::parameter_set::STRATEGY_SETS;
     use moris_simulation::drives::runs::Manoeuvre;
 
     /// A run felt a tenth of a second late.
@@ -201,7 +201,8 @@ mod tests {
     fn every_figure_is_drawn_with_its_title_and_legend() {
         let directory = std::env::temp_dir().join(format!("paper-runs-figures-{}", std::process::id()));
         std::fs::create_dir_all(&directory).unwrap();
-        let traces = [trace(&A, "paper"), trace(&B, "paper"), trace(&B, "small-motions"), trace(&C, "paper")];
+        let traces =
+            [trace(&RUN_A, "paper"), trace(&RUN_B, "paper"), trace(&RUN_B, "small-motions"), trace(&RUN_C, "paper")];
         let paths = write_figures(&directory, &traces).unwrap();
         let drawings: Vec<String> = paths.iter().map(|path| std::fs::read_to_string(path).unwrap()).collect();
         std::fs::remove_dir_all(&directory).unwrap();
@@ -221,8 +222,8 @@ mod tests {
     #[test]
     fn the_strategies_are_told_apart_in_their_figure() {
         let file = std::env::temp_dir().join(format!("paper-runs-strategies-{}.svg", std::process::id()));
-        let names = STRATEGIES.map(|set| set.name);
-        let traces: Vec<_> = [C, TOWN].iter().flat_map(|run| names.map(|name| trace(run, name))).collect();
+        let names = STRATEGY_SETS.map(|set| set.name);
+        let traces: Vec<_> = [RUN_C, TOWN_RUN].iter().flat_map(|run| names.map(|name| trace(run, name))).collect();
         write_strategies(&file, &traces).unwrap();
         let drawing = std::fs::read_to_string(&file).unwrap();
         std::fs::remove_file(&file).unwrap();
@@ -246,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_missing_run_is_an_error_that_names_it() {
-        let error = write_figures(Path::new("."), &[trace(&A, "default")]).unwrap_err();
+        let error = write_figures(Path::new("."), &[trace(&RUN_A, "default")]).unwrap_err();
         assert_eq!(error.to_string(), "run b has not been made");
     }
 }

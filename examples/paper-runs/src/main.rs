@@ -11,11 +11,11 @@ use moris_fmu_host::Fmu;
 use moris_paper_runs::curves::write_curves;
 use moris_paper_runs::figures::{write_figures, write_strategies};
 use moris_paper_runs::fmu::{built, open};
-use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTIONS, STRATEGIES};
+use moris_paper_runs::parameter_set::{PAPER_SET, PREACTION_SET, ParameterSet, SMALL_MOTIONS, STRATEGY_SETS};
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
 use moris_paper_runs::trace::Trace;
-use moris_simulation::drives::runs::{A, A_BRISK, B, C, Manoeuvre, TOWN};
+use moris_simulation::drives::runs::{Manoeuvre, RUN_A, RUN_A_BRISK, RUN_B, RUN_C, TOWN_RUN};
 
 /// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and
 /// draws figures 5 to 9; then compares the strategies. Writes the curves as CSV, too.
@@ -63,12 +63,19 @@ fn main() -> Result<()> {
 
 /// The four runs with the paper's set, run b with the one made for it, and run c with preaction.
 fn paper_runs() -> Vec<(Manoeuvre, ParameterSet)> {
-    vec![(A, PAPER), (A_BRISK, PAPER), (B, PAPER), (B, SMALL_MOTIONS), (C, PAPER), (C, PREACTION)]
+    vec![
+        (RUN_A, PAPER_SET),
+        (RUN_A_BRISK, PAPER_SET),
+        (RUN_B, PAPER_SET),
+        (RUN_B, SMALL_MOTIONS),
+        (RUN_C, PAPER_SET),
+        (RUN_C, PREACTION_SET),
+    ]
 }
 
 /// Run c and the ride through town with each strategy.
 fn strategy_runs() -> Vec<(Manoeuvre, ParameterSet)> {
-    [C, TOWN].into_iter().flat_map(|run| STRATEGIES.map(|set| (run, set))).collect()
+    [RUN_C, TOWN_RUN].into_iter().flat_map(|run| STRATEGY_SETS.map(|set| (run, set))).collect()
 }
 
 fn make_runs(fmu: &Fmu, runs: &[(Manoeuvre, ParameterSet)], step: f64) -> Result<Vec<Trace>> {

@@ -19,26 +19,26 @@ impl ParameterSet {
 }
 
 /// The set of the paper's runs.
-pub const PAPER: ParameterSet = ParameterSet { name: "paper", texts: &[presets::PAPER] };
+pub const PAPER_SET: ParameterSet = ParameterSet { name: "paper", texts: &[presets::PAPER] };
 
 /// For small quick motion, as in run b.
 pub const SMALL_MOTIONS: ParameterSet =
     ParameterSet { name: "small-motions", texts: &[include_str!("../small-motions.toml")] };
 
 /// The set of the paper's runs, and ahead of a stop; of the stroke, as much as the paper's rig has.
-pub const PREACTION: ParameterSet = ParameterSet {
+pub const PREACTION_SET: ParameterSet = ParameterSet {
     name: "paper + preaction",
     texts: &[presets::PAPER, "\"safety.x.positionLimit\" = 0.45", "\"preaction\" = \"on\""],
 };
 
 /// The strategy that feels best.
-pub const RIDE: ParameterSet = ParameterSet { name: "predictive", texts: &[] };
+pub const RIDE_SET: ParameterSet = ParameterSet { name: "predictive", texts: &[] };
 
 /// The five strategies, each with its own preset.
-pub const STRATEGIES: [ParameterSet; 5] = [
+pub const STRATEGY_SETS: [ParameterSet; 5] = [
     ParameterSet { name: "classical", texts: &[presets::CLASSICAL] },
     ParameterSet { name: "adaptive", texts: &[presets::ADAPTIVE] },
     ParameterSet { name: "optimal", texts: &[presets::OPTIMAL] },
     ParameterSet { name: "robust", texts: &[presets::ROBUST] },
-    RIDE,
+    RIDE_SET,
 ];

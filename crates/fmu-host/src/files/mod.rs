@@ -8,4 +8,4 @@ mod read;
 mod size;
 
 pub use archive::{ArchiveError, check_unpacked, open_archive, unpack};
-pub use read::{TEXT, bytes, text};
+pub use read::{MAX_TEXT_SIZE, bytes, text};

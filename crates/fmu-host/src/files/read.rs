@@ -7,7 +7,7 @@ use std::path::Path;
 use super::size::shown;
 
 /// Largest text that a person writes, such as a rig or parameters \[bytes\].
-pub const TEXT: u64 = 16_000_000;
+pub const MAX_TEXT_SIZE: u64 = 16_000_000;
 
 /// The text of a file of at most `largest` bytes.
 ///
@@ -88,12 +88,12 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let file = directory.path().join("sparse");
         File::create(&file).unwrap().set_len(1 << 40).unwrap();
-        assert_eq!(text(&file, TEXT).unwrap_err().to_string(), "it is no text: it has zero bytes");
-        assert_eq!(bytes(&file, TEXT).unwrap_err().to_string(), "it is larger than 16 MB");
+        assert_eq!(text(&file, MAX_TEXT_SIZE).unwrap_err().to_string(), "it is no text: it has zero bytes");
+        assert_eq!(bytes(&file, MAX_TEXT_SIZE).unwrap_err().to_string(), "it is larger than 16 MB");
         if cfg!(unix) {
             let zeros = Path::new("/dev/zero");
-            assert_eq!(text(zeros, TEXT).unwrap_err().to_string(), "it is no text: it has zero bytes");
-            assert_eq!(bytes(zeros, TEXT).unwrap_err().to_string(), "it is larger than 16 MB");
+            assert_eq!(text(zeros, MAX_TEXT_SIZE).unwrap_err().to_string(), "it is no text: it has zero bytes");
+            assert_eq!(bytes(zeros, MAX_TEXT_SIZE).unwrap_err().to_string(), "it is larger than 16 MB");
         }
     }
 }

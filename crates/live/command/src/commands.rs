@@ -9,10 +9,10 @@ use rtrb::Producer;
 
 use super::console;
 use super::page::Order;
-use super::place::WORDS;
+use super::place::PLACE_COMMANDS;
 
 /// Names of the commands.
-pub const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
+pub const COMMAND_NAMES: &str = "start, engage, disengage, park, stop, clear";
 
 /// Standard input, which never stops this program.
 #[cfg(unix)]
@@ -66,7 +66,7 @@ fn take(line: &[u8], commands: &mut Producer<Order>) {
             }
         }
         None if word.is_empty() => (),
-        None => console::line(&format!("commands: {COMMANDS}; for the legs' place: {WORDS}")),
+        None => console::line(&format!("commands: {COMMAND_NAMES}; for the legs' place: {PLACE_COMMANDS}")),
     }
 }
 

@@ -66,7 +66,7 @@ use moris_setup::Setup;
 use moris_washout::interface::AutomaticScale;
 use rtrb::RingBuffer;
 
-use commands::COMMANDS;
+use commands::COMMAND_NAMES;
 use controls::{Controls, Handling};
 use frames::{Device, Sender, Sent, Sink};
 use moris_analysis::learned_road;
@@ -280,10 +280,10 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let was_left = occupied.as_ref().is_some_and(Occupied::was_left);
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
     let rig = &setup.parameters.rig;
-    let (device, interval, time_out, place) = if options.frames == moog::NAME {
+    let (device, interval, time_out, place) = if options.frames == moog::FRAME_NAME {
         sink.listen()?;
         // The base itself goes from its home to neutral.
-        (Device::moog(rig), moog::INTERVAL, None, LegPlace::own())
+        (Device::moog(rig), moog::PACKET_INTERVAL, None, LegPlace::own())
     } else {
         let template = tables::frames(&options.frames)?;
         let encoder = Encoder::new(&template, rig).with_context(|| format!("--frames {}", options.frames))?;
@@ -349,7 +349,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
     let (to_forecast, parking) = RingBuffer::new(1);
-    console::line(&format!("commands: {COMMANDS}; Ctrl-C parks and ends"));
+    console::line(&format!("commands: {COMMAND_NAMES}; Ctrl-C parks and ends"));
     if let Some(advice) = place.advice(rig.stroke_length()) {
         console::line(&advice);
     }

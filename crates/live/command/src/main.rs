@@ -8,7 +8,7 @@ use moris_command_line::exit_status;
 use moris_live_command::{Options, main as run};
 
 #[derive(Parser)]
-#[command(name = "moris-live", version = moris_pages::VERSION)]
+#[command(name = "moris-live", version = moris_pages::PACKAGE_VERSION)]
 struct Arguments {
     #[command(flatten)]
     options: Options,

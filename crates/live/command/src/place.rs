@@ -8,7 +8,7 @@ use moris_live::frame::{Encoder, Frames};
 const REPORT_VALIDITY: f64 = 1.0;
 
 /// Words of a person for the place, beside the options.
-pub const WORDS: &str = "settled, slow";
+pub const PLACE_COMMANDS: &str = "settled, slow";
 
 /// All that is known of the legs' place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -14,7 +14,7 @@ use super::frames::{Frames, Loss};
 use super::journal::Note;
 use super::lateness::Lateness;
 use super::pace;
-use super::page::{EVERY, Order, Shown};
+use super::page::{Order, SHOWN_INTERVAL_STEPS, Shown};
 use super::place::LegPlace;
 use super::signals::Interrupts;
 use super::telemetry::Received;
@@ -163,7 +163,7 @@ impl Steps<'_> {
                 watch.check(session, |note| summary.lost_notes += u64::from(journal.push(note).is_err()));
             }
             if let Some(shown) = &mut self.shown
-                && summary.steps.is_multiple_of(EVERY)
+                && summary.steps.is_multiple_of(SHOWN_INTERVAL_STEPS)
             {
                 let _ = shown.push(Shown::of(self.session, &summary.lateness, self.is_lost));
             }

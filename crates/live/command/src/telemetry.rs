@@ -28,7 +28,7 @@ use moris_analysis::recording::formats::Format as Logger;
 use moris_analysis::recording::{ConventionOptions, FADE_IN, Recording};
 
 /// Time by which samples of a source inside are there before they are needed.
-pub const BEFORE: Duration = Duration::from_millis(5);
+pub const SAMPLE_LEAD_TIME: Duration = Duration::from_millis(5);
 
 /// A sample, and when it arrived.
 #[derive(Clone, Copy, Debug)]
@@ -200,7 +200,7 @@ fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared)
         let time = step * sent;
         pace::wait_until(begin + time);
         let sample = sample(input, recording, played, time.as_secs_f64());
-        let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
+        let _ = samples.push(Received { arrival: begin + time + step + SAMPLE_LEAD_TIME, sample });
         sent += 1;
         played += usize::from(played > 0 || engages(shared));
     }

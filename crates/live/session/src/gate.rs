@@ -4,7 +4,7 @@
 //! difference to what has passed so far is added, and goes to zero: a glide. Value and slope of
 //! what passes are continuous there.
 
-use crate::motion::{ANGLES, CHANNEL_COUNT, Channels, Motion, SMALLEST_FELT_SIZES, turns};
+use crate::motion::{ANGLE_CHANNELS, CHANNEL_COUNT, Channels, Motion, SMALLEST_FELT_SIZES, turns};
 
 /// Change of the source at a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ impl Gate {
         }
         // An angle that has gone on by a turn is the same angle.
         let mut start = self.output.0;
-        for k in ANGLES {
+        for k in ANGLE_CHANNELS {
             start[k] += turns(end[k] - start[k]);
         }
         self.slope = (end - start) / step;
@@ -105,7 +105,7 @@ impl Gate {
         const PER_GAP: f64 = 0.1;
         // Both at the step's start.
         let mut difference = self.output.0 - (source.0 - slope * step);
-        for k in ANGLES {
+        for k in ANGLE_CHANNELS {
             difference[k] -= turns(difference[k]);
         }
         let felt = (0..CHANNEL_COUNT).map(|k| difference[k].abs() / SMALLEST_FELT_SIZES[k]).fold(0.0, f64::max);

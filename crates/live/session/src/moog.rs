@@ -31,11 +31,11 @@ use crate::frame::Values;
 use crate::transitions::Event;
 
 /// Name among the frames.
-pub const NAME: &str = "moog-6dof2000e";
+pub const FRAME_NAME: &str = "moog-6dof2000e";
 /// Description, a sentence.
-pub const ABOUT: &str = "Motion base MOOG 6DOF2000E by UDP, which answers with its state";
+pub const FRAME_DESCRIPTION: &str = "Motion base MOOG 6DOF2000E by UDP, which answers with its state";
 /// Time between packets \[s\].
-pub const INTERVAL: f64 = 1.0 / 60.0;
+pub const PACKET_INTERVAL: f64 = 1.0 / 60.0;
 /// Packets for which the pose fades in or out: 3 s.
 const FADE_PACKETS: u32 = 180;
 /// Equal answers in a row with which a state counts: 50 ms.
@@ -326,18 +326,18 @@ mod tests {
     /// Times at the rate of the packets, which the base expects 60 times a second.
     #[test]
     fn the_pose_takes_three_seconds_and_silence_half_a_second() {
-        assert_eq!((1.0 / INTERVAL).round(), 60.0);
+        assert_eq!((1.0 / PACKET_INTERVAL).round(), 60.0);
         let mut moog = base();
         confirm(&mut moog, 0x3);
         let mut time = 0.0;
         while heave(&mut moog) > -0.3 {
             moog.receive(&answer(0x3));
-            time += INTERVAL;
+            time += PACKET_INTERVAL;
         }
         assert!((time - 3.0).abs() < 0.05, "{time} s");
         let mut silent = 0.0;
         while moog.send(true, &values()).1.is_none() {
-            silent += INTERVAL;
+            silent += PACKET_INTERVAL;
         }
         assert!((silent - 0.5).abs() < 0.05, "{silent} s");
     }

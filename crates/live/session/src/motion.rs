@@ -20,7 +20,7 @@ pub type Channels = SVector<f64, CHANNEL_COUNT>;
 pub struct Motion(pub Channels);
 
 /// Places of the angles.
-pub const ANGLES: std::ops::Range<usize> = 6..9;
+pub const ANGLE_CHANNELS: std::ops::Range<usize> = 6..9;
 
 /// Size of each channel that is small, but felt.
 pub const SMALLEST_FELT_SIZES: [f64; CHANNEL_COUNT] = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 1.0];

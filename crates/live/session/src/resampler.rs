@@ -5,7 +5,7 @@
 
 use crate::attitude::{between, nearest_angles};
 use crate::gaps::Gaps;
-use crate::motion::{ANGLES, Channels, Motion};
+use crate::motion::{ANGLE_CHANNELS, Channels, Motion};
 use nalgebra::Vector3;
 
 /// Samples that are kept: 0.6 s at 400 Hz.
@@ -140,7 +140,7 @@ impl Resampler {
             if before.time <= time {
                 let slope = (after.motion.0 - before.motion.0) / (after.time - before.time);
                 let mut motion = Motion(before.motion.0 + slope * (time - before.time));
-                if ANGLES.take(3).any(|k| (after.motion.0[k] - before.motion.0[k]).abs() > MAX_ANGLE_CHANGE) {
+                if ANGLE_CHANNELS.take(3).any(|k| (after.motion.0[k] - before.motion.0[k]).abs() > MAX_ANGLE_CHANGE) {
                     let part = (time - before.time) / (after.time - before.time);
                     motion.set_angles(between(&before.motion.angles(), &after.motion.angles(), part));
                 }

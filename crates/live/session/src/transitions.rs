@@ -111,7 +111,7 @@ impl Event {
 
 /// The next state, by state and event in the order of [`Event::ALL`].
 #[rustfmt::skip]
-pub const TRANSITIONS: [(State, [State; 14]); 10] = {
+pub const STATE_TRANSITIONS: [(State, [State; 14]); 10] = {
     use State::{Disengaging as Diseng, Engaged, Engaging, Fault, Frozen, Homing, Neutral, Off, Parking, Settled};
     [
         //          start    engage    disengage park     stop clear    fault  lost   pause    silence  stale    resume    teleport  arrived
@@ -131,7 +131,7 @@ pub const TRANSITIONS: [(State, [State; 14]); 10] = {
 impl State {
     /// The state after an event.
     pub fn after(self, event: Event) -> State {
-        TRANSITIONS[self as usize].1[event as usize]
+        STATE_TRANSITIONS[self as usize].1[event as usize]
     }
 
     /// True if the washout is engaged.
@@ -150,7 +150,7 @@ impl State {
         let events = || Event::ALL.iter().map(|event| event.name().to_owned());
         let mut text = cells(["state".to_owned()].into_iter().chain(events()).collect());
         text += &format!("|{}\n", "---|".repeat(Event::ALL.len() + 1));
-        for (state, next) in TRANSITIONS {
+        for (state, next) in STATE_TRANSITIONS {
             let shown = |next: &State| if *next == state { "·".to_owned() } else { next.name().to_owned() };
             text += &cells([format!("**{}**", state.name())].into_iter().chain(next.iter().map(shown)).collect());
         }
@@ -164,8 +164,8 @@ mod tests {
 
     #[test]
     fn the_rows_and_columns_are_the_states_and_events_in_order() {
-        assert!(TRANSITIONS.iter().map(|row| row.0).eq(State::ALL.iter().copied()));
-        assert!(TRANSITIONS.iter().all(|row| row.1.len() == Event::ALL.len()));
+        assert!(STATE_TRANSITIONS.iter().map(|row| row.0).eq(State::ALL.iter().copied()));
+        assert!(STATE_TRANSITIONS.iter().all(|row| row.1.len() == Event::ALL.len()));
         for (place, state) in State::ALL.iter().enumerate() {
             assert_eq!(*state as usize, place);
             assert_eq!(State::named(state.name()), Some(*state));

@@ -1,6 +1,6 @@
 //! Packets written out by hand from each layout, and any bytes at all.
 
-use moris_live::format::{Format, SHIPPED, shipped};
+use moris_live::format::{Format, SHIPPED_FORMATS, shipped};
 use moris_live::{Motion, Sample};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -290,7 +290,7 @@ fn x_plane() {
 
 #[test]
 fn the_shipped_tables_say_what_they_are() {
-    for (name, text) in SHIPPED {
+    for (name, text) in SHIPPED_FORMATS {
         let format: Format = text.parse().unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(format.name, name);
         assert!(
@@ -324,8 +324,8 @@ fn tables_that_make_no_sense_are_refused() {
 
 proptest! {
     #[test]
-    fn any_bytes_are_decoded_without_a_panic(bytes in prop::collection::vec(any::<u8>(), 0..600), kind in 0..SHIPPED.len()) {
-        let format: Format = SHIPPED[kind].1.parse().unwrap();
+    fn any_bytes_are_decoded_without_a_panic(bytes in prop::collection::vec(any::<u8>(), 0..600), kind in 0..SHIPPED_FORMATS.len()) {
+        let format: Format = SHIPPED_FORMATS[kind].1.parse().unwrap();
         let _ = format.decode(&bytes);
         // Of a length and with a head that are right.
         let length = format.lengths.first().copied().unwrap_or(bytes.len().max(8));

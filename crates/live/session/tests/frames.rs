@@ -1,6 +1,6 @@
 //! Frames written out by hand from each device's layout.
 
-use moris_live::frame::{Encoder, Frames, SHIPPED, Values, shipped};
+use moris_live::frame::{Encoder, Frames, SHIPPED_FRAMES, Values, shipped};
 use moris_live::{Session, Settings};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::motion::orientation::Orientation;
@@ -205,7 +205,7 @@ fn rig_for(name: &str) -> Rig {
 
 #[test]
 fn a_template_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
-    for (name, text) in SHIPPED {
+    for (name, text) in SHIPPED_FRAMES {
         let frames: Frames = text.parse().unwrap();
         let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();
         assert_eq!(encoder.moves_actuators(), name != "vr-pose", "{name}");
@@ -221,7 +221,7 @@ fn a_template_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
 proptest! {
     #[test]
     fn any_values_are_encoded_without_a_panic(length in prop::array::uniform6(any::<f64>()), time in any::<f64>()) {
-        for (name, text) in SHIPPED {
+        for (name, text) in SHIPPED_FRAMES {
             let frames: Frames = text.parse().unwrap();
             assert_eq!(frames.name, name);
             let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();

@@ -4,7 +4,7 @@ use std::fs;
 
 use moris_interface::{Group, Kind};
 use moris_setup::parameter_file::{read, write};
-use moris_setup::{NamedValues, SETS, Setup, all, changed, load_set, overlaid};
+use moris_setup::{NamedValues, PARAMETER_SETS, Setup, all, changed, load_set, overlaid};
 use moris_washout::Parameters;
 use moris_washout::interface::{GravityRemoval, LowPassKind};
 use moris_washout::presets;
@@ -55,7 +55,7 @@ fn only_what_has_changed_can_be_written() {
 
 #[test]
 fn shipped_sets_are_parameter_files() {
-    for (name, text) in SETS {
+    for (name, text) in PARAMETER_SETS {
         let shipped = load_set(name, Parameters::ROWS).unwrap();
         let sorted = |mut values: NamedValues| {
             values.sort_by(|a, b| a.0.cmp(&b.0));

@@ -109,7 +109,7 @@ fn every_example_is_shipped_under_its_name() {
     let files = std::fs::read_dir(example("default.toml").parent().unwrap()).unwrap();
     let stems = files.map(|file| file.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned());
     let (mut files, mut shipped): (Vec<String>, Vec<String>) =
-        (stems.collect(), moris_setup::RIGS.iter().map(|(name, _)| (*name).to_owned()).collect());
+        (stems.collect(), moris_setup::SHIPPED_RIGS.iter().map(|(name, _)| (*name).to_owned()).collect());
     files.sort();
     shipped.sort();
     assert_eq!(files, shipped);

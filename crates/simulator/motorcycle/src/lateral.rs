@@ -36,11 +36,11 @@ pub mod place {
 use place::*;
 
 /// Number of lateral states.
-pub const SIZE: usize = 8;
+pub const STATE_SIZE: usize = 8;
 /// The lateral state, or its derivative.
-pub type State = SVector<f64, SIZE>;
+pub type State = SVector<f64, STATE_SIZE>;
 /// A matrix that acts on the lateral state.
-pub type StateMatrix = SMatrix<f64, SIZE, SIZE>;
+pub type StateMatrix = SMatrix<f64, STATE_SIZE, STATE_SIZE>;
 
 /// Units in which the variables of a state that begins with the lateral one are of
 /// similar size: forces in kN.
@@ -374,5 +374,5 @@ fn add_accelerations<const COLUMNS: usize>(
 
 /// Accelerations as a derivative of the state.
 fn derivative_of(accelerations: Vector4<f64>) -> State {
-    accelerations.fixed_resize::<SIZE, 1>(0.0)
+    accelerations.fixed_resize::<STATE_SIZE, 1>(0.0)
 }

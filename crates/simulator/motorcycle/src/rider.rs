@@ -20,8 +20,8 @@ use crate::lateral::{self, Lateral, foot_support, place};
 use crate::speeds::Speeds;
 
 /// The lateral state, and the accumulated error of the lean.
-const PLANT_SIZE: usize = lateral::SIZE + 1;
-const LEAN_ERROR_INDEX: usize = lateral::SIZE;
+const PLANT_SIZE: usize = lateral::STATE_SIZE + 1;
+const LEAN_ERROR_INDEX: usize = lateral::STATE_SIZE;
 /// Number of speeds for which gains are computed.
 pub const GAIN_SPEED_COUNT: usize = 48;
 
@@ -257,7 +257,7 @@ fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Opt
     let gain = inverse * to_go * torque * inverse_weight;
     let finite = gain.iter().chain(turn.iter()).chain([&turn_torque]).all(|number| number.is_finite());
     finite.then(|| GainSet {
-        gain: gain.fixed_rows::<{ lateral::SIZE }>(0).into_owned(),
+        gain: gain.fixed_rows::<{ lateral::STATE_SIZE }>(0).into_owned(),
         error_gain: gain[LEAN_ERROR_INDEX],
         turn,
         turn_torque,
@@ -292,7 +292,8 @@ fn lean_plant(
 ) -> (SMatrix<f64, PLANT_SIZE, PLANT_SIZE>, SVector<f64, PLANT_SIZE>) {
     let feet = foot_support(speed, feet_speed);
     let mut a = SMatrix::<f64, PLANT_SIZE, PLANT_SIZE>::zeros();
-    a.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(&lateral.state_matrix(speed, feet));
+    a.fixed_view_mut::<{ lateral::STATE_SIZE }, { lateral::STATE_SIZE }>(0, 0)
+        .copy_from(&lateral.state_matrix(speed, feet));
     a[(LEAN_ERROR_INDEX, place::LEAN)] = 1.0 - feet;
     a[(LEAN_ERROR_INDEX, LEAN_ERROR_INDEX)] = -feet / SUPPORT_FORGETTING_TIME;
     (a, lateral.torque.push(0.0) * (1.0 - feet))

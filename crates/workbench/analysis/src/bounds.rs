@@ -2,7 +2,7 @@
 //! rig.
 
 use moris_simulation::measures::Axes;
-use moris_simulation::measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
+use moris_simulation::measures::bound::{AxisLimits, Bound, BoundError, DEFAULT_INTERVAL, TiltLimits, bound};
 use moris_simulation::measures::statistics::rms;
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -41,7 +41,7 @@ pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundE
     // a little lower, and as valid.
     const MOST_INTERVALS: f64 = 10_000.0;
     let duration = simulation.step * simulation.inputs.len() as f64;
-    bounds_at(simulation, INTERVAL.max(duration / MOST_INTERVALS))
+    bounds_at(simulation, DEFAULT_INTERVAL.max(duration / MOST_INTERVALS))
 }
 
 /// The bounds with intervals of this length \[s\]. With longer ones they are a little lower, and as

@@ -39,7 +39,7 @@ pub mod tune;
 use moris_analysis::{learned_road, option_values};
 pub use moris_analysis::{recording, text_table, washout_fmu};
 pub use moris_command_line::{setup_options, words};
-pub use moris_pages::VERSION;
+pub use moris_pages::PACKAGE_VERSION;
 
 /// Default directory for reports. No directory of the sources has this name.
 pub const REPORT_DIRECTORY: &str = "moris-report";

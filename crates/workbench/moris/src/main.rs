@@ -12,7 +12,7 @@ use moris_command_line::exit_status;
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
-#[command(name = "moris", version = moris::VERSION)]
+#[command(name = "moris", version = moris::PACKAGE_VERSION)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

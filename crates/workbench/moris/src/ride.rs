@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_pages::ride::page::{MODULE, Page, html};
+use moris_pages::ride::page::{Page, RIDE_MODULE, html};
 
 use crate::setup_options::SetupOptions;
 use crate::simulate::simulator::parameters;
@@ -32,13 +32,13 @@ pub struct Options {
 /// The module was not compiled, the rig or the parameters cannot be used, or the file cannot be
 /// written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    if MODULE.is_empty() {
+    if RIDE_MODULE.is_empty() {
         bail!("moris was built without the ride; build it again after `rustup target add wasm32-unknown-unknown`");
     }
     let setup = options.setup.load_to_drive()?;
     let page = html(&Page {
         subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
-        module: MODULE.to_vec(),
+        module: RIDE_MODULE.to_vec(),
         rig: (&setup.parameters).into(),
         parameters: parameters(&setup.parameters, &setup.rig_alone),
         half_width: moris_pages::ride::HALF_WIDTH,

@@ -5,4 +5,4 @@
 pub const DOES_NOT_FIT: u8 = 3;
 /// A result is worse than it should be: tuned parameters than those before, a measure than its
 /// target, or a response than its bounds.
-pub const WORSE: u8 = 4;
+pub const WORSE_RESULT: u8 = 4;

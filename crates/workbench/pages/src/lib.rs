@@ -18,4 +18,4 @@ pub mod report;
 pub mod ride;
 
 /// Version, and the commit where it is known.
-pub const VERSION: &str = env!("MORIS_VERSION");
+pub const PACKAGE_VERSION: &str = env!("MORIS_VERSION");

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::report::shared;
-use crate::ride::page::STYLE as MOTION;
+use crate::ride::page::MOTION_STYLE;
 
 /// The whole page as HTML, with the data of its start. It asks its own server alone.
 ///
@@ -13,7 +13,7 @@ pub fn html(subtitle: &str, data: &impl Serialize) -> String {
     const PAGE_TEMPLATE: &str = include_str!("../page/live/live.html");
     const PAGE_STYLE: &str = include_str!("../page/live/live.css");
     const ENTRY_MODULE: &str = "live/live.js";
-    let style = [MOTION, PAGE_STYLE].join("\n");
+    let style = [MOTION_STYLE, PAGE_STYLE].join("\n");
     let policy = "connect-src 'self'";
     let head = shared::Head { title: "Live", subtitle, style: &style, scripts: "", policy };
     shared::assembled(&head, PAGE_TEMPLATE, data, ENTRY_MODULE)

@@ -49,7 +49,7 @@ impl Time {
 }
 
 /// The fields of [`Input`]: name, and number of elements of a vector.
-pub const FIELDS: [(&str, Option<usize>); 6] = [
+pub const INPUT_FIELDS: [(&str, Option<usize>); 6] = [
     ("specific_force", Some(3)),
     ("angular_velocity", Some(3)),
     ("orientation", Some(3)),
@@ -61,7 +61,7 @@ pub const FIELDS: [(&str, Option<usize>); 6] = [
 /// End of the message of an input that is NaN.
 pub const NAN_REMEDY: &str = "; fill the gap, or take NaN as rest with nan=\"rest\"";
 
-/// The samples' times and inputs, of an array for each of [`FIELDS`].
+/// The samples' times and inputs, of an array for each of [`INPUT_FIELDS`].
 ///
 /// # Errors
 /// `RecordingError`: an array has another shape or holds NaN that does not count as rest, or time
@@ -72,7 +72,7 @@ pub fn samples(time: &Bound<PyAny>, arrays: [Given; 6], nan_is_rest: bool) -> Py
     let rest = slots_of(&Input::default());
     let mut rows = rest.repeat(times.len());
     let mut first = 0;
-    for ((name, columns), array) in FIELDS.into_iter().zip(arrays) {
+    for ((name, columns), array) in INPUT_FIELDS.into_iter().zip(arrays) {
         let slots = first..first + columns.unwrap_or(1);
         first = slots.end;
         let Some(array) = array else { continue };

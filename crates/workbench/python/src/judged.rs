@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use moris_analysis::recording::Recording;
-use moris_analysis::recording::felt::{FORCE, FeltTable, LEGS, Names, POSE, RATE};
+use moris_analysis::recording::felt::{FELT_FORCE, FELT_RATE, FeltTable, LEG_LENGTHS, Names, PLATFORM_POSE};
 use moris_simulation::foreign::ForeignMotion;
 use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
@@ -22,10 +22,10 @@ pub fn motion(parts: &[Option<Bound<PyAny>>; 4], recording: &Recording) -> PyRes
     let [force, rate, pose, legs] = parts.each_ref().map(Option::as_ref);
     let mut notes = Vec::new();
     let motion = ForeignMotion {
-        force: motion_part(force, &FORCE, recording, &mut notes)?,
-        rate: motion_part(rate, &RATE, recording, &mut notes)?,
-        pose: motion_part(pose, &POSE, recording, &mut notes)?,
-        legs: motion_part(legs, &LEGS, recording, &mut notes)?,
+        force: motion_part(force, &FELT_FORCE, recording, &mut notes)?,
+        rate: motion_part(rate, &FELT_RATE, recording, &mut notes)?,
+        pose: motion_part(pose, &PLATFORM_POSE, recording, &mut notes)?,
+        legs: motion_part(legs, &LEG_LENGTHS, recording, &mut notes)?,
     };
     Ok((motion, notes))
 }

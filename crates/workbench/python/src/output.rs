@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::variables::Variables;
 
 /// Number of scalar outputs.
-pub const COUNT: usize = slot_count(Output::ROWS);
+pub const OUTPUT_COUNT: usize = slot_count(Output::ROWS);
 
 /// The outputs' names.
 pub static VARIABLES: LazyLock<Variables> = LazyLock::new(|| Variables::of(Output::ROWS));
@@ -37,7 +37,7 @@ impl PyOutput {
     }
 
     fn __len__(&self) -> usize {
-        COUNT
+        OUTPUT_COUNT
     }
 
     fn __contains__(&self, name: &str) -> bool {
@@ -55,7 +55,7 @@ impl PyOutput {
 
     /// The values of the single variables.
     fn values<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        (0..COUNT).map(|slot| VARIABLES.scalar(py, slot, self.slots[slot])).collect()
+        (0..OUTPUT_COUNT).map(|slot| VARIABLES.scalar(py, slot, self.slots[slot])).collect()
     }
 
     /// Pairs of name and value of the single variables.

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::arrays::{numbers, wrong_shape};
 
 /// The preview of a step without one.
-pub const NONE: Preview = Preview::START;
+pub const NO_PREVIEW: Preview = Preview::START;
 
 /// Previews as of each sample.
 pub struct Previews {
@@ -27,7 +27,7 @@ impl Previews {
     /// # Errors
     /// `RecordingError`: an array of another shape. `ValueError`: a step outside its range.
     pub fn of(array: &Bound<PyAny>, rows: Option<usize>, step: Option<f64>) -> PyResult<Self> {
-        let step = step.unwrap_or(NONE.step);
+        let step = step.unwrap_or(NO_PREVIEW.step);
         let (least, greatest) = step_range();
         if !(least..=greatest).contains(&step) {
             return Err(PyValueError::new_err(format!(
@@ -52,7 +52,7 @@ impl Previews {
 
     /// The preview as of a sample.
     pub fn at(&self, sample: usize) -> Preview {
-        let mut preview = Preview { count: self.count as i32, step: self.step, ..NONE };
+        let mut preview = Preview { count: self.count as i32, step: self.step, ..NO_PREVIEW };
         let first = 2 * self.count * sample;
         for (k, force) in self.forces[first..first + 2 * self.count].chunks_exact(2).enumerate() {
             [preview.surge[k], preview.sway[k]] = [force[0], force[1]];

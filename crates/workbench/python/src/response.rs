@@ -2,7 +2,7 @@
 
 use moris_analysis::frequency_response::Measured;
 use moris_simulation::frequency_response::Response;
-use moris_simulation::frequency_response::channel::{CHANNELS, Channel, name};
+use moris_simulation::frequency_response::channel::{CHANNEL_COUNT, Channel, name};
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use numpy::{Complex64, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -54,16 +54,16 @@ pub fn frequency_response<'py>(
 
 fn response_arrays<'py>(py: Python<'py>, responses: &[Response]) -> PyResult<Responses<'py>> {
     let count = frequencies().len();
-    let shape = |last: usize| [CHANNELS, count, last];
+    let shape = |last: usize| [CHANNEL_COUNT, count, last];
     let ratios = responses.iter().flat_map(|response| response.ratios);
     let ratios = ratios.map(|ratio| Complex64::new(ratio.re, ratio.im)).collect();
     let distortion = responses.iter().flat_map(|response| response.distortion).collect();
     let limited = responses.iter().flat_map(|response| response.limited).collect();
     let settled = responses.iter().map(|response| response.settled).collect();
     Ok((
-        PyArray1::from_vec(py, ratios).reshape(shape(CHANNELS))?,
-        PyArray1::from_vec(py, distortion).reshape(shape(CHANNELS))?,
+        PyArray1::from_vec(py, ratios).reshape(shape(CHANNEL_COUNT))?,
+        PyArray1::from_vec(py, distortion).reshape(shape(CHANNEL_COUNT))?,
         PyArray1::from_vec(py, limited).reshape(shape(3))?,
-        PyArray1::from_vec(py, settled).reshape([CHANNELS, count])?,
+        PyArray1::from_vec(py, settled).reshape([CHANNEL_COUNT, count])?,
     ))
 }

@@ -1,7 +1,7 @@
 //! The table of variables.
 
 use moris_interface::{Causality, Group, Kind, Row, slots_of};
-use moris_setup::{RIGS, SETS};
+use moris_setup::{PARAMETER_SETS, SHIPPED_RIGS};
 use moris_washout::interface::Inputs;
 use moris_washout::{Output, Parameters};
 use pyo3::IntoPyObjectExt;
@@ -30,13 +30,13 @@ type Variable<'py> = (
 /// The names of the parameter sets that are shipped; `parameters=` takes them.
 #[pyfunction]
 pub fn presets() -> Vec<&'static str> {
-    SETS.iter().map(|(name, _)| *name).collect()
+    PARAMETER_SETS.iter().map(|(name, _)| *name).collect()
 }
 
 /// The names of the rigs that are shipped, by stroke; `rig=` takes them.
 #[pyfunction]
 pub fn rigs() -> Vec<&'static str> {
-    RIGS.iter().map(|(name, _)| *name).collect()
+    SHIPPED_RIGS.iter().map(|(name, _)| *name).collect()
 }
 
 /// Inputs, outputs and parameters, each a tuple.

@@ -9,8 +9,8 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
-use crate::arrays::{FIELDS, NAN_REMEDY, samples, series};
-use crate::output::{COUNT, PyOutput, VARIABLES};
+use crate::arrays::{INPUT_FIELDS, NAN_REMEDY, samples, series};
+use crate::output::{OUTPUT_COUNT, PyOutput, VARIABLES};
 use crate::preview::{self, Previews};
 use crate::setup::Given;
 use crate::variables::Variables;
@@ -101,7 +101,7 @@ impl PyWashout {
         }
         let preview = preview.map(|array| Previews::of(array, None, preview_step)).transpose()?;
         self.start(&input);
-        self.washout.preview(&preview.map_or(preview::NONE, |preview| preview.at(0)));
+        self.washout.preview(&preview.map_or(preview::NO_PREVIEW, |preview| preview.at(0)));
         self.washout.step(&input, dt);
         Ok(PyOutput::from(&self.washout.output()))
     }
@@ -156,8 +156,8 @@ impl PyWashout {
             self.check_gravity(py, &samples)?;
         }
         let rows = py.detach(|| {
-            let mut rows = vec![0.0; samples.len() * COUNT];
-            let mut next = rows.chunks_exact_mut(COUNT);
+            let mut rows = vec![0.0; samples.len() * OUTPUT_COUNT];
+            let mut next = rows.chunks_exact_mut(OUTPUT_COUNT);
             let mut write = |washout: &Washout| {
                 if let Some(row) = next.next() {
                     washout.output().write(&mut Writer::new(row));
@@ -165,7 +165,7 @@ impl PyWashout {
             };
             self.start(&samples[0]);
             write(&self.washout);
-            self.washout.preview(&preview::NONE);
+            self.washout.preview(&preview::NO_PREVIEW);
             for (k, pair) in samples.windows(2).enumerate() {
                 if let Some(previews) = &previews {
                     self.washout.preview(&previews.at(k));
@@ -300,7 +300,7 @@ fn check_numbers(input: &Input) -> PyResult<()> {
     let of_field = |(name, columns): (&'static str, Option<usize>)| {
         (0..columns.unwrap_or(1)).map(move |k| (name, columns.map(|_| k)))
     };
-    let mut places = FIELDS.into_iter().flat_map(of_field).zip(slots);
+    let mut places = INPUT_FIELDS.into_iter().flat_map(of_field).zip(slots);
     let Some(((name, place), _)) = places.find(|(_, value)| value.is_nan()) else { return Ok(()) };
     let place = place.map_or_else(String::new, |k| format!("[{k}]"));
     Err(PyValueError::new_err(format!("{name}{place} is NaN{NAN_REMEDY}")))

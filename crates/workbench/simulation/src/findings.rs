@@ -26,10 +26,10 @@ const FALSE_CUES: f64 = 0.05;
 
 /// Fraction of the time from which inverted cues are a warning, and the least correlation of a cue
 /// that is right in time and proportion.
-pub(crate) const INVERTED: f64 = 0.02;
+pub(crate) const MAX_INVERTED_FRACTION: f64 = 0.02;
 pub(crate) const RIGHT_SHAPE: f64 = 0.85;
 
-pub(crate) const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
+pub(crate) const FORCE_AXIS_NAMES: [&str; 3] = ["Surge", "Sway", "Heave"];
 
 impl Evaluated<'_> {
     /// The findings, the most important first: fit, comfort, shape, channels worse than at rest,
@@ -173,7 +173,7 @@ fn comfort_findings(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
     const LEAST_JOLT: f64 = 1.0;
     const LEAST_PEAK: f64 = 1.0;
     let Some(Comfort { shake, jolt, peak }) = outcome.measures.comfort[axis] else { return Vec::new() };
-    let name = AXES[axis].to_lowercase();
+    let name = FORCE_AXIS_NAMES[axis].to_lowercase();
     let sentences = [
         worth_saying(shake, LEAST_SHAKE).map(|Excess { value, time }| {
             format!(
@@ -198,17 +198,17 @@ fn shape_finding(outcome: &Evaluated) -> Option<Finding> {
     let (most, inverted) = shape.most_inverted()?;
     let of_axes = |value: &dyn Fn(&AxisShape) -> String| {
         let axes =
-            shape.axes.iter().zip(AXES).filter_map(|(axis, name)| {
+            shape.axes.iter().zip(FORCE_AXIS_NAMES).filter_map(|(axis, name)| {
                 axis.as_ref().map(|axis| format!("{} in {}", value(axis), name.to_lowercase()))
             });
         axes.collect::<Vec<_>>().join(", ")
     };
     let shapes = of_axes(&|axis| format!("{:.2}", axis.shape));
     let sizes = of_axes(&|axis| format!("{:.0} %", 100.0 * axis.size));
-    if inverted >= INVERTED {
+    if inverted >= MAX_INVERTED_FRACTION {
         let text = format!(
             "{} is felt the wrong way round for {} of the time. Shape: {shapes}; size: {sizes}.",
-            AXES[most],
+            FORCE_AXIS_NAMES[most],
             percent(inverted)
         );
         return Some(new_finding(Weight::Warning, text));

@@ -14,8 +14,8 @@ use crate::preview::Previewer;
 
 /// Factor on a scale that misses the aims by the set's own internal step, and
 /// how often it is tried.
-pub const SMALLER: f64 = 0.94;
-pub const TRIALS: usize = 6;
+pub const SCALE_REDUCTION: f64 = 0.94;
+pub const MAX_REDUCTIONS: usize = 6;
 
 /// Bounds of the errors that a scale has to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,11 +181,12 @@ impl<'a> Search<'a> {
         let searched = reaches(&best);
         best = self.exact(parameters, best.factors)?;
         let mut trial = best;
-        for _ in 0..TRIALS {
+        for _ in 0..MAX_REDUCTIONS {
             if !searched || reaches(&trial) {
                 break;
             }
-            trial = self.exact(parameters, Factors { scale: SMALLER * trial.factors.scale, ..trial.factors })?;
+            trial =
+                self.exact(parameters, Factors { scale: SCALE_REDUCTION * trial.factors.scale, ..trial.factors })?;
         }
         if reaches(&trial) {
             best = trial;
@@ -326,7 +327,7 @@ mod tests {
     use moris_washout::{Input, presets};
 
     use super::*;
-    use crate::drives::bench::DRIVES;
+    use crate::drives::bench::BENCH_DRIVES;
 
     /// A slalom of so many m/s2 to the side.
     fn slalom(amplitude: f64, frequency: f64) -> Manoeuvre {
@@ -357,7 +358,7 @@ mod tests {
     #[test]
     fn single_events_have_the_right_shape_with_an_automatic_scale_that_begins_with_the_fit() {
         for name in ["lane-change", "emergency-stop"] {
-            let drive = DRIVES.iter().find(|drive| drive.name == name).unwrap().manoeuvre();
+            let drive = BENCH_DRIVES.iter().find(|drive| drive.name == name).unwrap().manoeuvre();
             let search = Search::new(&drive, 0.0, Aims::default());
             let mut parameters = Parameters::default();
             let factors = search.fit(&parameters).unwrap().best.factors;

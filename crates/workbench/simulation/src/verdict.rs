@@ -4,7 +4,7 @@
 use moris_washout::platform::reach::Axis;
 
 use crate::channels::channels;
-use crate::findings::{AXES, INVERTED, RIGHT_SHAPE, fits_freely, fits_the_rig};
+use crate::findings::{FORCE_AXIS_NAMES, MAX_INVERTED_FRACTION, RIGHT_SHAPE, fits_freely, fits_the_rig};
 use crate::frequency_response::channel::name;
 use crate::{Evaluated, capitalised};
 use crate::{Finding, Weight};
@@ -44,7 +44,7 @@ impl Evaluated<'_> {
         let of_limits = if limited > 0.0 { 1.0 + 1e4 * limited } else { 0.0 };
         let first = [
             (Fault::Limits, of_limits),
-            (Fault::Inverted, inverted / INVERTED),
+            (Fault::Inverted, inverted / MAX_INVERTED_FRACTION),
             (Fault::Rough, (jolt / MAX_SMOOTH_JOLT).max(shake / MAX_SMOOTH_SHAKE)),
         ];
         // A correlation that is just right is none.
@@ -119,8 +119,8 @@ impl Evaluated<'_> {
             Fault::Rough => {
                 let [shake, jolt] = [0, 1].map(|which| self.roughest(which).unwrap_or_default());
                 match jolt.1 / MAX_SMOOTH_JOLT >= shake.1 / MAX_SMOOTH_SHAKE {
-                    true => format!("{} jolts by {:.1} m/s²", AXES[jolt.0].to_lowercase(), jolt.1),
-                    false => format!("{} shakes by {:.2} m/s²", AXES[shake.0].to_lowercase(), shake.1),
+                    true => format!("{} jolts by {:.1} m/s²", FORCE_AXIS_NAMES[jolt.0].to_lowercase(), jolt.1),
+                    false => format!("{} shakes by {:.2} m/s²", FORCE_AXIS_NAMES[shake.0].to_lowercase(), shake.1),
                 }
             }
             Fault::WorseThanRest(axis) => {
@@ -129,7 +129,11 @@ impl Evaluated<'_> {
                 channel.map_or_else(|| "nothing is felt".to_owned(), |channel| channel.figure())
             }
             Fault::Disproportion => {
-                let axes = shape.axes.iter().zip(AXES).filter_map(|(axis, name)| Some((axis.as_ref()?.shape, name)));
+                let axes = shape
+                    .axes
+                    .iter()
+                    .zip(FORCE_AXIS_NAMES)
+                    .filter_map(|(axis, name)| Some((axis.as_ref()?.shape, name)));
                 let least = axes.reduce(|least, next| if next.0 < least.0 { next } else { least });
                 least.map_or_else(String::new, |(shape, name)| {
                     format!("a shape of {shape:.2} in {}", name.to_lowercase())

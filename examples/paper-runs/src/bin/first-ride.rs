@@ -7,15 +7,15 @@ use anyhow::{Context, Result};
 use moris_build_fmu::workspace;
 use moris_paper_runs::figures::write_ride;
 use moris_paper_runs::fmu::built;
-use moris_paper_runs::parameter_set::RIDE;
+use moris_paper_runs::parameter_set::RIDE_SET;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table};
-use moris_simulation::drives::runs::TOWN;
+use moris_simulation::drives::runs::TOWN_RUN;
 
 fn main() -> Result<()> {
     // Communication step [s].
     const COMMUNICATION_STEP: f64 = 0.001;
-    let ride = [simulate(&built()?, &TOWN, &RIDE, COMMUNICATION_STEP)?];
+    let ride = [simulate(&built()?, &TOWN_RUN, &RIDE_SET, COMMUNICATION_STEP)?];
     println!("{}", force_table(&ride));
     println!("{}", platform_table(&ride));
     let directory = workspace::target_directory().join("first-ride");

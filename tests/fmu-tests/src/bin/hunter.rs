@@ -179,7 +179,7 @@ fn report(arguments: &Arguments, number: usize, found: &FoundEpisode) -> Result<
 
 /// Repeats an episode. True without a breach.
 fn replay(arguments: &Arguments, file: &Path) -> Result<bool> {
-    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT)
+    let text = moris_fmu_host::files::text(file, moris_fmu_host::files::MAX_TEXT_SIZE)
         .with_context(|| format!("reading {}", file.display()))?;
     let episode = Episode::from_toml(&text)?;
     match arguments.through {

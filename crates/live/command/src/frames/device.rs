@@ -114,7 +114,7 @@ impl Device {
 mod tests {
     use std::time::Duration;
 
-    use moris_live::moog::INTERVAL;
+    use moris_live::moog::PACKET_INTERVAL;
 
     use super::*;
     use crate::wire::{Actuators, Wire};
@@ -126,7 +126,7 @@ mod tests {
         let mut device = Device::moog(&rig);
         let stroke = [rig.min_length, rig.max_length];
         let actuators = Actuators { speed: rig.velocity_limit, acceleration: rig.acceleration_limit, stroke };
-        let mut wire = Wire::new(INTERVAL, actuators);
+        let mut wire = Wire::new(PACKET_INTERVAL, actuators);
         let mut answer = [0; 40];
         answer[11] = 0x23;
         let (mut bytes, mut before, mut fastest) = (Vec::new(), 0.0, 0.0_f64);
@@ -134,12 +134,12 @@ mod tests {
         for k in 0..1200 {
             device.receive(&answer);
             let heave_above = if k / 300 % 2 == 0 { 0.15 } else { -0.15 };
-            let commanded = Values { time: f64::from(k) * INTERVAL, heave_above, ..Values::default() };
+            let commanded = Values { time: f64::from(k) * PACKET_INTERVAL, heave_above, ..Values::default() };
             let now = Duration::from_secs_f64(commanded.time);
             let values = wire.pass(now, &device.followed(&commanded));
             device.bytes(Message::Frame, &values, &mut bytes);
             let heave = f64::from(f32::from_be_bytes(bytes[12..16].try_into().unwrap()));
-            fastest = fastest.max((heave - before).abs() / INTERVAL);
+            fastest = fastest.max((heave - before).abs() / PACKET_INTERVAL);
             before = heave;
         }
         // The legs of the default rig are steep: a heave is nearly their own way.

@@ -15,7 +15,7 @@ use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
 use super::refusal::{Refusal, Status};
-use super::shown::{self, NAMES, Shown};
+use super::shown::{self, ROW_NAMES, Shown};
 use crate::controls::Controls;
 use crate::frames::Loss;
 use crate::{Shared, pace};
@@ -234,7 +234,7 @@ impl Desk {
             shared: self.shared_control,
             drives: is_first && can_drive,
             can_drive,
-            names: NAMES.split(' ').collect(),
+            names: ROW_NAMES.split(' ').collect(),
         }
     }
 

@@ -19,5 +19,5 @@ mod track;
 
 pub use desk::{Desk, Order};
 pub use server::{Server, Start};
-pub use shown::{EVERY, Shown};
+pub use shown::{SHOWN_INTERVAL_STEPS, Shown};
 pub use track::track;

@@ -12,10 +12,10 @@ use serde::Serialize;
 use crate::lateness::{Classes, Lateness};
 
 /// Steps between what is shown.
-pub const EVERY: u64 = 10;
+pub const SHOWN_INTERVAL_STEPS: u64 = 10;
 
 /// Names of the numbers in a row, in order.
-pub const NAMES: &str = "time desired_x desired_y desired_z wx wy wz roll pitch yaw speed felt_x felt_y felt_z \
+pub const ROW_NAMES: &str = "time desired_x desired_y desired_z wx wy wz roll pitch yaw speed felt_x felt_y felt_z \
     platform_x platform_y platform_z platform_roll platform_pitch platform_yaw leg1 leg2 leg3 leg4 leg5 leg6 \
     tilt soft safety stroke leg_speed leg_acceleration scale";
 const ROW_LENGTH: usize = 33;
@@ -110,8 +110,8 @@ mod tests {
         let text = message(&[moment, moment], &lines, "\"changed\":{\"tilt.angleLimit\":0.3}").unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         let row: Vec<f64> = serde_json::from_value(value["rows"][1].clone()).unwrap();
-        let of = |name: &str| row[NAMES.split(' ').position(|known| known == name).unwrap()];
-        assert_eq!((row.len(), NAMES.split(' ').count()), (ROW_LENGTH, ROW_LENGTH));
+        let of = |name: &str| row[ROW_NAMES.split(' ').position(|known| known == name).unwrap()];
+        assert_eq!((row.len(), ROW_NAMES.split(' ').count()), (ROW_LENGTH, ROW_LENGTH));
         let commands = session.commands();
         assert_eq!((of("time"), of("desired_z")), (0.001, 9.80665));
         for (name, expected) in [

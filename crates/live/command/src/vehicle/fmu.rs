@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use moris_fmu_host::Running;
-use moris_fmu_host::files::TEXT;
+use moris_fmu_host::files::MAX_TEXT_SIZE;
 use moris_live::Sample;
 use moris_live::format::{FieldAddress, Format};
 use moris_pages::ride::RiderCommand;
@@ -58,7 +58,7 @@ impl Fmu {
         const MAP_KEYS: [&str; 3] = ["start", "step", "controls"];
         // Keys of a table of fields that a map may leave out, with their values.
         const MAP_DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
-        let text = moris_fmu_host::files::text(map, TEXT).with_context(|| map.display().to_string())?;
+        let text = moris_fmu_host::files::text(map, MAX_TEXT_SIZE).with_context(|| map.display().to_string())?;
         let mut table: toml::Table = text.parse().with_context(|| map.display().to_string())?;
         let [start, step, controls] = MAP_KEYS.map(|word| table.remove(word));
         for (word, value) in MAP_DEFAULTS {

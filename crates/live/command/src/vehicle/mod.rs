@@ -12,7 +12,7 @@ use moris_pages::ride::{RiderCommand, RoadPlace};
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
-use super::telemetry::{BEFORE, Features, Received, engages, shape};
+use super::telemetry::{Features, Received, SAMPLE_LEAD_TIME, engages, shape};
 use super::{Shared, console, pace};
 pub use fmu::Fmu;
 pub use motorcycle::Motorcycle;
@@ -75,6 +75,6 @@ pub fn drive(
         };
         controls.inspect(|controls| controls.show(vehicle.place()));
         let sample = Sample { time: Some(time.as_secs_f64()), ..sample };
-        let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
+        let _ = samples.push(Received { arrival: begin + time + step + SAMPLE_LEAD_TIME, sample });
     }
 }

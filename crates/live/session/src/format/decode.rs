@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use super::line::Line;
 use super::{
-    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Player, QUANTITY_COUNT, QUATERNION,
-    Quantity, SHIPPED, Unit,
+    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Player, QUANTITY_COUNT,
+    QUATERNION_QUANTITIES, Quantity, SHIPPED_FORMATS, Unit,
 };
 use crate::motion::{Motion, Sample};
 
@@ -186,7 +186,7 @@ impl Format {
             Err(Dropped::Length(_)) | Ok(_) => String::new(),
             Err(dropped) => format!(" ({} expects otherwise: {dropped})", self.name),
         };
-        let fitting: Vec<&str> = SHIPPED
+        let fitting: Vec<&str> = SHIPPED_FORMATS
             .iter()
             .filter(|(name, text)| *name != self.name && text.parse::<Format>().is_ok_and(|of| of.fits(packet)))
             .map(|(name, _)| *name)
@@ -210,7 +210,7 @@ impl Format {
         let of = |quantity: Quantity| values[quantity as usize];
         let vector = |names: [Quantity; 3]| Vector3::from_fn(|k, _| of(names[k]).unwrap_or(0.0));
         let all = |names: [Quantity; 3]| names.into_iter().all(|name| of(name).is_some());
-        let quaternion = QUATERNION.map(of);
+        let quaternion = QUATERNION_QUANTITIES.map(of);
         let has_quaternion = quaternion.iter().all(Option::is_some);
         let angles = if has_quaternion {
             angles_of(quaternion.map(Option::unwrap_or_default))

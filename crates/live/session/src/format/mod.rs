@@ -241,7 +241,7 @@ const QUANTITY_COUNT: usize = Quantity::Qz as usize + 1;
 
 /// Quantities of an attitude as a quaternion of any size, which turns the body's axes to the
 /// world's.
-const QUATERNION: [Quantity; 4] = [Quantity::Qw, Quantity::Qx, Quantity::Qy, Quantity::Qz];
+const QUATERNION_QUANTITIES: [Quantity; 4] = [Quantity::Qw, Quantity::Qx, Quantity::Qy, Quantity::Qz];
 
 words! {
     /// Type of a binary number.
@@ -303,7 +303,7 @@ impl FromStr for Format {
         if !(has(Quantity::Ax) && has(Quantity::Ay)) {
             return Err(FormatError::Whole("fields ax and ay are needed"));
         }
-        if QUATERNION.into_iter().any(has) && !QUATERNION.into_iter().all(has) {
+        if QUATERNION_QUANTITIES.into_iter().any(has) && !QUATERNION_QUANTITIES.into_iter().all(has) {
             return Err(FormatError::Whole("a quaternion needs qw, qx, qy and qz"));
         }
         if let Some(Player { at: FieldAddress::Index(at), stride, .. }) = &format.player
@@ -313,7 +313,7 @@ impl FromStr for Format {
         }
         let turned = format.force_axes == Axes::World || format.rate_axes == Axes::World;
         let angles = [Quantity::Roll, Quantity::Pitch, Quantity::Yaw];
-        if turned && !angles.into_iter().all(has) && !QUATERNION.into_iter().all(has) {
+        if turned && !angles.into_iter().all(has) && !QUATERNION_QUANTITIES.into_iter().all(has) {
             return Err(FormatError::Whole("vectors in the world's axes need roll, pitch and yaw, or a quaternion"));
         }
         Ok(format)
@@ -321,7 +321,7 @@ impl FromStr for Format {
 }
 
 /// The shipped tables, each with its name and text.
-pub const SHIPPED: [(&str, &str); 8] = [
+pub const SHIPPED_FORMATS: [(&str, &str); 8] = [
     ("json", include_str!("tables/json.toml")),
     ("csv", include_str!("tables/csv.toml")),
     ("packed", include_str!("tables/packed.toml")),
@@ -334,7 +334,7 @@ pub const SHIPPED: [(&str, &str); 8] = [
 
 /// The text of a shipped table.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    SHIPPED.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
+    SHIPPED_FORMATS.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
 }
 
 impl Format {

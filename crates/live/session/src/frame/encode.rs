@@ -14,7 +14,7 @@ use crate::session::Commands;
 /// Quantities of a frame besides the actuators' positions, in SI units. A length is the arc of the
 /// arm's end of a crank, and a velocity its rate. Angles of a crank's motor, such as `degrees1`,
 /// are quantities as well: radians, degrees, pulse and steps.
-pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
+pub const FRAME_QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
     velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave own_x own_y own_z";
 /// Place of the first motor's angle, which follow the quantities: six of each unit.
 const FIRST_ANGLE_PLACE: usize = 26;
@@ -426,7 +426,7 @@ fn place_of(name: &str) -> Option<usize> {
         let crank = name.strip_prefix(unit)?.parse::<usize>().ok().filter(|crank| (1..=6).contains(crank))?;
         Some(first + crank - 1)
     });
-    QUANTITIES.split(' ').position(|quantity| quantity == name).or(angle.last())
+    FRAME_QUANTITIES.split(' ').position(|quantity| quantity == name).or(angle.last())
 }
 
 /// A counter, or a checksum from a byte on: `count:u8`, `sum:u8`, `xor@2:u8`.

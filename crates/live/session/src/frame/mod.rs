@@ -46,7 +46,7 @@ use std::str::FromStr;
 use moris_washout::Rig;
 use serde::Deserialize;
 
-pub use encode::{Encoder, QUANTITIES, Values};
+pub use encode::{Encoder, FRAME_QUANTITIES, Values};
 
 /// A template of frames.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -159,7 +159,7 @@ impl FromStr for Frames {
 }
 
 /// The shipped templates, each with its name and text.
-pub const SHIPPED: [(&str, &str); 8] = [
+pub const SHIPPED_FRAMES: [(&str, &str); 8] = [
     ("json", include_str!("tables/json.toml")),
     ("csv", include_str!("tables/csv.toml")),
     ("amc-aasd15a", include_str!("tables/amc-aasd15a.toml")),
@@ -172,5 +172,5 @@ pub const SHIPPED: [(&str, &str); 8] = [
 
 /// The text of a shipped template.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    SHIPPED.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
+    SHIPPED_FRAMES.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
 }

@@ -28,8 +28,8 @@ use crate::speeds::Speeds;
 /// They are the lateral state, the accumulated error of the lean, the reference lean (its tangent)
 /// and its rate, and the torso's lean and its rate. The last three are the deviation from the path
 /// to the right, the heading relative to it, and the deviation's integral.
-const PLANT_SIZE: usize = lateral::SIZE + 8;
-const LEAN_ERROR_INDEX: usize = lateral::SIZE;
+const PLANT_SIZE: usize = lateral::STATE_SIZE + 8;
+const LEAN_ERROR_INDEX: usize = lateral::STATE_SIZE;
 const REFERENCE_INDEX: usize = LEAN_ERROR_INDEX + 1;
 pub const REFERENCE_RATE: usize = LEAN_ERROR_INDEX + 2;
 const TORSO_INDEX: usize = LEAN_ERROR_INDEX + 3;
@@ -87,7 +87,7 @@ impl PreviewGains {
 }
 
 /// The plant's state: the lateral state, and the coordinates after it in their order.
-pub fn plant_state(lateral: &lateral::State, others: [f64; PLANT_SIZE - lateral::SIZE]) -> Plant {
+pub fn plant_state(lateral: &lateral::State, others: [f64; PLANT_SIZE - lateral::STATE_SIZE]) -> Plant {
     Plant::from_iterator(lateral.iter().copied().chain(others))
 }
 
@@ -136,7 +136,7 @@ fn plant_matrix(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -
     for column in 0..PLANT_SIZE {
         let mut unit = Plant::zeros();
         unit[column] = 1.0;
-        let motion: lateral::State = unit.fixed_rows::<{ lateral::SIZE }>(0).into_owned();
+        let motion: lateral::State = unit.fixed_rows::<{ lateral::STATE_SIZE }>(0).into_owned();
         let mut deviation = motion - gains.turn * unit[REFERENCE_INDEX];
         deviation[place::LEAN_RATE] -= unit[REFERENCE_RATE];
         let torque = gains.turn_torque * unit[REFERENCE_INDEX]

@@ -21,7 +21,7 @@ const fn column(name: &'static str, decimals: usize, value: fn(&Evaluated) -> Op
 }
 
 /// The columns. Their list is part of the bench's version.
-pub const COLUMNS: [Column; 30] = [
+pub const BENCH_COLUMNS: [Column; 30] = [
     column("desired x [m/s2]", 4, |of| desired(of, 0)),
     column("desired y [m/s2]", 4, |of| desired(of, 1)),
     column("desired z [m/s2]", 4, |of| desired(of, 2)),

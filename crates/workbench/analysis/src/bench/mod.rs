@@ -10,4 +10,4 @@ pub mod run;
 
 /// Version of the bench: of its drives, rigs and columns. Rows of different
 /// versions do not compare.
-pub const VERSION: u32 = 3;
+pub const BENCH_VERSION: u32 = 3;

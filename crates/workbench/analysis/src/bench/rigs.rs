@@ -10,11 +10,11 @@ pub struct BenchRig {
 }
 
 /// Every rig with legs, by stroke, then a desk model and a person's simulator with cranks.
-pub const RIGS: [BenchRig; 14] = {
+pub const BENCH_RIGS: [BenchRig; 14] = {
     let mut rigs = [BenchRig { name: "" }; 14];
     let mut place = 0;
     while place < rigs.len() {
-        rigs[place].name = moris_setup::RIGS[place].0;
+        rigs[place].name = moris_setup::SHIPPED_RIGS[place].0;
         place += 1;
     }
     rigs

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use moris_setup::Setup;
 use moris_simulation::Simulation;
-use moris_simulation::drives::bench::{Drive, FRAME};
+use moris_simulation::drives::bench::{Drive, RATE_FRAME};
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::measures::Axes;
@@ -12,7 +12,7 @@ use moris_washout::Parameters;
 use moris_washout::interface::{AutomaticScale, StrategyKind};
 use moris_washout::platform::Pose;
 
-use super::columns::COLUMNS;
+use super::columns::BENCH_COLUMNS;
 use super::rigs::BenchRig;
 use crate::bounds::{self, AxisBound};
 use crate::error::{About, Result};
@@ -65,7 +65,7 @@ pub struct Row {
 impl Row {
     /// A measure by its name.
     pub fn value(&self, name: &str) -> Option<f64> {
-        self.values[COLUMNS.iter().position(|column| column.name == name)?]
+        self.values[BENCH_COLUMNS.iter().position(|column| column.name == name)?]
     }
 }
 
@@ -135,7 +135,7 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
     const ERROR_MEASURES: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
     let of = || format!("{} on {}", drive.name, rig.name);
     let setup = rig.setup().about(of)?;
-    let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);
+    let recording = Recording::computed(drive.name, drive.manoeuvre(), RATE_FRAME);
     let unscaled = recording.parameters(&with_unit_scale(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
     let bounds = bounds::bounds_at(&asked, BOUND_INTERVAL).about(of)?;
@@ -204,6 +204,6 @@ fn bench_row(
 ) -> Row {
     outcome.bounds.clone_from(bounds);
     let remarks = outcome.simulation.foreign.iter().flat_map(|foreign| foreign.remarks()).map(str::to_owned).collect();
-    let values = COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
+    let values = BENCH_COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
     Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3], remarks }
 }

@@ -2,7 +2,7 @@
 
 use moris_setup::Setup;
 use moris_simulation::advice::FASTER_TILT;
-use moris_simulation::fit::{Aims, Candidate, Factors, Fit, SMALLER, Search, TRIALS};
+use moris_simulation::fit::{Aims, Candidate, Factors, Fit, MAX_REDUCTIONS, SCALE_REDUCTION, Search};
 use moris_simulation::measures::shape::{AxisShape, Shape};
 use rayon::prelude::*;
 
@@ -99,11 +99,11 @@ pub fn common(
     for strategy in 0..strategies.len() {
         let Some((mut factors, wanted)) = of_strategy(strategy) else { return Ok(None) };
         let mut found = Common::of(strategy, factors, &shapes(strategy, factors)?, aims);
-        for _ in 0..TRIALS {
+        for _ in 0..MAX_REDUCTIONS {
             if found.fitting >= wanted {
                 break;
             }
-            factors.scale *= SMALLER;
+            factors.scale *= SCALE_REDUCTION;
             found = Common::of(strategy, factors, &shapes(strategy, factors)?, aims);
         }
         all.push(found);

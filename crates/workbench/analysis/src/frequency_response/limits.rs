@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use moris_simulation::frequency_response::Response;
-use moris_simulation::frequency_response::channel::{CROSS, Channel, direct, name, unit_in_si};
+use moris_simulation::frequency_response::channel::{CROSS_CHANNELS, Channel, direct, name, unit_in_si};
 
 use super::Measured;
 
@@ -68,7 +68,7 @@ impl Limit {
     }
 
     fn of_fields(fields: &[&str]) -> Result<Self, String> {
-        let pairs = || direct().into_iter().chain(CROSS);
+        let pairs = || direct().into_iter().chain(CROSS_CHANNELS);
         let (input, output) =
             pairs().find(|&(input, output)| pair_name(input, output) == fields[0]).ok_or_else(|| {
                 let names: Vec<String> = pairs().map(|(input, output)| pair_name(input, output)).collect();

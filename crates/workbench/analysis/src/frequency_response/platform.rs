@@ -1,7 +1,7 @@
 //! The nominal platform with its drives, under the washout's commands.
 
 use moris_simulation::frequency_response::Machine;
-use moris_simulation::frequency_response::channel::CHANNELS;
+use moris_simulation::frequency_response::channel::CHANNEL_COUNT;
 use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 use moris_washout::cueing::evaluator::felt;
 use moris_washout::motion::orientation::Orientation;
@@ -33,7 +33,7 @@ impl NominalPlatform {
 }
 
 impl Machine for NominalPlatform {
-    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNELS] {
+    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT] {
         let input = Input { length: commanded.length, angle: commanded.angle, ..Input::default() };
         let start = self.last.replace(input).unwrap_or(input);
         self.platform.step_between(&start, &input, step);

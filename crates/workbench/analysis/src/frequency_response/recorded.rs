@@ -3,14 +3,14 @@
 use std::f64::consts::{SQRT_2, TAU};
 use std::path::Path;
 
-use moris_simulation::frequency_response::channel::{CHANNELS, Channel, name, unit_in_si};
+use moris_simulation::frequency_response::channel::{CHANNEL_COUNT, Channel, name, unit_in_si};
 use moris_simulation::frequency_response::excitation::frequencies;
-use moris_simulation::frequency_response::{Response, SETTLED};
+use moris_simulation::frequency_response::{Response, SETTLED_FRACTION};
 use moris_washout::nalgebra::{Complex, Matrix3, Vector3};
 
 use super::Measured;
 use crate::message::Message;
-use crate::recording::felt::{FORCE, FeltTable, RATE};
+use crate::recording::felt::{FELT_FORCE, FELT_RATE, FeltTable};
 use crate::recording::{Conventions, Recording, RecordingError};
 
 impl Measured {
@@ -33,10 +33,10 @@ fn of_file(file: &Path) -> Result<Response, RecordingError> {
     let recording = Recording::read(file, &Conventions::default())?;
     let table = FeltTable::read(file)?;
     let mut notes = Vec::new();
-    let force = table.measured_part(&FORCE, &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
-    let rate = table.measured_part(&RATE, &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
+    let force = table.measured_part(&FELT_FORCE, &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
+    let rate = table.measured_part(&FELT_RATE, &recording, &mut notes).map_err(|reason| refused(reason.into()))?;
     let felt = force.iter().zip(&rate).map(|([x, y, z], [p, q, r])| [*x, *y, *z, *p, *q, *r]).collect::<Vec<_>>();
-    let desired: Vec<[f64; CHANNELS]> = recording
+    let desired: Vec<[f64; CHANNEL_COUNT]> = recording
         .inputs()
         .iter()
         .map(|input| {
@@ -48,14 +48,14 @@ fn of_file(file: &Path) -> Result<Response, RecordingError> {
 }
 
 /// The response that the later half of a test shows.
-fn of_series(desired: &[[f64; CHANNELS]], felt: &[[f64; CHANNELS]], step: f64) -> Result<Response, String> {
+fn of_series(desired: &[[f64; CHANNEL_COUNT]], felt: &[[f64; CHANNEL_COUNT]], step: f64) -> Result<Response, String> {
     // Largest part of the input beside its sine, as a fraction of the sine: more is another
     // frequency.
     const MAX_IMPURITY: f64 = 0.1;
     let count = desired.len().min(felt.len());
     let half = count / 2;
     let whole_periods = |frequency: f64| (half as f64 * step * frequency / TAU + 1e-9).floor();
-    let series = |rows: &[[f64; CHANNELS]], channel: Channel, from: usize, to: usize| -> Vec<f64> {
+    let series = |rows: &[[f64; CHANNEL_COUNT]], channel: Channel, from: usize, to: usize| -> Vec<f64> {
         rows[from..to].iter().map(|row| row[channel as usize]).collect()
     };
     let fits = |&(channel, frequency): &(Channel, f64)| {
@@ -96,7 +96,7 @@ fn of_series(desired: &[[f64; CHANNELS]], felt: &[[f64; CHANNELS]], step: f64) -
         ratios: std::array::from_fn(|k| outputs[k].coefficient / excitation.coefficient),
         distortion: std::array::from_fn(|k| outputs[k].rest),
         limited: [0.0; 3],
-        settled: whole_periods(frequency) < 2.0 || change <= SETTLED,
+        settled: whole_periods(frequency) < 2.0 || change <= SETTLED_FRACTION,
     })
 }
 
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn modulus_and_phase_of_a_recorded_sine_are_found() {
         let (frequency, step) = (frequencies()[6], 0.01);
-        let rows = |amplitude: f64, phase: f64, offset: f64| -> Vec<[f64; CHANNELS]> {
+        let rows = |amplitude: f64, phase: f64, offset: f64| -> Vec<[f64; CHANNEL_COUNT]> {
             let at = |k: usize| {
                 let time = k as f64 * step;
                 let mut row = [0.0, 0.0, 9.80665, 0.0, 0.0, 0.0];
@@ -150,7 +150,7 @@ mod tests {
         let ratio = found.ratios[0];
         assert!((ratio.norm() - 0.8).abs() < 1e-9 && (ratio.arg() + 0.5).abs() < 1e-9, "{ratio}");
         assert!(found.ratios[1..].iter().all(|ratio| ratio.norm() < 1e-9) && found.distortion[0] < 1e-9);
-        let slow: Vec<_> = (0..40).map(|_| [0.0; CHANNELS]).collect();
+        let slow: Vec<_> = (0..40).map(|_| [0.0; CHANNEL_COUNT]).collect();
         assert!(of_series(&slow, &slow, step).unwrap_err().contains("too short"));
         let square: Vec<_> = (0..4000).map(|k| [f64::from((k / 150) % 2), 0.0, 9.8, 0.0, 0.0, 0.0]).collect();
         assert!(of_series(&square, &square, step).unwrap_err().contains("one channel and one frequency"));

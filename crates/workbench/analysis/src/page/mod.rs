@@ -83,7 +83,7 @@ fn recording_report(recording: &Recording, outcomes: &[Outcome], most: usize, wo
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", recording.name, 1.0 / recording.step())),
             ("Gravity".to_owned(), gravity_method(recording).to_owned()),
             ("Curves".to_owned(), shown_samples(first, &thinning)),
-            ("Made by".to_owned(), format!("moris {}", moris_pages::VERSION)),
+            ("Made by".to_owned(), format!("moris {}", moris_pages::PACKAGE_VERSION)),
         ],
         rig: (&first.setup.parameters).into(),
         vehicle: vehicle(recording),

@@ -1,7 +1,7 @@
 //! Data with which the report's page can simulate the recording with other parameters.
 
 use moris_interface::{Group as _, Kind, Row, slots_of};
-use moris_pages::report::{MODULE, Parameter, ParameterKind, Simulator};
+use moris_pages::report::{Parameter, ParameterKind, SIMULATION_MODULE, Simulator};
 use moris_washout::Parameters;
 use moris_washout::interface::Rig;
 
@@ -10,7 +10,7 @@ use crate::recording::Recording;
 
 /// True if pages can simulate.
 pub fn is_compiled() -> bool {
-    !MODULE.is_empty()
+    !SIMULATION_MODULE.is_empty()
 }
 
 /// The simulator of a recording from the parameters of an outcome; none if it was not compiled.
@@ -25,7 +25,7 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: &str) -> Option<Sim
     let slots = samples[0].len();
     let name = &recording.name;
     Some(Simulator {
-        module: MODULE.to_vec(),
+        module: SIMULATION_MODULE.to_vec(),
         step: recording.step(),
         samples: recording.inputs().len(),
         inputs: (0..slots).map(|slot| samples.iter().map(|sample| sample[slot]).collect()).collect(),

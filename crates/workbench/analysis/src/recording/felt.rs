@@ -38,7 +38,7 @@ impl Kind {
     /// The factor of a unit to SI; none if it is no unit of this dimension.
     pub fn factor(self, unit: &str) -> Option<f64> {
         match self {
-            Kind::Length => LENGTHS.iter().find(|(spelling, _)| *spelling == unit).map(|(_, factor)| *factor),
+            Kind::Length => LENGTH_UNITS.iter().find(|(spelling, _)| *spelling == unit).map(|(_, factor)| *factor),
             Kind::Of(dimension) => dimension.spelled(unit).map(|unit| unit.in_si),
         }
     }
@@ -46,14 +46,14 @@ impl Kind {
     /// Its units, as messages list them.
     pub fn units(self) -> String {
         match self {
-            Kind::Length => LENGTHS.map(|(spelling, _)| spelling).join(", "),
+            Kind::Length => LENGTH_UNITS.map(|(spelling, _)| spelling).join(", "),
             Kind::Of(dimension) => dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", "),
         }
     }
 }
 
 /// Felt specific force.
-pub const FORCE: Names<3> = Names {
+pub const FELT_FORCE: Names<3> = Names {
     argument: "felt_force",
     sets: &[
         ["rider.specificForce.x", "rider.specificForce.y", "rider.specificForce.z"],
@@ -64,14 +64,14 @@ pub const FORCE: Names<3> = Names {
     of: |motion| &motion.force,
 };
 /// Felt angular velocity.
-pub const RATE: Names<3> = Names {
+pub const FELT_RATE: Names<3> = Names {
     argument: "felt_rate",
     sets: &[["rider.angularVelocity.x", "rider.angularVelocity.y", "rider.angularVelocity.z"], ["wx", "wy", "wz"]],
     dimensions: [Kind::Of(Dimension::Rate); 3],
     of: |motion| &motion.rate,
 };
 /// Poses of the platform.
-pub const POSE: Names<6> = Names {
+pub const PLATFORM_POSE: Names<6> = Names {
     argument: "pose",
     sets: &[
         [
@@ -91,7 +91,7 @@ pub const POSE: Names<6> = Names {
     of: |motion| &motion.pose,
 };
 /// Lengths of the actuators.
-pub const LEGS: Names<6> = Names {
+pub const LEG_LENGTHS: Names<6> = Names {
     argument: "legs",
     sets: &[
         [
@@ -109,7 +109,7 @@ pub const LEGS: Names<6> = Names {
 };
 
 /// Spellings of units of length, and their factors to SI.
-const LENGTHS: [(&str, f64); 4] = [("m", 1.0), ("dm", 0.1), ("cm", 0.01), ("mm", 1e-3)];
+const LENGTH_UNITS: [(&str, f64); 4] = [("m", 1.0), ("dm", 0.1), ("cm", 0.01), ("mm", 1e-3)];
 
 /// The columns of such a table, in SI units.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -175,10 +175,10 @@ impl FeltTable {
         column: impl Fn(usize) -> Vec<f64>,
     ) -> Result<Self, Message> {
         let motion = ForeignMotion {
-            force: FORCE.rows(header, &column)?,
-            rate: RATE.rows(header, &column)?,
-            pose: POSE.rows(header, &column)?,
-            legs: LEGS.rows(header, &column)?,
+            force: FELT_FORCE.rows(header, &column)?,
+            rate: FELT_RATE.rows(header, &column)?,
+            pose: PLATFORM_POSE.rows(header, &column)?,
+            legs: LEG_LENGTHS.rows(header, &column)?,
         };
         let titles = (0..header.width()).map(|place| header.shown(place)).collect();
         Ok(FeltTable { name, time, motion, titles })
@@ -193,18 +193,18 @@ impl FeltTable {
         if self.motion.force.is_none() && self.motion.pose.is_none() && self.motion.legs.is_none() {
             return Err(format!(
                 "there are no columns {}, {} or {}; there are {}",
-                FORCE.shown(),
-                POSE.shown(),
-                LEGS.shown(),
+                FELT_FORCE.shown(),
+                PLATFORM_POSE.shown(),
+                LEG_LENGTHS.shown(),
                 self.titles.join(", ")
             ));
         }
         let mut notes = Vec::new();
         let motion = ForeignMotion {
-            force: self.placed(&FORCE, recording, &mut notes)?,
-            rate: self.placed(&RATE, recording, &mut notes)?,
-            pose: self.placed(&POSE, recording, &mut notes)?,
-            legs: self.placed(&LEGS, recording, &mut notes)?,
+            force: self.placed(&FELT_FORCE, recording, &mut notes)?,
+            rate: self.placed(&FELT_RATE, recording, &mut notes)?,
+            pose: self.placed(&PLATFORM_POSE, recording, &mut notes)?,
+            legs: self.placed(&LEG_LENGTHS, recording, &mut notes)?,
         };
         Ok((motion, notes))
     }
@@ -263,8 +263,9 @@ impl FeltTable {
 
 /// The places of all columns that are used, each once.
 fn used_places(header: &Header) -> Vec<usize> {
-    let mut places: Vec<usize> = [FORCE.places(header), RATE.places(header)].into_iter().flatten().flatten().collect();
-    places.extend([POSE.places(header), LEGS.places(header)].into_iter().flatten().flatten());
+    let mut places: Vec<usize> =
+        [FELT_FORCE.places(header), FELT_RATE.places(header)].into_iter().flatten().flatten().collect();
+    places.extend([PLATFORM_POSE.places(header), LEG_LENGTHS.places(header)].into_iter().flatten().flatten());
     places.sort_unstable();
     places.dedup();
     places

@@ -3,9 +3,9 @@
 
 use moris_washout::platform::Pose;
 
-use super::section::{MARGINS, PLANES, section};
+use super::section::{DRAWN_MARGINS, SECTION_PLANES, section};
 use super::survey::{Singularities, Survey};
-use super::svg::{PANEL, escaped};
+use super::svg::{PANEL_SIZE, escaped};
 use super::view::view;
 use moris_simulation::clearance::Approach;
 
@@ -22,13 +22,13 @@ pub fn svg(survey: &Survey) -> String {
     const HEADER_HEIGHT: f64 = 64.0;
     const FOOTER_HEIGHT: f64 = 44.0;
     let parameters = &survey.capabilities.parameters;
-    let (width, height) = (2.0 * PANEL[0], HEADER_HEIGHT + 3.0 * PANEL[1] + FOOTER_HEIGHT);
+    let (width, height) = (2.0 * PANEL_SIZE[0], HEADER_HEIGHT + 3.0 * PANEL_SIZE[1] + FOOTER_HEIGHT);
     let mut text = format!(
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{SVG_STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
         escaped(&survey.name)
     );
     text += &format!(r#"<text x="24" y="56">{}</text>"#, escaped(&verdict_line(survey)));
-    let drawn = PLANES.iter().map(|plane| {
+    let drawn = SECTION_PLANES.iter().map(|plane| {
         let body = section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit);
         (plane.title.to_owned(), body)
     });
@@ -43,7 +43,7 @@ pub fn svg(survey: &Survey) -> String {
             ("Closest approach of each pair of legs [mm]".to_owned(), distance_table(survey)),
         ]);
     for (index, (title, body)) in panels.enumerate() {
-        let (x, y) = ((index % 2) as f64 * PANEL[0], HEADER_HEIGHT + (index / 2) as f64 * PANEL[1]);
+        let (x, y) = ((index % 2) as f64 * PANEL_SIZE[0], HEADER_HEIGHT + (index / 2) as f64 * PANEL_SIZE[1]);
         text +=
             &format!(r#"<g transform="translate({x} {y})"><text x="64" y="30" class="panel">{title}</text>{body}</g>"#);
     }
@@ -88,7 +88,7 @@ fn verdict_line(survey: &Survey) -> String {
 fn colour_legend(top: f64) -> String {
     let mut text = format!(r#"<g transform="translate(64 {top})">"#);
     let mut x = 0.0;
-    for (margin, colour) in MARGINS {
+    for (margin, colour) in DRAWN_MARGINS {
         let label = if margin == 0.0 {
             "where the level platform can be".to_owned()
         } else {

@@ -13,7 +13,7 @@ use moris_washout::platform::reach::stroke_margin;
 use super::svg::Window;
 
 /// Margins to the ends of the stroke for which the section is drawn \[m\], and their colours.
-pub const MARGINS: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
+pub const DRAWN_MARGINS: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
 
 /// A plane through neutral.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub struct Plane {
 }
 
 /// The planes seen from above, from the right and from the front.
-pub const PLANES: [Plane; 3] = [
+pub const SECTION_PLANES: [Plane; 3] = [
     Plane { title: "From above, at neutral height", axes: [0, 1], names: ["x: surge", "y: sway"] },
     Plane { title: "From the right, through neutral", axes: [0, 2], names: ["x: surge", "z: heave"] },
     Plane { title: "From the front, through neutral", axes: [1, 2], names: ["y: sway", "z: heave"] },
@@ -41,7 +41,7 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     let [low, high] = extent.map(|corner| flat((corner - neutral) * 1.08));
     let window = Window::around(low, high);
     let mut text = String::new();
-    for (index, (margin, colour)) in MARGINS.into_iter().enumerate() {
+    for (index, (margin, colour)) in DRAWN_MARGINS.into_iter().enumerate() {
         let name = format!("s{}{}m{index}", plane.axes[0], plane.axes[1]);
         if rig.has_cranks() {
             text += &cell_section(rig, plane, margin, &window, colour);

@@ -7,7 +7,7 @@ use moris_setup::rig_file::RigFile;
 pub use moris_simulation::capabilities::{AxisAlone, Capabilities, Singularities};
 use moris_washout::ParameterError;
 
-use super::workspace::{TILT, Volume, Workspace};
+use super::workspace::{Volume, WORKSPACE_TILT, Workspace};
 use crate::text_table::TextTable;
 
 /// Properties of a rig.
@@ -48,7 +48,7 @@ impl fmt::Display for Survey {
         let volume = |volume: &Volume| format!("{:.4} m³ ± {:.4}", volume.size, volume.standard_error);
         writeln!(f, "workspace of the platform's origin ({samples} points tried; ± is the standard error):")?;
         writeln!(f, "  level                           {}", volume(level))?;
-        writeln!(f, "  tilted by {:.0}° in any direction  {}\n", TILT.to_degrees(), volume(tilted))?;
+        writeln!(f, "  tilted by {:.0}° in any direction  {}\n", WORKSPACE_TILT.to_degrees(), volume(tilted))?;
         writeln!(f, "{}\n", capabilities.safety().join("\n"))?;
         writeln!(f, "{}", capabilities.clearance)?;
         write!(f, "{}", capabilities.singularities)

@@ -1,7 +1,7 @@
 //! Drawing primitives for the pictures of a rig.
 
 /// Room for a panel on the page \[px\].
-pub const PANEL: [f64; 2] = [520.0, 470.0];
+pub const PANEL_SIZE: [f64; 2] = [520.0, 470.0];
 
 /// A rectangle of a plane, in metres, shown in a panel at one scale for both axes.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +81,7 @@ impl Window {
 
 /// Width and height of a panel's drawing area \[px\].
 fn panel_room() -> [f64; 2] {
-    [PANEL[0] - PANEL_MARGINS[0] - PANEL_MARGINS[2], PANEL[1] - PANEL_MARGINS[1] - PANEL_MARGINS[3]]
+    [PANEL_SIZE[0] - PANEL_MARGINS[0] - PANEL_MARGINS[2], PANEL_SIZE[1] - PANEL_MARGINS[1] - PANEL_MARGINS[3]]
 }
 
 /// Round numbers between two, about six of them.

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::random::unit;
 
 /// The tilt for which the workspace is measured beside the level one \[rad\].
-pub const TILT: f64 = 10.0 * TAU / 360.0;
+pub const WORKSPACE_TILT: f64 = 10.0 * TAU / 360.0;
 /// Number of points in a block. Each block has its own stream of random numbers, so that the points
 /// are the same on any number of cores.
 const POINTS_PER_BLOCK: u32 = 10_000;
@@ -24,7 +24,7 @@ const POINTS_PER_BLOCK: u32 = 10_000;
 pub struct Workspace {
     /// With the platform level.
     pub level: Volume,
-    /// With the platform also able to tilt by [`TILT`] in each of eight directions.
+    /// With the platform also able to tilt by [`WORKSPACE_TILT`] in each of eight directions.
     pub tilted: Volume,
     /// Smallest and largest coordinates found with the platform level, in the base frame \[m\].
     /// They include at least a small box around neutral.
@@ -137,13 +137,13 @@ fn tried_block(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> 
     found
 }
 
-/// The platform tilted by [`TILT`] in each direction.
+/// The platform tilted by [`WORKSPACE_TILT`] in each direction.
 fn tilted_orientations() -> impl Iterator<Item = Orientation> {
     // Number of directions in which the platform is tilted.
     const TILT_DIRECTIONS: u32 = 8;
     (0..TILT_DIRECTIONS).map(|k| {
         let (sin, cos) = (TAU * f64::from(k) / f64::from(TILT_DIRECTIONS)).sin_cos();
-        Orientation::new(RollPitchYaw::new(TILT * cos, TILT * sin, 0.0))
+        Orientation::new(RollPitchYaw::new(WORKSPACE_TILT * cos, WORKSPACE_TILT * sin, 0.0))
     })
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use moris_fmu_host::files::TEXT;
+use moris_fmu_host::files::MAX_TEXT_SIZE;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, interface::AngularVelocityFrame, interface::STANDARD_GRAVITY};
@@ -92,7 +92,7 @@ impl Map {
     /// It cannot be read, has unknown words, or its outputs are no whole motion.
     pub fn read(file: &Path) -> Result<Self> {
         let shown = || file.display().to_string();
-        let text = moris_fmu_host::files::text(file, TEXT).about(shown)?;
+        let text = moris_fmu_host::files::text(file, MAX_TEXT_SIZE).about(shown)?;
         let map: Map = toml::from_str(&text).about(shown)?;
         map.check().about(shown)?;
         Ok(map)

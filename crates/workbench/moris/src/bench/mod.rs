@@ -13,9 +13,9 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use clap::builder::PossibleValuesParser;
-use moris_analysis::bench::rigs::{BenchRig, RIGS};
+use moris_analysis::bench::rigs::{BENCH_RIGS, BenchRig};
 use moris_analysis::bench::run::{Foreign, Row, rows};
-use moris_simulation::drives::bench::{DRIVES, Drive};
+use moris_simulation::drives::bench::{BENCH_DRIVES, Drive};
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 
@@ -36,11 +36,11 @@ use crate::setup_options::strategies;
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Drives, separated by commas [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(DRIVES.map(|drive| drive.name)))]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(BENCH_DRIVES.map(|drive| drive.name)))]
     drive: Vec<String>,
 
     /// Rigs, separated by commas [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(RIGS.map(|rig| rig.name)))]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(BENCH_RIGS.map(|rig| rig.name)))]
     rig: Vec<String>,
 
     /// Strategies, separated by commas [default: all]
@@ -76,12 +76,12 @@ pub struct Options {
 /// A file cannot be read or written, or a motion cannot be judged.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let chosen = |name: &str, names: &[String]| names.is_empty() || names.iter().any(|other| other == name);
-    let drives: Vec<Drive> = DRIVES.into_iter().filter(|drive| chosen(drive.name, &options.drive)).collect();
+    let drives: Vec<Drive> = BENCH_DRIVES.into_iter().filter(|drive| chosen(drive.name, &options.drive)).collect();
     if let Some(folder) = &options.write_drives {
         write_drives(folder, &drives, out)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let rigs: Vec<BenchRig> = RIGS.into_iter().filter(|rig| chosen(rig.name, &options.rig)).collect();
+    let rigs: Vec<BenchRig> = BENCH_RIGS.into_iter().filter(|rig| chosen(rig.name, &options.rig)).collect();
     let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
     let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Ok(Foreign::fmu(file, map)?));

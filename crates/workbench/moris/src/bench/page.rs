@@ -4,12 +4,12 @@ use moris_simulation::measures::statistics::mean_of_any;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use moris_analysis::bench::VERSION;
-use moris_analysis::bench::columns::COLUMNS;
+use moris_analysis::bench::BENCH_VERSION;
+use moris_analysis::bench::columns::BENCH_COLUMNS;
 use moris_analysis::bench::run::Row;
 use moris_pages::report::{PageTable, tables_html};
 
-use super::table::{Figure, HEADS, groups, means};
+use super::table::{Figure, MEAN_HEADS, groups, means};
 use crate::text_table::or_undefined;
 
 /// Writes the page: means over all, then the errors by drive and by rig, with the bound and the
@@ -29,16 +29,16 @@ fn page_html(rows: &[Row]) -> String {
                controller could reach, and over the least of all rows here, drive by drive and rig by rig; geometric means. shape, \
                size, inverted: correlation below 2 Hz, relative size, and time with the wrong sign."
             .to_owned(),
-        heads: HEADS.map(str::to_owned).to_vec(),
+        heads: MEAN_HEADS.map(str::to_owned).to_vec(),
         rows: means(rows),
     };
     let by_drive = errors_by("Errors by drive", "the rigs", rows, &drives, |row| row.drive);
     let by_rig = errors_by("Errors by rig", "the drives", rows, &rigs, |row| row.rig);
     let subtitle = format!(
-        "{} drives on {} rigs, version {VERSION}; bench.csv has the {} measures of each.",
+        "{} drives on {} rigs, version {BENCH_VERSION}; bench.csv has the {} measures of each.",
         drives.len(),
         rigs.len(),
-        COLUMNS.len()
+        BENCH_COLUMNS.len()
     );
     tables_html("Bench of washouts", &subtitle, &[all, by_drive, by_rig])
 }

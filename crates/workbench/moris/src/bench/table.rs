@@ -4,8 +4,8 @@ use moris_simulation::measures::statistics::mean_of_any;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use moris_analysis::bench::VERSION;
-use moris_analysis::bench::columns::COLUMNS;
+use moris_analysis::bench::BENCH_VERSION;
+use moris_analysis::bench::columns::BENCH_COLUMNS;
 use moris_analysis::bench::run::{Row, Scale};
 
 use crate::text_table::{TextTable, or_undefined};
@@ -20,7 +20,9 @@ pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         let heads = ["bench", "drive", "rig", "washout", "scale", "factor", "fits"];
-        table.write_record(heads.into_iter().chain(COLUMNS.iter().map(|column| column.name)).chain(BEST_COLUMNS))?;
+        table.write_record(
+            heads.into_iter().chain(BENCH_COLUMNS.iter().map(|column| column.name)).chain(BEST_COLUMNS),
+        )?;
         for row in rows {
             let (scale, factor, fits) = match row.scale {
                 Scale::One => ("1", String::new(), String::new()),
@@ -28,8 +30,9 @@ pub fn write(file: &Path, rows: &[Row]) -> Result<()> {
                 Scale::Automatic { factor } => ("automatic", format!("{factor:.4}"), String::new()),
                 Scale::Own => ("own", String::new(), String::new()),
             };
-            let first = [VERSION.to_string(), row.drive.to_owned(), row.rig.to_owned(), row.washout.clone()];
-            let values = row.values.iter().zip(&COLUMNS).map(|(value, column)| written_value(*value, column.decimals));
+            let first = [BENCH_VERSION.to_string(), row.drive.to_owned(), row.rig.to_owned(), row.washout.clone()];
+            let values =
+                row.values.iter().zip(&BENCH_COLUMNS).map(|(value, column)| written_value(*value, column.decimals));
             let best = row.best.iter().map(|best| written_value(*best, 4));
             table.write_record(first.into_iter().chain([scale.to_owned(), factor, fits]).chain(values).chain(best))?;
         }
@@ -48,17 +51,17 @@ fn written_value(value: Option<f64>, decimals: usize) -> String {
 }
 
 /// Heads of the means.
-pub const HEADS: [&str; 10] =
+pub const MEAN_HEADS: [&str; 10] =
     ["rows", "scale", "error/rest", "error/bound", "error/best", "shape", "size", "inverted", "jolt m/s²", "limited"];
 
 /// Means over the drives and rigs as text: a line for each washout and scale, in the order of the
 /// rows, below the bound and the best attained.
 pub fn text(rows: &[Row], drives: usize, rigs: usize) -> String {
-    let mut table = TextTable::new(std::iter::once("washout").chain(HEADS).collect::<Vec<_>>());
+    let mut table = TextTable::new(std::iter::once("washout").chain(MEAN_HEADS).collect::<Vec<_>>());
     for (name, cells) in means(rows) {
         table.push(std::iter::once(name).chain(cells).collect());
     }
-    format!("moris bench {VERSION}: {drives} drives on {rigs} rigs\n\n{table}\n")
+    format!("moris bench {BENCH_VERSION}: {drives} drives on {rigs} rigs\n\n{table}\n")
 }
 
 /// The means with their names.

@@ -17,11 +17,11 @@ use anyhow::{Context, Error, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 pub use moris_analysis::frequency_response::Measured;
 use moris_analysis::frequency_response::limits::Limit;
-use moris_simulation::frequency_response::channel::{CROSS, direct};
+use moris_simulation::frequency_response::channel::{CROSS_CHANNELS, direct};
 use moris_simulation::frequency_response::excitation::Amplitudes;
 
 use crate::setup_options::SetupOptions;
-use crate::status::WORSE;
+use crate::status::WORSE_RESULT;
 use crate::words::option;
 
 /// Measure the frequency response of the whole washout
@@ -105,7 +105,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let file = |name: &str| options.report.join(name);
     table::write(&file("response.csv"), &measured)?;
     picture::draw(&file("direct.svg"), &measured, &limits, &direct(), 3)?;
-    picture::draw(&file("cross.svg"), &measured, &limits, &CROSS, 2)?;
+    picture::draw(&file("cross.svg"), &measured, &limits, &CROSS_CHANNELS, 2)?;
     for name in ["response.csv", "direct.svg", "cross.svg"] {
         writeln!(out, "wrote {}", file(name).display())?;
     }
@@ -114,5 +114,5 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let (are_held, verdicts) = table::verdicts(&limits, &measured);
     write!(out, "{verdicts}")?;
-    Ok(if are_held { ExitCode::SUCCESS } else { ExitCode::from(WORSE) })
+    Ok(if are_held { ExitCode::SUCCESS } else { ExitCode::from(WORSE_RESULT) })
 }

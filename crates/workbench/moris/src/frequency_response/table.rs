@@ -5,7 +5,9 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use moris_simulation::frequency_response::Response;
-use moris_simulation::frequency_response::channel::{CROSS, Channel, direct, name, ratio_unit, unit, unit_in_si};
+use moris_simulation::frequency_response::channel::{
+    CROSS_CHANNELS, Channel, direct, name, ratio_unit, unit, unit_in_si,
+};
 use moris_simulation::frequency_response::excitation::frequencies;
 
 use moris_analysis::frequency_response::limits::{Limit, pair_name};
@@ -67,7 +69,7 @@ fn response_fields(signal: &str, response: &Response, output: Channel) -> [(&'st
 fn pair_kind(input: Channel, output: Channel) -> &'static str {
     if input == output {
         "direct"
-    } else if CROSS.contains(&(input, output)) {
+    } else if CROSS_CHANNELS.contains(&(input, output)) {
         "cross"
     } else {
         "other"
@@ -82,7 +84,7 @@ pub fn text(measured: &Measured) -> String {
         "\ndirect channels: modulus, phase [deg]\n{}\n\
          cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}\n{warnings}",
         pair_table(measured, &direct()),
-        pair_table(measured, &CROSS)
+        pair_table(measured, &CROSS_CHANNELS)
     )
 }
 

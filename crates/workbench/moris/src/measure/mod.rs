@@ -21,7 +21,7 @@ use crate::learned_road::Kept;
 use crate::option_values::number_in;
 use crate::recording::{ConventionOptions, FADE_IN, Recording, files_in};
 use crate::setup_options::SetupOptions;
-use crate::status::WORSE;
+use crate::status::WORSE_RESULT;
 
 /// Measure recordings channel by channel and say which targets are missed
 ///
@@ -112,7 +112,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     };
     let missed = options.targets.missed(&recordings);
     write!(out, "{}", table::text(&setup, &host, &recordings, &options.targets, &missed))?;
-    Ok(if options.check && !missed.is_empty() { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
+    Ok(if options.check && !missed.is_empty() { ExitCode::from(WORSE_RESULT) } else { ExitCode::SUCCESS })
 }
 
 /// The files named, and those of recordings in the folders named, by name.

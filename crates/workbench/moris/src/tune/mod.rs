@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
-use crate::status::WORSE;
+use crate::status::WORSE_RESULT;
 use crate::words;
 use cost::Objective;
 use kept::Kept;
@@ -86,7 +86,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     writeln!(out, "\n{}{}", verdicts, words::WHICH_COMMAND)?;
     let is_worse = Verdict::of(&best.results, best.fraction) == Verdict::Worse;
-    Ok(if is_worse { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
+    Ok(if is_worse { ExitCode::from(WORSE_RESULT) } else { ExitCode::SUCCESS })
 }
 
 /// A strategy's tuning.

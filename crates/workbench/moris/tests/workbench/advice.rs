@@ -4,7 +4,7 @@ use moris::recording::Recording;
 use moris::simulate::Outcome;
 use moris_setup::Setup;
 use moris_simulation::channels::channels;
-use moris_simulation::drives::bench::{DRIVES, FRAME};
+use moris_simulation::drives::bench::{BENCH_DRIVES, RATE_FRAME};
 use moris_simulation::preview::Previewer;
 use moris_simulation::verdict::Fault;
 use moris_simulation::{Manoeuvre, Weight};
@@ -119,8 +119,8 @@ fn following_a_verdict_makes_what_it_names_better_and_nothing_else_worse() {
     let rigs = cases(&["hobby100", "default", "flight091"][..], &["hobby200", "default"]);
     let sets = cases(&["default", "classical", "robust"][..], &["default", "paper"]);
     let mut followed = 0;
-    for drive in DRIVES.iter().filter(|drive| drives.contains(&drive.name)) {
-        let recording = Recording::computed(drive.name, drive.manoeuvre(), FRAME);
+    for drive in BENCH_DRIVES.iter().filter(|drive| drives.contains(&drive.name)) {
+        let recording = Recording::computed(drive.name, drive.manoeuvre(), RATE_FRAME);
         for rig in rigs {
             for set in sets {
                 followed += follow(&recording, &on_rig(rig, set));
@@ -143,7 +143,7 @@ fn a_rate_that_is_felt_falsely_gets_smaller_rates_and_tilt_alone_is_no_fault() {
             input.angular_velocity = nalgebra::Vector3::from(rates) * fade * (omega * t).sin();
             input
         });
-        let recording = Recording::computed("bends", manoeuvre, FRAME);
+        let recording = Recording::computed("bends", manoeuvre, RATE_FRAME);
         (simulated(&recording, &setup, 0.0).advised(&recording, 0.0).unwrap(), recording, setup)
     };
     let (tilted, ..) = bends(0.0, [0.04, 0.0, 0.0], 0.4);

@@ -17,7 +17,7 @@ use moris::frequency_response::{Measured, picture, table};
 use moris_analysis::frequency_response::limits::Limit;
 use moris_analysis::frequency_response::platform::NominalPlatform;
 use moris_simulation::frequency_response::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
-use moris_simulation::frequency_response::channel::{CROSS, direct};
+use moris_simulation::frequency_response::channel::{CROSS_CHANNELS, direct};
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use moris_simulation::frequency_response::{Response, response, response_on};
 use moris_stewart_platform::Parameters as StewartParameters;
@@ -299,7 +299,7 @@ fn the_files_hold_what_was_measured() {
     for (name, titles) in
         [("direct.svg", ["Surge", "Yaw rate"]), ("cross.svg", ["Pitch rate to surge", "Sway to roll rate"])]
     {
-        let pairs = if name == "direct.svg" { &direct()[..] } else { &CROSS };
+        let pairs = if name == "direct.svg" { &direct()[..] } else { &CROSS_CHANNELS };
         picture::draw(&file(name), measured, &[], pairs, pairs.len() / 2).unwrap();
         let drawn = std::fs::read_to_string(file(name)).unwrap();
         assert!(titles.iter().all(|title| drawn.contains(title)), "{name}");

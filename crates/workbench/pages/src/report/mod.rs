@@ -21,7 +21,7 @@ mod thinning;
 #[cfg(feature = "ride")]
 pub(crate) mod shared {
     pub use crate::report::encode::bytes;
-    pub use crate::report::page::{COMPILED, Head, assembled};
+    pub use crate::report::page::{Head, WEBASSEMBLY_SOURCE, assembled};
 }
 
 pub use data::{Chart, Cues, LimitHistory, Line, Report, Rig, Run, Vehicle};
@@ -29,6 +29,6 @@ pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::{escaped, html};
 pub use run::{felt_chart, run};
-pub use simulator::{MODULE, MODULE_REMEDY, Parameter, ParameterKind, Simulator};
+pub use simulator::{MODULE_REMEDY, Parameter, ParameterKind, SIMULATION_MODULE, Simulator};
 pub use tables::{PageTable, tables_html};
 pub use thinning::Thinning;

@@ -10,7 +10,7 @@ use crate::report::data::Report;
 use crate::report::events::{Event, events};
 
 /// The source of scripts for a page with a WebAssembly.
-pub const COMPILED: &str = "'wasm-unsafe-eval'";
+pub const WEBASSEMBLY_SOURCE: &str = "'wasm-unsafe-eval'";
 
 /// Differences between the heads of pages.
 #[derive(Clone, Copy, Debug, Default)]
@@ -82,7 +82,7 @@ pub fn html(report: &Report) -> String {
         title: &report.title,
         subtitle: &report.subtitle,
         style: "",
-        scripts: COMPILED,
+        scripts: WEBASSEMBLY_SOURCE,
         policy: "worker-src blob:",
     };
     assembled(&head, PAGE_TEMPLATE, &page, ENTRY_MODULE)

@@ -5,9 +5,9 @@ use serde::Serialize;
 use crate::report::encode::{bytes, exact};
 
 /// The WebAssembly of the report's page, `modules/simulation.rs`; empty where it was not compiled.
-pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
+pub const SIMULATION_MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
 
-/// Remedy where [`MODULE`] was not compiled.
+/// Remedy where [`SIMULATION_MODULE`] was not compiled.
 pub const MODULE_REMEDY: &str = "Sliders for the parameters need Rust's target for WebAssembly, which was missing when the \
      workbench was compiled. Run `rustup target add wasm32-unknown-unknown`, then compile the workbench again.";
 

@@ -3,10 +3,10 @@
 use moris_washout::Washout;
 
 /// Names of the lamps.
-pub const NAMES: [&str; 6] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
+pub const LAMP_NAMES: [&str; 6] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
 
 /// The lamps that are lit now.
-pub fn lit(washout: &Washout) -> [bool; NAMES.len()] {
+pub fn lit(washout: &Washout) -> [bool; LAMP_NAMES.len()] {
     // Fraction of a leg's stroke next to its ends, and fractions of its largest speed and
     // acceleration, from which on a lamp lights.
     const NEAR_END: f64 = 0.05;

@@ -4,10 +4,10 @@ use crate::report::{Parameter, Rig, shared};
 use serde::Serialize;
 
 /// The style of a page with curves, a platform and lamps.
-pub(crate) const STYLE: &str = include_str!("../../page/shared/motion.css");
+pub(crate) const MOTION_STYLE: &str = include_str!("../../page/shared/motion.css");
 
 /// The WebAssembly of the ride, `modules/ride.rs`; empty where it was not compiled.
-pub const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
+pub const RIDE_MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_ride.wasm"));
 
 /// Parts of the page.
 #[derive(Clone, Debug, Serialize)]
@@ -31,7 +31,12 @@ pub struct Page {
 pub fn html(page: &Page) -> String {
     const PAGE_TEMPLATE: &str = include_str!("../../page/ride/ride.html");
     const ENTRY_MODULE: &str = "ride/main.js";
-    let head =
-        shared::Head { title: "Ride", subtitle: &page.subtitle, style: STYLE, scripts: shared::COMPILED, policy: "" };
+    let head = shared::Head {
+        title: "Ride",
+        subtitle: &page.subtitle,
+        style: MOTION_STYLE,
+        scripts: shared::WEBASSEMBLY_SOURCE,
+        policy: "",
+    };
     shared::assembled(&head, PAGE_TEMPLATE, page, ENTRY_MODULE)
 }

@@ -8,7 +8,7 @@ use moris_washout::Input;
 use serde::Serialize;
 
 /// Steps of the ride to a sample.
-pub const DIVISIONS: usize = 10;
+pub const STEPS_PER_SAMPLE: usize = 10;
 
 /// Inputs of the washout, and the motion that the rider felt.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub struct Recording {
     /// Time between samples \[s\].
     step: f64,
     inputs: Vec<Input>,
-    /// Felt force in surge and sway, [`DIVISIONS`] to a sample \[m/s2\].
+    /// Felt force in surge and sway, [`STEPS_PER_SAMPLE`] to a sample \[m/s2\].
     felt: [Vec<f64>; 2],
 }
 
@@ -32,7 +32,7 @@ pub struct Rating {
 impl Recording {
     /// A recording with steps of so many seconds, that begins with this input and felt force.
     pub fn new(step: f64, input: Input, felt: [f64; 2]) -> Self {
-        Recording { step: step * DIVISIONS as f64, inputs: vec![input], felt: felt.map(|felt| vec![felt]) }
+        Recording { step: step * STEPS_PER_SAMPLE as f64, inputs: vec![input], felt: felt.map(|felt| vec![felt]) }
     }
 
     /// Number of samples.
@@ -50,7 +50,7 @@ impl Recording {
         for (series, value) in self.felt.iter_mut().zip(felt) {
             series.push(value);
         }
-        if self.felt[0].len() % DIVISIONS == 1 {
+        if self.felt[0].len() % STEPS_PER_SAMPLE == 1 {
             self.inputs.push(*input);
         }
     }
@@ -64,8 +64,8 @@ impl Recording {
         }
         let rating = |axis: usize| {
             let desired: Vec<f64> = self.inputs[from..to].iter().map(|input| input.specific_force[axis]).collect();
-            let felt = &self.felt[axis][from * DIVISIONS..=(to - 1) * DIVISIONS];
-            let sampled: Vec<f64> = felt.iter().step_by(DIVISIONS).copied().collect();
+            let felt = &self.felt[axis][from * STEPS_PER_SAMPLE..=(to - 1) * STEPS_PER_SAMPLE];
+            let sampled: Vec<f64> = felt.iter().step_by(STEPS_PER_SAMPLE).copied().collect();
             let [shake, jolt, peak] = comfort(&desired, felt, 0.0, self.step).values();
             Rating { rms_error: rms_error(&desired, &sampled), shake, jolt, peak }
         };

@@ -8,7 +8,7 @@ use moris_washout::{Input, Parameters, Washout};
 
 use crate::ride::course::Circuit;
 use crate::ride::lamps;
-use crate::ride::recording::{DIVISIONS, Rating, Recording};
+use crate::ride::recording::{Rating, Recording, STEPS_PER_SAMPLE};
 use crate::ride::ridden::{Ridden, RiderCommand};
 
 /// Time of a step \[s\].
@@ -61,7 +61,7 @@ pub struct Ride {
     /// Steps at the beginning of the lap, and whether parameters were changed since.
     lap_start: u64,
     is_mixed: bool,
-    lamps: [bool; lamps::NAMES.len()],
+    lamps: [bool; lamps::LAMP_NAMES.len()],
 }
 
 impl Ride {
@@ -89,7 +89,7 @@ impl Ride {
             laps: Vec::new(),
             lap_start: 0,
             is_mixed: false,
-            lamps: [false; lamps::NAMES.len()],
+            lamps: [false; lamps::LAMP_NAMES.len()],
             washout,
         })
     }
@@ -108,7 +108,7 @@ impl Ride {
             Stage::Returning => Input { engaged: false, ..self.input },
             _ => self.ridden.input(is_engaged),
         };
-        if self.stage == Stage::Riding && self.steps.is_multiple_of(DIVISIONS as u64) {
+        if self.stage == Stage::Riding && self.steps.is_multiple_of(STEPS_PER_SAMPLE as u64) {
             self.remember();
         }
         self.washout.step(&self.input, STEP);
@@ -185,7 +185,7 @@ impl Ride {
     fn remember(&mut self) {
         let (place, force) = (self.ridden.place(), self.input.specific_force);
         self.road.step(&Sample {
-            step: STEP * DIVISIONS as f64,
+            step: STEP * STEPS_PER_SAMPLE as f64,
             position: [place.x, place.y, 0.0],
             speed: Some(self.input.speed),
             force: [force.x, force.y],
@@ -331,7 +331,7 @@ impl Ride {
         );
         let [legs, _] = out.actuators(&self.washout.parameters().rig);
         view.extend(["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"].into_iter().zip(legs));
-        view.extend(lamps::NAMES.into_iter().zip(lamps));
+        view.extend(lamps::LAMP_NAMES.into_iter().zip(lamps));
         view.push(("scale", out.scale_factor));
         view
     }

@@ -3,7 +3,7 @@
 use moris_washout::Input;
 use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY as GRAVITY};
 
-use super::car::{CAR, Course, KART, STEP};
+use super::car::{Course, KART, PASSENGER_CAR, STEP};
 use super::runs;
 use super::smooth::{Change, changes, rise};
 use crate::Manoeuvre;
@@ -26,17 +26,17 @@ enum Kind {
 }
 
 /// Axes of the angular velocities of all drives.
-pub const FRAME: AngularVelocityFrame = AngularVelocityFrame::Body;
+pub const RATE_FRAME: AngularVelocityFrame = AngularVelocityFrame::Body;
 
 /// A course of the passenger car without bends, braking or waves.
 const STRAIGHT_COURSE: Course =
-    Course { car: CAR, duration: 30.0, speed: 20.0, along: &[], curvature: &[], weaving: None, road: &[] };
+    Course { car: PASSENGER_CAR, duration: 30.0, speed: 20.0, along: &[], curvature: &[], weaving: None, road: &[] };
 
 /// Every drive, in the bench's order.
-pub const DRIVES: [Drive; 10] = [
-    Drive { name: "paper-a", text: "motorcycle: accelerate, then brake", kind: Kind::Run(runs::A) },
-    Drive { name: "paper-b", text: "motorcycle: in a truck's wake", kind: Kind::Run(runs::B) },
-    Drive { name: "paper-c", text: "motorcycle: brake to a brusque stop", kind: Kind::Run(runs::C) },
+pub const BENCH_DRIVES: [Drive; 10] = [
+    Drive { name: "paper-a", text: "motorcycle: accelerate, then brake", kind: Kind::Run(runs::RUN_A) },
+    Drive { name: "paper-b", text: "motorcycle: in a truck's wake", kind: Kind::Run(runs::RUN_B) },
+    Drive { name: "paper-c", text: "motorcycle: brake to a brusque stop", kind: Kind::Run(runs::RUN_C) },
     Drive {
         name: "lane-change",
         text: "car: double lane change at 80 km/h",
@@ -202,13 +202,13 @@ mod tests {
     use super::*;
 
     fn largest(drive: &str, of: fn(&Input) -> f64) -> f64 {
-        let drive = DRIVES.iter().find(|other| other.name == drive).unwrap();
+        let drive = BENCH_DRIVES.iter().find(|other| other.name == drive).unwrap();
         drive.manoeuvre().inputs().iter().map(|input| of(input).abs()).fold(0.0, f64::max)
     }
 
     #[test]
     fn every_drive_begins_in_rest_or_steady_motion_and_stays_within_what_its_vehicle_can_do() {
-        for drive in DRIVES {
+        for drive in BENCH_DRIVES {
             let manoeuvre = drive.manoeuvre();
             let [first, last] = [manoeuvre.inputs()[0], *manoeuvre.inputs().last().unwrap()];
             for input in [first, last] {
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn a_drive_is_the_same_each_time() {
-        for drive in DRIVES {
+        for drive in BENCH_DRIVES {
             assert_eq!(drive.manoeuvre().inputs(), drive.manoeuvre().inputs(), "{}", drive.name);
         }
     }

@@ -37,7 +37,7 @@ pub struct Car {
 }
 
 /// A passenger car.
-pub const CAR: Car = Car {
+pub const PASSENGER_CAR: Car = Car {
     mass: 1500.0,
     inertia: 2500.0,
     to_front: 1.2,
@@ -180,7 +180,7 @@ mod tests {
 
     /// A bend of constant speed and curvature, long enough to be steady.
     const BEND: Course = Course {
-        car: CAR,
+        car: PASSENGER_CAR,
         duration: 20.0,
         speed: 20.0,
         along: &[],
@@ -194,7 +194,7 @@ mod tests {
         let manoeuvre = BEND.manoeuvre();
         let last = manoeuvre.inputs().last().unwrap();
         let lateral = 20.0 * 20.0 * 0.01;
-        let roll = CAR.roll_gradient * lateral;
+        let roll = PASSENGER_CAR.roll_gradient * lateral;
         assert!((last.angular_velocity.z - 20.0 * 0.01 * roll.cos()).abs() < 1e-6, "{last:?}");
         let expected = lateral * roll.cos() + GRAVITY * roll.sin();
         assert!((last.specific_force.y - expected).abs() < 1e-5, "{last:?}");
@@ -205,7 +205,8 @@ mod tests {
     fn the_yaw_rate_overshoots_as_the_characteristic_equation_says() {
         let course = Course { speed: 40.0, curvature: &[(1e-3, 1.0, 1e-6)], ..BEND };
         let rates: Vec<f64> = course.manoeuvre().inputs().iter().map(|input| input.angular_velocity.z).collect();
-        let Car { mass: m, inertia: j, to_front: a, to_rear: b, front_stiffness: f, rear_stiffness: r, .. } = CAR;
+        let Car { mass: m, inertia: j, to_front: a, to_rear: b, front_stiffness: f, rear_stiffness: r, .. } =
+            PASSENGER_CAR;
         let v = 40.0;
         let damping = (f + r) / (m * v) + (a * a * f + b * b * r) / (j * v);
         let stiffness = f * r * (a + b).powi(2) / (m * j * v * v) + (b * r - a * f) / j;

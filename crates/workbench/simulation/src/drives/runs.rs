@@ -14,7 +14,7 @@ use super::smooth::{Change, changes, changes_integral, rise, rise_rate};
 ///
 /// The speed gained is that of 2.2 m/s2 for 11 s, from the middle of one ramp to the middle of the
 /// next. Braking with 3.5 m/s2, from the middle of its own ramp, loses the same speed.
-pub const STOP: f64 = 22.0 + 10.5 / 2.0 + 2.2 * 11.0 / 3.5;
+pub const RUN_C_STOP: f64 = 22.0 + 10.5 / 2.0 + 2.2 * 11.0 / 3.5;
 
 /// The motion of the rider's head at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,24 +65,24 @@ impl Manoeuvre {
 }
 
 /// Run a: accelerate, then brake, in a straight line.
-pub const A: Manoeuvre =
+pub const RUN_A: Manoeuvre =
     Manoeuvre { name: "a", text: "accelerate, then brake, straight", duration: 55.0, motion: run_a };
 
 /// Run a with every ramp of 2 s.
-pub const A_BRISK: Manoeuvre =
+pub const RUN_A_BRISK: Manoeuvre =
     Manoeuvre { name: "a brisk", text: "run a with faster ramps", duration: 55.0, motion: run_a_brisk };
 
 /// Run b: constant speed in the wake of a truck.
-pub const B: Manoeuvre =
+pub const RUN_B: Manoeuvre =
     Manoeuvre { name: "b", text: "constant speed in a truck's wake", duration: 10.0, motion: run_b };
 
 /// Run c: accelerate, then brake to a brusque stop: the deceleration of 3.5 m/s2 ends at once.
-pub const C: Manoeuvre =
+pub const RUN_C: Manoeuvre =
     Manoeuvre { name: "c", text: "accelerate, brake to a brusque stop", duration: 50.0, motion: run_c };
 
 /// A car in town: three starts and stops, two bends and a lane change. The run is not the paper's.
 /// It serves to compare the strategies.
-pub const TOWN: Manoeuvre =
+pub const TOWN_RUN: Manoeuvre =
     Manoeuvre { name: "town", text: "a car through town: starts, stops, bends", duration: 90.0, motion: town_motion };
 
 fn run_a(t: f64) -> Motion {
@@ -115,7 +115,7 @@ fn run_b(t: f64) -> Motion {
 }
 
 fn run_c(t: f64) -> Motion {
-    if t < STOP {
+    if t < RUN_C_STOP {
         straight_motion(t, &[(2.2, 1.0, 6.6), (-2.2, 12.0, 6.6), (-3.5, 22.0, 10.5)])
     } else {
         Motion::default()
@@ -170,32 +170,32 @@ mod tests {
 
     #[test]
     fn run_a_passes_through_values_worked_out_by_hand() {
-        assert_eq!(surge(A, 3.0), 0.0);
-        assert_near(surge(A, 4.5), 2.0 * 0.15625, 1e-15); // A quarter of the rise: 1/16 (3 - 1/2).
-        assert_near(surge(A, 6.0), 1.0, 1e-15);
-        assert_eq!(surge(A, 12.0), 2.0);
-        assert_eq!(surge(A, 22.0), 0.0);
-        assert_near(surge(A, 27.75), -1.25, 1e-15);
-        assert_eq!(surge(A, 32.0), -2.5);
-        assert_near(surge(A, 54.9), 0.0, 1e-15);
+        assert_eq!(surge(RUN_A, 3.0), 0.0);
+        assert_near(surge(RUN_A, 4.5), 2.0 * 0.15625, 1e-15); // A quarter of the rise: 1/16 (3 - 1/2).
+        assert_near(surge(RUN_A, 6.0), 1.0, 1e-15);
+        assert_eq!(surge(RUN_A, 12.0), 2.0);
+        assert_eq!(surge(RUN_A, 22.0), 0.0);
+        assert_near(surge(RUN_A, 27.75), -1.25, 1e-15);
+        assert_eq!(surge(RUN_A, 32.0), -2.5);
+        assert_near(surge(RUN_A, 54.9), 0.0, 1e-15);
     }
 
     #[test]
     fn the_brisk_run_has_the_amplitudes_of_run_a_and_ramps_of_two_seconds() {
-        assert_near(surge(A_BRISK, 4.0), 1.0, 1e-15);
-        assert_eq!(surge(A_BRISK, 5.0), 2.0);
-        assert_eq!(surge(A_BRISK, 17.0), 0.0);
-        assert_eq!(surge(A_BRISK, 26.0), -2.5);
-        assert_near(surge(A_BRISK, 35.6), 0.0, 1e-15);
+        assert_near(surge(RUN_A_BRISK, 4.0), 1.0, 1e-15);
+        assert_eq!(surge(RUN_A_BRISK, 5.0), 2.0);
+        assert_eq!(surge(RUN_A_BRISK, 17.0), 0.0);
+        assert_eq!(surge(RUN_A_BRISK, 26.0), -2.5);
+        assert_near(surge(RUN_A_BRISK, 35.6), 0.0, 1e-15);
     }
 
     #[test]
     fn run_b_is_still_at_both_ends_and_is_its_waves_in_the_middle() {
         for time in [0.0, 0.5, 9.5, 10.0] {
-            assert_eq!(B.motion(time), Motion { speed: 25.0, ..Motion::default() });
+            assert_eq!(RUN_B.motion(time), Motion { speed: 25.0, ..Motion::default() });
         }
         // At 4 s the window is 1, and 0.35, 1.1, 0.5 and 1.3 Hz are 1.4, 4.4, 2 and 5.2 turns.
-        let Motion { acceleration: [ax, ay, az], roll, .. } = B.motion(4.0);
+        let Motion { acceleration: [ax, ay, az], roll, .. } = RUN_B.motion(4.0);
         assert_near(ax, 0.6 * (0.4 * TAU).sin() + 0.35 * (0.4 * TAU + 0.7).sin() + 0.15 * 1.9_f64.sin(), 1e-13);
         assert_near(ay, 0.8 * 0.4_f64.sin() + 0.4 * (0.2 * TAU + 2.1).sin() + 0.2 * 0.3_f64.sin(), 1e-13);
         assert_near(az, 0.3 * (0.2 * TAU + 1.0).sin() + 0.15 * (0.4 * TAU + 2.2).sin(), 1e-13);
@@ -204,15 +204,15 @@ mod tests {
 
     #[test]
     fn the_ride_through_town_ends_at_rest_after_its_bends() {
-        assert_near(TOWN.motion(12.0).speed, 1.8 * 6.25, 1e-12);
-        let Motion { acceleration, speed, .. } = TOWN.motion(22.0);
+        assert_near(TOWN_RUN.motion(12.0).speed, 1.8 * 6.25, 1e-12);
+        let Motion { acceleration, speed, .. } = TOWN_RUN.motion(22.0);
         assert_near(acceleration[1], 2.0, 1e-15);
         assert_near(speed, 1.0, 1e-12);
-        assert_near(TOWN.motion(90.0).speed, 0.0, 1e-12);
-        assert!(TOWN.motion(90.0).acceleration.iter().all(|value| value.abs() < 1e-14));
+        assert_near(TOWN_RUN.motion(90.0).speed, 0.0, 1e-12);
+        assert!(TOWN_RUN.motion(90.0).acceleration.iter().all(|value| value.abs() < 1e-14));
         // A lane change: the lateral velocity is zero again after it.
         let step = 1e-3;
-        let drift: f64 = (52_000..57_000).map(|k| step * TOWN.motion(f64::from(k) * step).acceleration[1]).sum();
+        let drift: f64 = (52_000..57_000).map(|k| step * TOWN_RUN.motion(f64::from(k) * step).acceleration[1]).sum();
         assert_near(drift, 0.0, 0.05);
     }
 
@@ -220,33 +220,33 @@ mod tests {
     fn the_roll_rate_is_the_roll_s_derivative() {
         for k in 1..1000 {
             let time = 0.01 * f64::from(k) + 0.0033;
-            let difference = (B.motion(time + 1e-5).roll - B.motion(time - 1e-5).roll) / 2e-5;
-            assert_near(B.motion(time).roll_rate, difference, 1e-8);
+            let difference = (RUN_B.motion(time + 1e-5).roll - RUN_B.motion(time - 1e-5).roll) / 2e-5;
+            assert_near(RUN_B.motion(time).roll_rate, difference, 1e-8);
         }
     }
 
     #[test]
     fn run_c_stops_when_its_speed_is_zero() {
         let step = 1e-4;
-        let before = (0..(STOP / step) as usize).map(|k| surge(C, (k as f64 + 0.5) * step));
+        let before = (0..(RUN_C_STOP / step) as usize).map(|k| surge(RUN_C, (k as f64 + 0.5) * step));
         assert_near(before.sum::<f64>() * step, 0.0, 4e-4); // Half a step at 3.5 m/s2, rounded up.
-        assert_near(STOP, 34.164_285_714, 1e-9);
-        assert_eq!(surge(C, STOP - 1e-9), -3.5);
-        assert_eq!(surge(C, STOP), 0.0);
+        assert_near(RUN_C_STOP, 34.164_285_714, 1e-9);
+        assert_eq!(surge(RUN_C, RUN_C_STOP - 1e-9), -3.5);
+        assert_eq!(surge(RUN_C, RUN_C_STOP), 0.0);
     }
 
     #[test]
     fn the_speed_is_the_integral_of_the_acceleration() {
-        for run in [A, A_BRISK, C] {
+        for run in [RUN_A, RUN_A_BRISK, RUN_C] {
             for k in 1..500 {
                 let time = 0.1 * f64::from(k) + 0.0033;
                 let difference = (run.motion(time + 1e-5).speed - run.motion(time - 1e-5).speed) / 2e-5;
                 assert_near(surge(run, time), difference, 1e-6);
             }
         }
-        assert_near(A.motion(22.0).speed, 24.0, 1e-12);
-        assert_near(C.motion(STOP - 1e-6).speed, 3.5e-6, 1e-9);
-        assert_eq!(C.motion(STOP).speed, 0.0);
+        assert_near(RUN_A.motion(22.0).speed, 24.0, 1e-12);
+        assert_near(RUN_C.motion(RUN_C_STOP - 1e-6).speed, 3.5e-6, 1e-9);
+        assert_eq!(RUN_C.motion(RUN_C_STOP).speed, 0.0);
     }
 
     #[test]
@@ -271,7 +271,7 @@ mod tests {
 
     #[test]
     fn the_specific_force_at_rest_is_gravity_s_reaction() {
-        for run in [A, A_BRISK, B, C] {
+        for run in [RUN_A, RUN_A_BRISK, RUN_B, RUN_C] {
             assert_eq!(run.motion(0.0).specific_force(), [0.0, 0.0, GRAVITY]);
             assert_eq!(run.motion(0.0).angular_velocity(), [0.0; 3]);
         }

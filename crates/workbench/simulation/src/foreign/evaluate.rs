@@ -10,7 +10,7 @@ use moris_washout::platform::{Geometry, LocationFrame, PlatformMotion, Pose, for
 use moris_washout::{Input, Output, Parameters};
 
 use super::ForeignError;
-use super::differences::{FEWEST, derivatives, unwrapped};
+use super::differences::{MIN_DERIVATIVE_SAMPLES, derivatives, unwrapped};
 
 /// The motion through a series of poses, and what is felt on it.
 #[derive(Clone, Debug)]
@@ -32,8 +32,12 @@ impl Evaluation {
     /// # Errors
     /// There are too few poses.
     pub fn of(poses: &[[f64; 6]], inputs: &[Input], step: f64, parameters: &Parameters) -> Result<Self, ForeignError> {
-        if poses.len() < FEWEST {
-            return Err(ForeignError::TooShort { argument: "pose", found: poses.len(), fewest: FEWEST });
+        if poses.len() < MIN_DERIVATIVE_SAMPLES {
+            return Err(ForeignError::TooShort {
+                argument: "pose",
+                found: poses.len(),
+                fewest: MIN_DERIVATIVE_SAMPLES,
+            });
         }
         let parts = (poses.len() - 1) / (inputs.len() - 1);
         let step = step / parts as f64;

@@ -6,11 +6,11 @@ use moris_washout::Output;
 pub use moris_washout::platform::reach::Axis as Channel;
 
 /// Number of channels.
-pub const CHANNELS: usize = Channel::ALL.len();
+pub const CHANNEL_COUNT: usize = Channel::ALL.len();
 
 /// The channels coupled by gravity: a tilted head feels it along surge or sway, and surge and
 /// sway are cued by tilting.
-pub const CROSS: [(Channel, Channel); 4] = [
+pub const CROSS_CHANNELS: [(Channel, Channel); 4] = [
     (Channel::Pitch, Channel::Surge),
     (Channel::Roll, Channel::Sway),
     (Channel::Surge, Channel::Pitch),
@@ -18,7 +18,7 @@ pub const CROSS: [(Channel, Channel); 4] = [
 ];
 
 /// Each channel on itself.
-pub fn direct() -> [(Channel, Channel); CHANNELS] {
+pub fn direct() -> [(Channel, Channel); CHANNEL_COUNT] {
     Channel::ALL.map(|channel| (channel, channel))
 }
 
@@ -47,7 +47,7 @@ pub fn ratio_unit(input: Channel, output: Channel) -> &'static str {
 }
 
 /// Felt quantities in SI units, in the order of the channels.
-pub fn felt(output: &Output) -> [f64; CHANNELS] {
+pub fn felt(output: &Output) -> [f64; CHANNEL_COUNT] {
     let (force, rate) = (output.felt_specific_force, output.felt_angular_velocity);
     [force.x, force.y, force.z, rate.x, rate.y, rate.z]
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use moris_washout::nalgebra::Complex;
 use moris_washout::{Output, Washout};
 
-use super::channel::{CHANNELS, Channel, felt, unit_in_si};
+use super::channel::{CHANNEL_COUNT, Channel, felt, unit_in_si};
 use super::excitation::Sine;
 
 /// Result of one test: one input channel at one frequency.
@@ -17,10 +17,10 @@ pub struct Response {
     /// Amplitude of the input \[m/s2 or rad/s\].
     pub amplitude: f64,
     /// Felt amplitude of each channel over the input's, in SI units.
-    pub ratios: [Complex<f64>; CHANNELS],
+    pub ratios: [Complex<f64>; CHANNEL_COUNT],
     /// Of each channel: what it holds beside the input's frequency and its mean, as a fraction of
     /// what it holds at that frequency (root mean squares). A linear filter has none.
-    pub distortion: [f64; CHANNELS],
+    pub distortion: [f64; CHANNEL_COUNT],
     /// Fraction of time in which the tilt, a safety unit, the actuator guard limited.
     pub limited: [f64; 3],
     /// True if two successive windows agree within 1 %.
@@ -29,13 +29,13 @@ pub struct Response {
 
 /// A filter at its limits need not repeat itself from period to period. Up to this fraction of the
 /// input that is no matter.
-pub const SETTLED: f64 = 1e-2;
+pub const SETTLED_FRACTION: f64 = 1e-2;
 
 /// Platform moved by the washout's commands, and the motion that its rider feels.
 pub trait Machine {
     /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the
     /// order of the channels.
-    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNELS];
+    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT];
 }
 
 /// A machine that moves exactly as commanded.
@@ -43,7 +43,7 @@ pub trait Machine {
 pub struct AsCommanded;
 
 impl Machine for AsCommanded {
-    fn felt(&mut self, commanded: &Output, _step: f64) -> [f64; CHANNELS] {
+    fn felt(&mut self, commanded: &Output, _step: f64) -> [f64; CHANNEL_COUNT] {
         felt(commanded)
     }
 }
@@ -88,7 +88,7 @@ pub fn response_on(
             break;
         }
     }
-    last.response(&sine, change <= SETTLED)
+    last.response(&sine, change <= SETTLED_FRACTION)
 }
 
 /// The washout on its way through the sine.
@@ -138,14 +138,14 @@ impl<'a, M: Machine> SteadyStateRun<'a, M> {
 struct Block {
     samples: f64,
     input: Complex<f64>,
-    outputs: [Complex<f64>; CHANNELS],
-    sums: [f64; CHANNELS],
-    squares: [f64; CHANNELS],
+    outputs: [Complex<f64>; CHANNEL_COUNT],
+    sums: [f64; CHANNEL_COUNT],
+    squares: [f64; CHANNEL_COUNT],
     limited: [f64; 3],
 }
 
 impl Block {
-    fn add(&mut self, turn: Complex<f64>, input: f64, outputs: [f64; CHANNELS], flags: [bool; 3]) {
+    fn add(&mut self, turn: Complex<f64>, input: f64, outputs: [f64; CHANNEL_COUNT], flags: [bool; 3]) {
         self.samples += 1.0;
         self.input += turn * input;
         for (i, value) in outputs.into_iter().enumerate() {

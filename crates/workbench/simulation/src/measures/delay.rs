@@ -6,7 +6,7 @@
 
 use realfft::RealFftPlanner;
 
-use super::statistics::{CONSTANT, correlation, mean};
+use super::statistics::{CONSTANT_TOLERANCE, correlation, mean};
 
 /// Longest delay considered, of either sign \[s\].
 const LONGEST_DELAY: f64 = 2.0;
@@ -127,7 +127,7 @@ impl Sum {
     }
 
     fn is_constant(&self) -> bool {
-        self.count == 0.0 || self.most - self.least < CONSTANT
+        self.count == 0.0 || self.most - self.least < CONSTANT_TOLERANCE
     }
 }
 

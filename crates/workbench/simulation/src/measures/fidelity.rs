@@ -1,7 +1,7 @@
 //! Fidelity with which one signal follows another: errors, correlation and delay.
 
 use super::delay::delay;
-use super::statistics::{CONSTANT, correlation, is_constant};
+use super::statistics::{CONSTANT_TOLERANCE, correlation, is_constant};
 
 /// Fidelity of a felt signal to the desired one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Fidelity {
 /// equal: there is nothing to feel and nothing is felt.
 pub fn fidelity(desired: &[f64], felt: &[f64], step: f64) -> Option<Fidelity> {
     let peak_error = peak_error(desired, felt);
-    if is_constant(desired) && peak_error < CONSTANT {
+    if is_constant(desired) && peak_error < CONSTANT_TOLERANCE {
         return None;
     }
     Some(Fidelity {

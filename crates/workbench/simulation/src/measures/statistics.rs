@@ -2,7 +2,7 @@
 
 /// A signal whose values differ by less than this is constant: far below what anybody
 /// feels \[m/s2 or rad/s\].
-pub(crate) const CONSTANT: f64 = 1e-9;
+pub(crate) const CONSTANT_TOLERANCE: f64 = 1e-9;
 
 /// Pearson's correlation coefficient; none where one of the signals is constant.
 pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
@@ -47,5 +47,5 @@ pub fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
 pub(crate) fn is_constant(values: &[f64]) -> bool {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    values.is_empty() || most - least < CONSTANT
+    values.is_empty() || most - least < CONSTANT_TOLERANCE
 }

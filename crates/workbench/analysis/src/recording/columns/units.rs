@@ -5,7 +5,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use crate::recording::conventions::choices;
 
 /// A foot \[m\].
-const FOOT: f64 = 0.3048;
+const METRES_PER_FOOT: f64 = 0.3048;
 
 /// Units that only headers give.
 const IN_HEADERS: [(Dimension, Unit); 9] = [
@@ -92,7 +92,7 @@ units! {
         /// Thousandths of standard gravity
         "mg" MilliGravity = 1e-3 * STANDARD_GRAVITY, ["milli-g" "millig"],
         /// Feet per second squared
-        "ft/s2" FootPerSecondSquared = FOOT,
+        "ft/s2" FootPerSecondSquared = METRES_PER_FOOT,
             ["fts-2" "fps2" "fpss" "ft/s/s" "ft/(s2)" "ft/sec2" "ft/sec/sec" "feet/s2" "feet/sec2" "feet/second2" "foot/second2"],
     }
 }
@@ -130,7 +130,7 @@ units! {
         /// Knots
         "kn" Knot = 1852.0 / 3600.0, ["kt" "kts" "knot" "knots"],
         /// Feet per second
-        "ft/s" FootPerSecond = FOOT, ["fts-1" "fps" "ft/sec" "feet/s" "feet/sec" "feet/second"],
+        "ft/s" FootPerSecond = METRES_PER_FOOT, ["fts-1" "fps" "ft/sec" "feet/s" "feet/sec" "feet/second"],
     }
 }
 
@@ -142,7 +142,7 @@ units! {
         /// Kilometres
         "km" Kilometre = 1e3, ["kilometre" "kilometres" "kilometer" "kilometers"],
         /// Feet
-        "ft" Foot = FOOT, ["foot" "feet"],
+        "ft" Foot = METRES_PER_FOOT, ["foot" "feet"],
     }
 }
 

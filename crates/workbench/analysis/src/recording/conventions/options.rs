@@ -144,7 +144,7 @@ impl ConventionOptions {
     /// The options over the file's, if there is one.
     fn with_file(&self) -> Result<ConventionOptions, RecordingError> {
         let Some(file) = &self.conventions else { return Ok(self.clone()) };
-        let text = moris_fmu_host::files::text(file, moris_fmu_host::files::TEXT)
+        let text = moris_fmu_host::files::text(file, moris_fmu_host::files::MAX_TEXT_SIZE)
             .map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
         let given = toml::from_str(&text).map_err(|error| RecordingError::whole(file, error.to_string()))?;
         Ok(self.over(given))

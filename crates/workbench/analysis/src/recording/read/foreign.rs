@@ -3,12 +3,12 @@
 use crate::recording::dialects::{DIALECTS, Foreign};
 
 /// Part of a file in which a zero byte shows that it is no text \[bytes\].
-pub const HEAD: usize = 4096;
+pub const HEAD_SIZE: usize = 4096;
 
 /// The remedy for a file that its first bytes show not to be CSV.
 pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
     const ZIP: &[u8] = b"PK\x03\x04";
-    let head = &bytes[..bytes.len().min(HEAD)];
+    let head = &bytes[..bytes.len().min(HEAD_SIZE)];
     let contains = |part: &[u8]| head.windows(part.len()).any(|window| window == part);
     let text = head.trim_ascii_start();
     if head.starts_with(ZIP) {
@@ -35,7 +35,7 @@ pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
 
 /// The order of the bytes of text in UTF-16, by its mark, or as every other byte of ASCII is zero.
 pub fn utf_16(bytes: &[u8]) -> Option<fn([u8; 2]) -> u16> {
-    let head = &bytes[..bytes.len().min(HEAD) & !1];
+    let head = &bytes[..bytes.len().min(HEAD_SIZE) & !1];
     let zeros = |odd: usize| head.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
     let is_zero = |many: usize, none: usize| head.len() >= 8 && none == 0 && many * 10 >= head.len() / 2 * 9;
     if head.starts_with(b"\xff\xfe") || is_zero(zeros(1), zeros(0)) {

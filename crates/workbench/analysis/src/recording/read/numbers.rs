@@ -24,14 +24,15 @@ impl Numbers {
             let (mut grouped, mut has_small, mut has_large) = ([false; 2], false, false);
             for field in column {
                 let digits = field.trim().trim_start_matches(['-', '+', '−']);
-                let counts = MARKS.map(|mark| digits.matches(mark).count());
+                let counts = NUMBER_MARKS.map(|mark| digits.matches(mark).count());
                 if counts == [0, 0] {
                     has_small |= !digits.is_empty() && digits.len() <= 3 && digits.bytes().all(|b| b.is_ascii_digit());
                     has_large |= digits.len() > 3 && digits.bytes().all(|b| b.is_ascii_digit());
                 }
-                for (k, mark) in MARKS.into_iter().enumerate().filter(|(k, _)| counts[*k] > 0) {
-                    let is_first = counts[1 - k] > 0 && digits.find(mark) < digits.find(MARKS[1 - k]);
-                    let whole = if is_first { &digits[..digits.find(MARKS[1 - k]).unwrap_or(0)] } else { digits };
+                for (k, mark) in NUMBER_MARKS.into_iter().enumerate().filter(|(k, _)| counts[*k] > 0) {
+                    let is_first = counts[1 - k] > 0 && digits.find(mark) < digits.find(NUMBER_MARKS[1 - k]);
+                    let whole =
+                        if is_first { &digits[..digits.find(NUMBER_MARKS[1 - k]).unwrap_or(0)] } else { digits };
                     match is_grouped(whole, mark) {
                         true if is_first || counts[k] > 1 => certain[k] = true,
                         true => grouped[k] = true,
@@ -41,7 +42,7 @@ impl Numbers {
             }
             (0..2).for_each(|k| likely[k] |= grouped[k] && has_small && !has_large);
         }
-        let group = (0..2).find(|&k| (certain[k] || likely[k]) && !decimal[k]).map(|k| MARKS[k]);
+        let group = (0..2).find(|&k| (certain[k] || likely[k]) && !decimal[k]).map(|k| NUMBER_MARKS[k]);
         Numbers { mark: None, group }
     }
 
@@ -60,7 +61,7 @@ impl Numbers {
             Some(number) => (Ok(number), text.contains('.').then_some('.')),
             None => {
                 cleaned = self.cleaned(text);
-                let mark = cleaned.chars().find(|c| MARKS.contains(c));
+                let mark = cleaned.chars().find(|c| NUMBER_MARKS.contains(c));
                 let plain = cleaned.replacen(',', ".", 1);
                 // Fortran's double precision.
                 (plain.parse::<f64>().or_else(|_| plain.replacen(['D', 'd'], "E", 1).parse()), mark)
@@ -102,7 +103,7 @@ impl Numbers {
 }
 
 /// Marks of decimals or between thousands.
-const MARKS: [char; 2] = [',', '.'];
+const NUMBER_MARKS: [char; 2] = [',', '.'];
 
 /// True for digits in groups of three behind the first one to three, which are no zero.
 fn is_grouped(text: &str, mark: char) -> bool {

@@ -4,14 +4,14 @@
 //! - `12:30:00.250 -> 0.1,0.2`, as the Arduino IDE saves it. The clock is the column `clock`.
 
 /// Mark behind the clock.
-const ARROW: &str = " -> ";
+const CLOCK_MARK: &str = " -> ";
 
 /// The text as CSV with the same lines; none where it has none of these forms.
 pub fn as_csv(text: &str) -> Option<String> {
     // Lines that show the form.
     const SHOWN: usize = 5;
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
-    if lines.clone().take(SHOWN).all(|line| line.contains(ARROW)) && lines.next()?.contains(':') {
+    if lines.clone().take(SHOWN).all(|line| line.contains(CLOCK_MARK)) && lines.next()?.contains(':') {
         return Some(behind_clock(text));
     }
     let mut shown = text.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).map(name_value_pairs);
@@ -38,7 +38,7 @@ fn behind_clock(text: &str) -> String {
     let mut csv = String::with_capacity(text.len());
     let mut is_named = false;
     for line in text.lines() {
-        if let Some((clock, rest)) = line.split_once(ARROW) {
+        if let Some((clock, rest)) = line.split_once(CLOCK_MARK) {
             let is_header = !is_named && rest.starts_with(char::is_alphabetic) && rest.contains([',', ';', '\t', ' ']);
             is_named |= is_header;
             let mark = [',', ';', '\t'].into_iter().find(|mark| rest.contains(*mark)).unwrap_or(' ');

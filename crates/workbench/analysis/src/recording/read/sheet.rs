@@ -15,13 +15,13 @@ use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
 use crate::recording::message::RecordingError;
 
 /// Lines that show a form.
-const SHOWN: usize = 3;
+const FORM_LINES: usize = 3;
 
 /// True for fields of the lines below a header that are of a form.
 type IsOfForm = fn(&[Vec<String>]) -> bool;
 
 /// Forms of files in which columns are not found, and how to convert them.
-const FORMS: [(IsOfForm, &str); 3] = [
+const UNREADABLE_FORMS: [(IsOfForm, &str); 3] = [
     (
         |lines| lines.iter().flatten().any(|field| field.starts_with(['[', '(']) && field.contains([',', ' '])),
         "; fields hold lists of numbers: make a column of each number, in Python: \
@@ -118,7 +118,7 @@ impl Sheet {
         const LINES_OF_FORM: usize = 20;
         let records = reader(&self.body, self.delimiter).into_records().filter_map(Result::ok).take(LINES_OF_FORM);
         let lines: Vec<Vec<String>> = records.map(|record| record.iter().map(str::to_owned).collect()).collect();
-        FORMS.iter().find(|(is_of, _)| is_of(&lines)).map(|(_, remedy)| *remedy)
+        UNREADABLE_FORMS.iter().find(|(is_of, _)| is_of(&lines)).map(|(_, remedy)| *remedy)
     }
 
     /// The reason why the file has no time.
@@ -143,7 +143,7 @@ fn has_quoted_lines(text: &str) -> bool {
         let inner = line.trim().strip_prefix('"').and_then(|line| line.strip_suffix('"'));
         inner.is_some_and(|line| !line.contains('"') && line.contains([',', ';', '\t']))
     };
-    let mut lines = text.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).peekable();
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty()).take(FORM_LINES).peekable();
     lines.peek().is_some() && lines.all(is_quoted)
 }
 
@@ -153,7 +153,7 @@ fn has_row_names(body: &str, separator: Separator, width: usize) -> bool {
         let fields = preamble::fields(line, separator);
         fields.len() == width + 1 && (fields[0] == number.to_string() || line.starts_with('"'))
     };
-    let mut lines = (1..).zip(body.lines().take(SHOWN)).peekable();
+    let mut lines = (1..).zip(body.lines().take(FORM_LINES)).peekable();
     lines.peek().is_some() && lines.all(is_numbered)
 }
 

@@ -11,10 +11,10 @@ use super::source::{is_standard_input, shown};
 use crate::recording::message::RecordingError;
 
 /// Largest recording \[bytes\]: an hour at 1 kHz with ten columns is 0.3 GB.
-const LARGEST: u64 = 400_000_000;
+const MAX_RECORDING_SIZE: u64 = 400_000_000;
 const TOO_LARGE: &str = "is larger than 400 MB; cut it into parts";
 /// First bytes of a file that is compressed with gzip.
-const GZIP: &[u8] = &[0x1f, 0x8b];
+const GZIP_MAGIC: &[u8] = &[0x1f, 0x8b];
 
 /// Bytes, or the reason why they are no text.
 type Bytes = Result<Vec<u8>, &'static str>;
@@ -38,12 +38,12 @@ pub fn text(file: &Path) -> Result<Text, RecordingError> {
         read.map_err(|reason| RecordingError::Read { file: shown(file), reason })?.map_err(refused)
     };
     let mut bytes = usable(if is_standard_input(file) {
-        read_up_to(stdin().lock(), LARGEST)
+        read_up_to(stdin().lock(), MAX_RECORDING_SIZE)
     } else {
-        File::open(file).and_then(|file| read_up_to(file, LARGEST))
+        File::open(file).and_then(|file| read_up_to(file, MAX_RECORDING_SIZE))
     })?;
-    if bytes.starts_with(GZIP) {
-        bytes = usable(read_up_to(MultiGzDecoder::new(&bytes[..]), LARGEST))?;
+    if bytes.starts_with(GZIP_MAGIC) {
+        bytes = usable(read_up_to(MultiGzDecoder::new(&bytes[..]), MAX_RECORDING_SIZE))?;
         foreign::remedy(&bytes).map_or(Ok(()), |reason| Err(refused(reason)))?;
     }
     if let Some(order) = foreign::utf_16(&bytes) {
@@ -68,9 +68,9 @@ fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Bytes> {
     // Bytes that are read at a time.
     const PART: u64 = 1 << 20;
     let mut bytes = Vec::new();
-    source.by_ref().take(foreign::HEAD as u64).read_to_end(&mut bytes)?;
+    source.by_ref().take(foreign::HEAD_SIZE as u64).read_to_end(&mut bytes)?;
     // A packed file is judged by what is in it.
-    let is_packed = bytes.starts_with(GZIP) || foreign::utf_16(&bytes).is_some();
+    let is_packed = bytes.starts_with(GZIP_MAGIC) || foreign::utf_16(&bytes).is_some();
     if let Some(reason) = foreign::remedy(&bytes).filter(|_| !is_packed) {
         return Ok(Err(reason));
     }
@@ -87,7 +87,7 @@ fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Bytes> {
 
 #[cfg(test)]
 mod tests {
-    use super::foreign::HEAD;
+    use super::foreign::HEAD_SIZE;
     use super::*;
 
     #[test]
@@ -95,9 +95,9 @@ mod tests {
         assert_eq!(read_up_to(io::repeat(b'1'), 1_000_000).unwrap(), Err(TOO_LARGE));
         assert!(read_up_to(io::repeat(0), u64::MAX - 1).unwrap().is_err());
         // Text before zeros without an end.
-        let text = vec![b'1'; HEAD];
+        let text = vec![b'1'; HEAD_SIZE];
         assert!(read_up_to(text.as_slice().chain(io::repeat(0)), u64::MAX - 1).unwrap().is_ok());
-        for size in [0, HEAD - 1, HEAD, HEAD + 1, 10_000] {
+        for size in [0, HEAD_SIZE - 1, HEAD_SIZE, HEAD_SIZE + 1, 10_000] {
             let text = vec![b'1'; size];
             assert_eq!(read_up_to(&text[..], 10_000).unwrap(), Ok(text));
         }

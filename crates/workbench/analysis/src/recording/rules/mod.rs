@@ -1,6 +1,6 @@
 //! Rules that every recording must pass, in SI units and the washout's axes.
 //!
-//! A row of [`RULES`] is one of them: what it needs, when it fires, and which others it explains.
+//! A row of [`RECORDING_RULES`] is one of them: what it needs, when it fires, and which others it explains.
 //! Their sentences stand in `texts.toml`.
 //!
 //! - `units` detects wrong units and axes, by gravity, and by what heads can do.
@@ -37,9 +37,9 @@ struct Rule {
 }
 
 /// A rule that is tested once.
-const ONCE: &[Quantity] = &[Time];
+const TESTED_ONCE: &[Quantity] = &[Time];
 const FORCES_AND_RATES: &[Quantity] = &[Force(0), Rate(0), Force(1), Rate(1), Force(2), Rate(2)];
-const ANGLES: &[Quantity] = &Quantity::ANGLES;
+const ALL_ANGLES: &[Quantity] = &Quantity::ANGLES;
 
 /// Declares rules, a row each.
 macro_rules! rules {
@@ -58,57 +58,57 @@ macro_rules! rules {
 }
 
 /// The rules of a recording before it is faded in, in the order in which they are told.
-const RULES: &[Rule] = rules! {
+const RECORDING_RULES: &[Rule] = rules! {
     // Angles before gravity: with them it is put back.
-    "angle range" refuse [], ONCE, units::angle_range;
+    "angle range" refuse [], TESTED_ONCE, units::angle_range;
     "angle unit" refuse [], &[Angle(0), Angle(1), Angle(2), Lean], units::angle_unit;
-    "quaternion from below" refuse [], ONCE, units::quaternion_from_below;
-    "exchanged sensors" refuse [], ONCE, units::exchanged_sensors;
+    "quaternion from below" refuse [], TESTED_ONCE, units::quaternion_from_below;
+    "exchanged sensors" refuse [], TESTED_ONCE, units::exchanged_sensors;
     // What a sensor shows after it has stopped is no unit or axis.
-    "repeated lines" warn [], ONCE, waveform::repeated_lines, supersedes ["stop", "gravity", "rate unit"];
+    "repeated lines" warn [], TESTED_ONCE, waveform::repeated_lines, supersedes ["stop", "gravity", "rate unit"];
     "stop" warn [Speed], &[Force(0), Rate(2)], waveform::stop, supersedes ["gravity", "rate unit"];
-    "gravity" refuse [], ONCE, units::gravity;
-    "rate unit" refuse [], ONCE, units::rate_unit;
-    "repeated values" warn [], ONCE, waveform::repeated;
+    "gravity" refuse [], TESTED_ONCE, units::gravity;
+    "rate unit" refuse [], TESTED_ONCE, units::rate_unit;
+    "repeated values" warn [], TESTED_ONCE, waveform::repeated;
     "coarse values" warn [], FORCES_AND_RATES, waveform::coarse;
-    "world forces" warn [Speed, Angle(2)], ONCE, agreement::world_forces,
+    "world forces" warn [Speed, Angle(2)], TESTED_ONCE, agreement::world_forces,
         supersedes ["exchanged forces", "no force", "no lateral force", "speed and force", "sign of bends", "rates of bends"];
-    "exchanged forces" warn [Speed], ONCE, agreement::exchanged_forces, supersedes ["no lateral force"];
-    "world rates" warn [Angle(0), Angle(1), Angle(2)], ONCE, agreement::world_rates,
+    "exchanged forces" warn [Speed], TESTED_ONCE, agreement::exchanged_forces, supersedes ["no lateral force"];
+    "world rates" warn [Angle(0), Angle(1), Angle(2)], TESTED_ONCE, agreement::world_rates,
         supersedes ["exchanged rates", "no rate of an angle", "sign of rates", "scale of rates", "delayed angle"];
-    "quaternion" warn [], ONCE, agreement::quaternion,
+    "quaternion" warn [], TESTED_ONCE, agreement::quaternion,
         supersedes ["exchanged rates", "no rate of an angle", "sign of rates", "scale of rates", "delayed angle"];
     "exchanged rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::exchanged_rates,
         supersedes ["exchanged yaw rate", "no rate of an angle", "no yaw rate", "no lateral force"];
     "exchanged yaw rate" warn [Speed], &[Rate(0), Rate(1)], agreement::exchanged_yaw_rate,
         supersedes ["no yaw rate", "no lateral force"];
-    "sign of pitch" warn [Speed, Angle(1)], ONCE, agreement::sign_of_pitch,
+    "sign of pitch" warn [Speed, Angle(1)], TESTED_ONCE, agreement::sign_of_pitch,
         supersedes ["no force", "speed and force", "delayed speed"];
     "same forces" warn [], &[Force(0), Force(1), Force(2)], agreement::same_values;
     "same rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::same_values;
-    "no force" warn [Speed], ONCE, agreement::missing_force;
-    "no lateral force" warn [Speed], ONCE, agreement::missing_lateral_force;
-    "no speed" warn [Speed], ONCE, agreement::missing_speed;
-    "no rate of an angle" warn [], ANGLES, agreement::missing_rate, supersedes ["no yaw rate"];
-    "no yaw rate" warn [Speed], ONCE, agreement::missing_yaw_rate;
-    "speed and force" warn [Speed], ONCE, agreement::speed_and_force, supersedes ["unit of bends"];
-    "sign of bends" warn [Speed], ONCE, agreement::sign_of_bends, supersedes ["unit of bends"];
-    "rates of bends" warn [Speed], ONCE, agreement::rates_of_bends, supersedes ["unit of bends"];
-    "unit of bends" warn [Speed], ONCE, agreement::unit_of_bends;
-    "reversing" warn [Speed], ONCE, agreement::reversing;
-    "backward bends" warn [], ONCE, agreement::backward_bends;
-    "sign of rates" warn [], ANGLES, agreement::sign_of_rates;
-    "scale of rates" warn [], ONCE, agreement::scale_of_rates;
-    "delayed speed" warn [Speed], ONCE, agreement::delayed_speed;
-    "delayed angle" warn [], ANGLES, agreement::delayed_angle;
+    "no force" warn [Speed], TESTED_ONCE, agreement::missing_force;
+    "no lateral force" warn [Speed], TESTED_ONCE, agreement::missing_lateral_force;
+    "no speed" warn [Speed], TESTED_ONCE, agreement::missing_speed;
+    "no rate of an angle" warn [], ALL_ANGLES, agreement::missing_rate, supersedes ["no yaw rate"];
+    "no yaw rate" warn [Speed], TESTED_ONCE, agreement::missing_yaw_rate;
+    "speed and force" warn [Speed], TESTED_ONCE, agreement::speed_and_force, supersedes ["unit of bends"];
+    "sign of bends" warn [Speed], TESTED_ONCE, agreement::sign_of_bends, supersedes ["unit of bends"];
+    "rates of bends" warn [Speed], TESTED_ONCE, agreement::rates_of_bends, supersedes ["unit of bends"];
+    "unit of bends" warn [Speed], TESTED_ONCE, agreement::unit_of_bends;
+    "reversing" warn [Speed], TESTED_ONCE, agreement::reversing;
+    "backward bends" warn [], TESTED_ONCE, agreement::backward_bends;
+    "sign of rates" warn [], ALL_ANGLES, agreement::sign_of_rates;
+    "scale of rates" warn [], TESTED_ONCE, agreement::scale_of_rates;
+    "delayed speed" warn [Speed], TESTED_ONCE, agreement::delayed_speed;
+    "delayed angle" warn [], ALL_ANGLES, agreement::delayed_angle;
 };
 
 /// The rules of the motion that is ridden.
 const RULES_OF_MOTION: &[Rule] = rules! {
     "bias" warn [], &[Force(0), Force(1)], motion::bias;
-    "force unit" warn [], ONCE, motion::force_unit;
-    "fast rates" warn [], ONCE, motion::fast_rates;
-    "jolt" warn [], ONCE, motion::jolt;
+    "force unit" warn [], TESTED_ONCE, motion::force_unit;
+    "fast rates" warn [], TESTED_ONCE, motion::fast_rates;
+    "jolt" warn [], TESTED_ONCE, motion::jolt;
 };
 
 /// The warnings about a recording before it is faded in.
@@ -116,7 +116,7 @@ const RULES_OF_MOTION: &[Rule] = rules! {
 /// # Errors
 /// It breaks a rule that refuses it. The message names the cause and the remedy.
 pub fn warnings(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
-    apply_rules(RULES, channels)
+    apply_rules(RECORDING_RULES, channels)
 }
 
 /// The warning about gravity that only the vertical force lacks.
@@ -155,9 +155,9 @@ mod tests {
 
     #[test]
     fn a_rule_supersedes_rules_that_come_after_it() {
-        for (k, rule) in RULES.iter().enumerate() {
+        for (k, rule) in RECORDING_RULES.iter().enumerate() {
             for other in rule.supersedes {
-                assert!(RULES[k + 1..].iter().any(|rule| rule.name == *other), "{}: {other}", rule.name);
+                assert!(RECORDING_RULES[k + 1..].iter().any(|rule| rule.name == *other), "{}: {other}", rule.name);
             }
         }
     }

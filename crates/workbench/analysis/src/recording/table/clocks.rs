@@ -4,7 +4,7 @@ use super::times::usual_step;
 use crate::message::{Message, message, named};
 
 /// A day \[s\].
-const DAY: f64 = 86_400.0;
+const SECONDS_PER_DAY: f64 = 86_400.0;
 
 /// Times in a unit, in the file's order.
 pub struct Clock<'a> {
@@ -24,7 +24,7 @@ impl Clock<'_> {
     pub fn into_seconds(self) -> Vec<Message> {
         // Periods of clocks in seconds: minutes and seconds, twelve hours, a day, a week of
         // satellites.
-        const PERIODS: [f64; 4] = [3600.0, 43_200.0, DAY, 7.0 * DAY];
+        const PERIODS: [f64; 4] = [3600.0, 43_200.0, SECONDS_PER_DAY, 7.0 * SECONDS_PER_DAY];
         // Bits of counters.
         const BITS: [i32; 5] = [16, 24, 30, 31, 32];
         const SHORT_BITS: [i32; 3] = [8, 10, 12];
@@ -32,7 +32,7 @@ impl Clock<'_> {
         let mut warnings = Vec::new();
         if is_open && is_serial_days(time) {
             let first = time[0].floor();
-            time.iter_mut().for_each(|time| *time = (*time - first) * DAY);
+            time.iter_mut().for_each(|time| *time = (*time - first) * SECONDS_PER_DAY);
             let option = named("time-unit");
             warnings.push(message![
                 "The times are read as days, as spreadsheets write dates; ",
@@ -92,7 +92,7 @@ fn is_serial_days(time: &[f64]) -> bool {
     const SERIAL: [f64; 2] = [10_000.0, 3e6];
     // Steps that are those of recordings [s].
     const STEPS: [f64; 2] = [1e-4, 0.25];
-    let step = usual_step(time) * DAY;
+    let step = usual_step(time) * SECONDS_PER_DAY;
     time.iter().all(|time| (SERIAL[0]..SERIAL[1]).contains(time)) && (STEPS[0]..=STEPS[1]).contains(&step)
 }
 
@@ -171,7 +171,7 @@ mod tests {
         // Numbers of this size are 4 ms apart.
         assert_within(4e-3, &read(1.0, false, |t| 20_260_501e6 + digits(t)), "YYYYMMDDHHMMSS");
         for day in [20_574.0, 46_143.0, 740_102.0] {
-            assert_goes_on(&read(1.0, false, |t| day + 0.5 + t / DAY), "days");
+            assert_goes_on(&read(1.0, false, |t| day + 0.5 + t / SECONDS_PER_DAY), "days");
         }
         assert_goes_on(&read(1.0, false, |t| 20_574.0 + t), "seconds");
     }

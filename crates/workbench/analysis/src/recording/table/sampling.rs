@@ -14,7 +14,7 @@ use crate::recording::conventions::{Conventions, Dimension, Quantity, Unit};
 use crate::recording::message::RecordingError;
 
 /// Finest step: below it, time is in another unit \[s\].
-pub const FINEST: f64 = 1e-4;
+pub const MIN_SAMPLE_STEP: f64 = 1e-4;
 
 /// The recording at equal steps, with warnings. It is unchanged if its steps are equal, and
 /// interpolated if an option asks for it.
@@ -64,7 +64,7 @@ fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingE
             "; if it counts samples, use ",
             given("rate", "HERTZ")
         ]
-    } else if usual < FINEST {
+    } else if usual < MIN_SAMPLE_STEP {
         let rate = 1.0 / usual;
         message![
             "{rate:.0} samples a second are more than any recording has{fitting}; give the unit of time with ",

@@ -2,7 +2,7 @@
 
 use moris_interface::shown;
 
-use super::sampling::FINEST;
+use super::sampling::MIN_SAMPLE_STEP;
 use crate::message::{Message, given, message, named};
 use crate::recording::signal::median;
 
@@ -64,7 +64,7 @@ fn remedy_for_equal_times(time: &[f64], sample: usize) -> Message {
         return message!["; if the samples come at equal steps, ", given("rate", "HERTZ"), " reads none of the times"];
     }
     let rate = (time.len() - 1) as f64 / duration;
-    if rate > 1.0 / FINEST {
+    if rate > 1.0 / MIN_SAMPLE_STEP {
         let unit = named("time-unit");
         return message![
             "; {rate:.0} samples a second are more than any recording has: give the unit of time with ",

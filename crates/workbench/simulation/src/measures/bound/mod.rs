@@ -110,13 +110,13 @@ pub enum BoundError {
 
 /// Default length of an interval \[s\]. Shorter ones take more time and do not improve the bound
 /// on smooth recordings.
-pub const INTERVAL: f64 = 0.02;
+pub const DEFAULT_INTERVAL: f64 = 0.02;
 
 /// The bound for a desired specific force along one axis.
 ///
 /// `desired` is the deviation from rest (in heave, without gravity), sampled every `step` seconds
 /// and linear in between. `interval` \[s\] is the length of the program's intervals, by default
-/// [`INTERVAL`]. It is rounded to a whole number of steps, at least one.
+/// [`DEFAULT_INTERVAL`]. It is rounded to a whole number of steps, at least one.
 ///
 /// # Errors
 /// The recording or the limits cannot be used, or the solver fails.

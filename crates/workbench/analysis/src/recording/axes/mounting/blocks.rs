@@ -5,11 +5,11 @@ use moris_washout::nalgebra::Vector3;
 use crate::recording::signal::{extremes, median};
 
 /// Time over which samples are averaged before the search \[s\].
-pub const BLOCK: f64 = 0.1;
+pub const BLOCK_TIME: f64 = 0.1;
 /// Blocks of a stretch at rest: 1 s.
-const REST: usize = 10;
+const REST_BLOCKS: usize = 10;
 
-/// Means of [`BLOCK`]s of a recording.
+/// Means of [`BLOCK_TIME`]s of a recording.
 pub struct Blocks {
     pub forces: Vec<Vector3<f64>>,
     pub rates: Vec<Vector3<f64>>,
@@ -21,7 +21,7 @@ pub struct Blocks {
 
 impl Blocks {
     pub fn new(step: f64, forces: &[Vector3<f64>], rates: &[Vector3<f64>], speeds: &[f64]) -> Self {
-        let size = ((BLOCK / step).round() as usize).max(1);
+        let size = ((BLOCK_TIME / step).round() as usize).max(1);
         let means = |vectors: &[Vector3<f64>]| vectors.chunks_exact(size).map(mean).collect::<Vec<_>>();
         let (forces, rates) = (means(forces), means(rates));
         Blocks {
@@ -35,8 +35,8 @@ impl Blocks {
     /// The first stretch at rest: its first block, and the one after it.
     pub fn first_rest(&self) -> Option<[usize; 2]> {
         let first = *self.rests.first()?;
-        let last = self.rests.windows(2).find(|pair| pair[1] > pair[0] + REST / 2).map(|pair| pair[0]);
-        Some([first, last.unwrap_or(self.rests[self.rests.len() - 1]) + REST])
+        let last = self.rests.windows(2).find(|pair| pair[1] > pair[0] + REST_BLOCKS / 2).map(|pair| pair[0]);
+        Some([first, last.unwrap_or(self.rests[self.rests.len() - 1]) + REST_BLOCKS])
     }
 
     /// The median of the specific forces at rest, if there is rest.
@@ -50,7 +50,8 @@ impl Blocks {
     }
 
     fn median_at_rest(&self, vectors: &[Vector3<f64>]) -> Option<Vector3<f64>> {
-        let means: Vec<Vector3<f64>> = self.rests.iter().map(|&start| mean(&vectors[start..start + REST])).collect();
+        let means: Vec<Vector3<f64>> =
+            self.rests.iter().map(|&start| mean(&vectors[start..start + REST_BLOCKS])).collect();
         (!means.is_empty()).then(|| Vector3::from_fn(|axis, _| median(means.iter().map(|mean| mean[axis]))))
     }
 }
@@ -67,10 +68,10 @@ fn rest_starts(forces: &[Vector3<f64>], rates: &[Vector3<f64>]) -> Vec<usize> {
     const REST_RATE: f64 = 0.05;
     let is_at_rest = |&start: &usize| {
         let steady = (0..3).all(|axis| {
-            let (least, greatest) = extremes(forces[start..start + REST].iter().map(|force| force[axis]));
+            let (least, greatest) = extremes(forces[start..start + REST_BLOCKS].iter().map(|force| force[axis]));
             greatest - least < REST_FORCE
         });
-        steady && rates[start..start + REST].iter().all(|rate| rate.norm() < REST_RATE)
+        steady && rates[start..start + REST_BLOCKS].iter().all(|rate| rate.norm() < REST_RATE)
     };
-    (0..(forces.len() + 1).saturating_sub(REST)).step_by(REST / 2).filter(is_at_rest).collect()
+    (0..(forces.len() + 1).saturating_sub(REST_BLOCKS)).step_by(REST_BLOCKS / 2).filter(is_at_rest).collect()
 }

@@ -12,7 +12,7 @@
 
 use moris_washout::nalgebra::Vector3;
 
-use super::blocks::{BLOCK, Blocks};
+use super::blocks::{BLOCK_TIME, Blocks};
 use super::level::{Estimate, Level, sign};
 use crate::message::{Message, message};
 use crate::recording::conventions::Mounting;
@@ -57,7 +57,7 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
         return Ok(Forward {
             direction: sign * axis.direction,
             error: axis.error,
-            evidence: format!("the first acceleration, at {:.1} s", start as f64 * BLOCK),
+            evidence: format!("the first acceleration, at {:.1} s", start as f64 * BLOCK_TIME),
             may_be_backward: true,
         });
     };

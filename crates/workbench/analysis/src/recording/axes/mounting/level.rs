@@ -2,7 +2,7 @@
 
 use moris_washout::nalgebra::Vector3;
 
-use super::blocks::{BLOCK, Blocks, mean};
+use super::blocks::{BLOCK_TIME, Blocks, mean};
 
 /// Lateral force of bends by their yaw rate: the speed. Below it a vehicle leans, or bends are
 /// those of parking; above it there are no vehicles \[m/s\].
@@ -11,9 +11,9 @@ const BEND_SPEED: [f64; 2] = [3.0, 100.0];
 const BEND_RATE: f64 = 0.002;
 /// Blocks over which forces and rates are averaged before straight accelerations are searched: 0.5
 /// s.
-const SMOOTHING: usize = 5;
+const SMOOTHED_BLOCKS: usize = 5;
 /// Least and most blocks whose errors count as one, those of a bend: 2 s to 20 s.
-const CLUSTER: [usize; 2] = [20, 200];
+const CLUSTER_SIZES: [usize; 2] = [20, 200];
 /// Standard error of any source, from the vehicle's own motion \[rad\].
 const LEAST_ERROR: f64 = 2f64.to_radians();
 
@@ -56,7 +56,7 @@ impl Level {
         // Least change of speed that determines the forward direction, as a standard deviation of
         // its rate [m/s2].
         const SPEED_CHANGE: f64 = 0.2;
-        let changes: Vec<f64> = speeds.windows(3).map(|s| (s[2] - s[0]) / (2.0 * BLOCK)).collect();
+        let changes: Vec<f64> = speeds.windows(3).map(|s| (s[2] - s[0]) / (2.0 * BLOCK_TIME)).collect();
         let Regression { direction, error, .. } =
             self.regression(&changes, self.forces.get(1..)?, SPEED_CHANGE, lasting_error)?;
         Some(Estimate { direction, error, evidence: "the change of speed" })
@@ -80,7 +80,7 @@ impl Level {
         (right.slope > LEAN).then_some(Estimate { direction, error: right.error, evidence: "the lean in bends" })
     }
 
-    /// Mean forces of [`SMOOTHING`] blocks around each, zero where they are not those of a straight
+    /// Mean forces of [`SMOOTHED_BLOCKS`] blocks around each, zero where they are not those of a straight
     /// acceleration.
     ///
     /// A bend at up to 100 m/s has a larger yaw rate for its force.
@@ -90,7 +90,7 @@ impl Level {
         // Shortest acceleration, in blocks: 0.5 s.
         const SHORTEST: usize = 5;
         let count = self.forces.len();
-        let around = |k: usize| k.saturating_sub(SMOOTHING / 2)..(k + SMOOTHING / 2 + 1).min(count);
+        let around = |k: usize| k.saturating_sub(SMOOTHED_BLOCKS / 2)..(k + SMOOTHED_BLOCKS / 2 + 1).min(count);
         let smooth = |k: usize| {
             let blocks = around(k);
             let force = mean(&self.forces[blocks.clone()]);
@@ -129,7 +129,7 @@ impl Level {
     pub fn first_acceleration(&self, rest: Option<[usize; 2]>, line: &Vector3<f64>) -> (usize, f64) {
         let along: Vec<f64> = self.straight().iter().map(|force| force.dot(line)).collect();
         let [start, end] = rest.unwrap_or([0, 0]);
-        let after = (end.saturating_sub(SMOOTHING)..along.len()).find(|&k| along[k] != 0.0);
+        let after = (end.saturating_sub(SMOOTHED_BLOCKS)..along.len()).find(|&k| along[k] != 0.0);
         let before = || (0..start).rev().find(|&k| along[k] != 0.0);
         match after {
             Some(block) => (block, sign(along[block])),
@@ -168,14 +168,14 @@ impl Level {
     }
 }
 
-/// Lengths of the parts between changes of the yaw rate's sign, within the limits of [`CLUSTER`].
+/// Lengths of the parts between changes of the yaw rate's sign, within the limits of [`CLUSTER_SIZES`].
 fn bend_lengths(yaw_rates: &[f64]) -> Vec<usize> {
     let mut lengths = Vec::new();
     let mut start = 0;
     for k in 1..yaw_rates.len() {
         let length = k - start;
         let ends = yaw_rates[k - 1].signum() != yaw_rates[k].signum();
-        if length >= CLUSTER[1] || ends && length >= CLUSTER[0] {
+        if length >= CLUSTER_SIZES[1] || ends && length >= CLUSTER_SIZES[0] {
             lengths.push(length);
             start = k;
         }

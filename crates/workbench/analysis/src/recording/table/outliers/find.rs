@@ -7,7 +7,7 @@ use crate::recording::signal::{extremes, median, runs, sorted};
 use crate::recording::table::Table;
 
 /// Shortest run of the extreme value that is a flat top \[samples\].
-pub const FLAT: usize = 4;
+pub const MIN_FLAT_SAMPLES: usize = 4;
 
 /// The largest plausible size of a quantity, beyond which an isolated sample is a spike whatever
 /// the spread, and the least deviation of a spike, in SI units.
@@ -103,7 +103,7 @@ pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
     let Some(longest) = longest else { return Vec::new() };
     let tops = |extreme: f64| -> Vec<usize> {
         let is_flat = |&&(first, length): &&(usize, usize)| {
-            values[first] == extreme && length >= FLAT && length >= FLAT_RUNS * longest
+            values[first] == extreme && length >= MIN_FLAT_SAMPLES && length >= FLAT_RUNS * longest
         };
         let flat: Vec<(usize, usize)> = runs.iter().filter(is_flat).copied().collect();
         if !flat.iter().any(|&(first, length)| is_cut(values, first, length)) {

@@ -9,7 +9,7 @@ use crate::message::{Message, given, message};
 use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
-use find::{FLAT, error_values, flat_tops, spikes};
+use find::{MIN_FLAT_SAMPLES, error_values, flat_tops, spikes};
 
 /// Finds samples that no vehicle causes, and interpolates over them if `repair` is set. Returns
 /// warnings that name the samples.
@@ -55,7 +55,7 @@ fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> Message 
 
 fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> String {
     format!(
-        "Column {} stays at its extreme {} for {FLAT} samples or more in a row, {}: the sensor seems to be at the end of \
+        "Column {} stays at its extreme {} for {MIN_FLAT_SAMPLES} samples or more in a row, {}: the sensor seems to be at the end of \
          its range, and the peaks are cut off. They cannot be repaired.",
         quantity.key(),
         shown(table.value(quantity, tops[0])),
