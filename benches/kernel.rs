@@ -12,6 +12,7 @@ use moris_washout::platform::{
 use moris_washout::{Input, Output, Parameters, Rig, Washout, presets};
 
 #[path = "common/ride.rs"]
+#[allow(dead_code)] // Other benchmarks use the rest of it.
 mod ride;
 
 use ride::smooth;

@@ -4,19 +4,22 @@
 //! its times, so that other work on the machine does not count. A step's time is that of one call
 //! with a step of 1 ms, in which the predictive strategy does a part of the work on its next plan.
 
-use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
 
-/// Duration of the ride \[s\].
-const DURATION: f64 = 120.0;
+#[path = "common/ride.rs"]
+#[allow(dead_code)] // Other benchmarks use the rest of it.
+mod ride;
+
+use ride::brisk;
+
 const STEP: f64 = 0.001;
 const REPEATS: usize = 9;
 
 fn main() -> Result<(), ParameterError> {
-    let ride = ride();
+    let ride = brisk();
     println!("strategy     mean   median     99 %  99.99 %  slowest  [µs]");
     let sets: [(&str, &str); 5] = [
         ("classical", presets::CLASSICAL),
@@ -50,21 +53,4 @@ fn least_times(parameters: &Parameters, ride: &[Input]) -> Result<Vec<Duration>,
     }
     least.sort();
     Ok(least)
-}
-
-/// Starts, stops and bends that never repeat, with an engine's and a road's vibration.
-fn ride() -> Vec<Input> {
-    let waves = |t: f64, waves: &[(f64, f64)]| -> f64 { waves.iter().map(|(a, f)| a * (TAU * f * t).sin()).sum() };
-    (0..(DURATION / STEP) as usize)
-        .map(|k| {
-            let t = k as f64 * STEP;
-            let mut input = Input::default();
-            input.specific_force.x += waves(t, &[(2.0, 0.031), (1.5, 0.083), (1.0, 0.217), (0.4, 11.3), (0.3, 23.7)]);
-            input.specific_force.y += waves(t, &[(1.5, 0.047), (1.2, 0.113), (0.8, 0.307), (0.4, 13.1), (0.3, 27.1)]);
-            input.specific_force.z += waves(t, &[(0.8, 1.7), (1.0, 9.1)]);
-            input.angular_velocity.x = waves(t, &[(0.1, 0.2), (0.2, 12.7)]);
-            input.angular_velocity.y = waves(t, &[(0.05, 0.3), (0.1, 15.1)]);
-            input
-        })
-        .collect()
 }

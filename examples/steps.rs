@@ -1,41 +1,59 @@
 //! Steps the washout a given number of times, for profilers and instruction counters.
 //!
-//! - Default: a smooth ride on all axes, with the default parameters.
-//! - `classical`, `paper`: the smooth ride with the parameters of that name.
-//! - `jumps`: inputs that jump, with the classical strategy on slow actuators, so that the actuator
-//!   guard limits the motion.
+//! Words after the number of steps choose what is stepped:
 //!
-//! The number of steps comes first:
+//! - `classical`, `adaptive`, `optimal`, `robust`, `paper`: the parameters of that name in the place
+//!   of the default.
+//! - `brisk`: a ride with stops, bends and vibration in the place of a smooth one.
+//! - `jumps`: inputs that jump, on slow actuators, so that the actuator guard limits the motion.
+//! - `cranks`: a simulator with cranks that carries a person, in the place of the default rig.
+//!
+//! For example:
 //!
 //!     cargo run --release --example steps 1000000
-//!     cargo run --release --example steps 1000000 jumps
-//!     cargo run --release --example steps 1000000 paper
+//!     cargo run --release --example steps 1000000 classical jumps
+//!     cargo run --release --example steps 1000000 adaptive brisk cranks
 
 use std::hint::black_box;
 
 use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
 
+#[path = "../tests/washout/common/crank_rigs.rs"]
+#[allow(dead_code)]
+mod crank_rigs;
 #[path = "../tests/washout/common/random.rs"]
 #[allow(dead_code)] // The tests use the rest of it.
 mod random;
 #[path = "../benches/common/ride.rs"]
 mod ride;
 
+use crank_rigs::{on, person};
 use random::Random;
-use ride::smooth;
+use ride::{brisk, smooth};
 
 fn main() -> Result<(), ParameterError> {
-    let argument = |place: usize| std::env::args_os().nth(place).and_then(|text| text.into_string().ok());
-    let count: usize = argument(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
-    let (parameters, ride) = match argument(2).as_deref() {
-        Some("jumps") => {
-            let mut parameters = presets::parameters(presets::CLASSICAL);
-            (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
-            (parameters, jumps(count.div_ceil(STEPS_PER_JUMP)))
-        }
-        Some("classical") => (presets::parameters(presets::CLASSICAL), smooth()),
-        Some("paper") => (presets::parameters(presets::PAPER), smooth()),
-        _ => (Parameters::default(), smooth()),
+    let words: Vec<String> = std::env::args_os().skip(1).filter_map(|word| word.into_string().ok()).collect();
+    let has = |word: &str| words.iter().any(|given| given == word);
+    let count: usize = words.first().and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
+    let sets = [
+        ("classical", presets::CLASSICAL),
+        ("adaptive", presets::ADAPTIVE),
+        ("optimal", presets::OPTIMAL),
+        ("robust", presets::ROBUST),
+        ("paper", presets::PAPER),
+    ];
+    let mut parameters = presets::parameters(sets.iter().find(|(name, _)| has(name)).map_or("", |(_, set)| set));
+    if has("cranks") {
+        let Parameters { rig, safety, .. } = on(person());
+        parameters = Parameters { rig, safety, ..parameters };
+    }
+    let ride = if has("jumps") {
+        (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
+        jumps(count.div_ceil(STEPS_PER_JUMP))
+    } else if has("brisk") {
+        brisk()
+    } else {
+        smooth()
     };
     let mut washout = Washout::new(&parameters)?;
     let mut limited = 0;

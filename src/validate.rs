@@ -319,9 +319,9 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
             );
         }
     }
+    let arms = cranks.arms_in(&geometry, &neutral);
     for i in 0..6 {
-        let state = cranks.arm_state(i, &geometry.between(i, &neutral));
-        let angle = state.angle();
+        let (angle, transmission) = (arms.angle(i), arms.transmission[i]);
         if !(crank_min_angle < angle && angle < crank_max_angle) {
             return refuse(
                 "rig.neutralHeight",
@@ -338,7 +338,7 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
                 ),
             );
         }
-        if state.transmission <= cranks.least_transmission {
+        if transmission <= cranks.least_transmission {
             return refuse(
                 "crank.leastTransmission",
                 format!(
@@ -346,7 +346,7 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
                      it, or choose another crank.rod, crank.heading[{}] or rig.neutralHeight{}",
                     cranks.least_transmission,
                     i + 1,
-                    state.transmission,
+                    transmission,
                     i + 1,
                     heading_advice(rig)
                 ),

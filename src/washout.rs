@@ -25,7 +25,7 @@ use crate::interface::{
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::{
-    ActuatorGuard, Legs, LocationFrame, PlatformCoordinates, PlatformMotion, PlatformState, inverse_kinematics,
+    ActuatorGuard, Cranks, Legs, LocationFrame, PlatformCoordinates, PlatformMotion, PlatformState, joint_distances,
     leg_accelerations,
 };
 use crate::validate::{check, check_change};
@@ -256,11 +256,8 @@ impl Washout {
         if step < SHORTEST_STEP || step.is_nan() {
             return;
         }
-        let end = match course {
-            InputCourse::Held(input) => {
-                self.last = self.cued(input.sanitized());
-                None
-            }
+        let (start, end) = match course {
+            InputCourse::Held(input) => (self.cued(input.sanitized()), None),
             InputCourse::Ramp(end) => {
                 let end = end.sanitized();
                 self.last.input.engaged = end.engaged;
@@ -268,14 +265,11 @@ impl Washout {
                     law.delay_preview(step);
                     self.scale.delay_preview(step);
                 }
-                Some(end)
+                (self.last, Some(end))
             }
-            InputCourse::Between(start, end) => {
-                self.last = self.cued(start.sanitized());
-                Some(end.sanitized())
-            }
+            InputCourse::Between(start, end) => (self.cued(start.sanitized()), Some(end.sanitized())),
         };
-        let start = self.last;
+        self.last = start;
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited = ActiveLimits::default();
@@ -570,11 +564,19 @@ impl Washout {
     /// The output now.
     pub fn output(&self) -> Output {
         let PlatformState { motion, legs, .. } = self.guard.now();
-        let (legs, [angle, angular_rate]) = self.actuators(motion, legs);
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let (plan_kept, plan_age, plan_iterations) = match self.strategy.plan() {
             Some(plan) => (plan.kept, plan.age, plan.iterations as i32),
             None => (false, 0.0, 0),
+        };
+        // References, so that each value is copied once.
+        let of_cranks;
+        let (legs, [angle, angular_rate]) = match &self.guard.geometry().cranks {
+            None => (legs, &[[0.0; 6]; 2]),
+            Some(cranks) => {
+                of_cranks = self.crank_outputs(cranks);
+                (&of_cranks.0, &of_cranks.1)
+            }
         };
         Output {
             position: motion.position,
@@ -599,23 +601,17 @@ impl Washout {
             plan_iterations,
             soft_limited: self.limited.soft,
             scale_factor: self.scale.factor(),
-            angle,
-            angular_rate,
+            angle: *angle,
+            angular_rate: *angular_rate,
         }
     }
 
-    /// Lengths and rates of the legs, and angles and rates of the cranks. With cranks the lengths
-    /// are the distances of the joints.
-    #[inline(always)]
-    fn actuators(&self, motion: &PlatformMotion, legs: &Legs) -> (Legs, [[f64; 6]; 2]) {
-        let geometry = self.guard.geometry();
-        match &geometry.cranks {
-            None => (*legs, [[0.0; 6]; 2]),
-            Some(cranks) => {
-                let angles = [legs.length, legs.velocity].map(|values| values.map(|value| value / cranks.arm));
-                (inverse_kinematics(&geometry.with_legs(), motion), angles)
-            }
-        }
+    /// Distances of the cranks' joints and their rates, angles of the arms and their rates.
+    #[inline(never)]
+    fn crank_outputs(&self, cranks: &Cranks) -> (Legs, [[f64; 6]; 2]) {
+        let PlatformState { motion, legs, .. } = self.guard.now();
+        let angles = [legs.length, legs.velocity].map(|values| values.map(|value| value / cranks.arm));
+        (joint_distances(self.guard.geometry(), motion), angles)
     }
 
     /// The time derivative of the output now; the flags in it have no meaning.
@@ -626,13 +622,15 @@ impl Washout {
     pub fn output_derivative(&self) -> Output {
         let PlatformState { motion, legs, .. } = self.guard.now();
         let accelerations = self.guard.leg_accelerations();
-        let (legs, [_, angular_rate]) = self.actuators(motion, legs);
-        let (leg_velocity, angular_acceleration) = match &self.guard.geometry().cranks {
-            None => (accelerations, [0.0; 6]),
-            Some(cranks) => (
-                leg_accelerations(&self.guard.geometry().with_legs(), motion),
-                accelerations.map(|acceleration| acceleration / cranks.arm),
-            ),
+        let (leg_rates, leg_velocity, angle, angular_rate) = match &self.guard.geometry().cranks {
+            None => (legs.velocity, accelerations, [0.0; 6], [0.0; 6]),
+            Some(cranks) => {
+                let legs_between = self.guard.geometry().with_legs();
+                let [rates, accelerations] =
+                    [legs.velocity, accelerations].map(|values| values.map(|value| value / cranks.arm));
+                let distances = joint_distances(&legs_between, motion);
+                (distances.velocity, leg_accelerations(&legs_between, motion), rates, accelerations)
+            }
         };
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let per_step = if self.before.step > 0.0 { 1.0 / self.before.step } else { 0.0 };
@@ -642,10 +640,10 @@ impl Washout {
             acceleration: (motion.acceleration - self.before.acceleration) * per_step,
             orientation: motion.orientation.rates(motion.angular_velocity),
             angular_velocity: motion.angular_acceleration,
-            length: legs.velocity,
+            length: leg_rates,
             leg_velocity,
-            angle: angular_rate,
-            angular_rate: angular_acceleration,
+            angle,
+            angular_rate,
             felt_specific_force: (self.felt.specific_force - self.before.felt.specific_force) * per_step,
             felt_angular_velocity: (self.felt.angular_velocity - self.before.felt.angular_velocity) * per_step,
             tilt_roll: tilt_roll.velocity,

@@ -45,10 +45,16 @@ const SHORTEST: f64 = 1e-9;
 /// ```
 #[inline(always)]
 pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
-    let Geometry { base, platform, cranks } = geometry;
-    if let Some(cranks) = cranks {
-        return cranks.inverse(geometry, motion);
+    match &geometry.cranks {
+        None => joint_distances(geometry, motion),
+        Some(cranks) => cranks.inverse(geometry, motion),
     }
+}
+
+/// Distances of the joints and their rates, whether legs or cranks are between them.
+#[inline(always)]
+pub(crate) fn joint_distances(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
+    let Geometry { base, platform, .. } = geometry;
     let arm = platform.turned(&motion.orientation.rotation);
     let (p, v, w) = (motion.position, motion.velocity, motion.angular_velocity);
     let mut legs = Legs::default();
@@ -141,7 +147,7 @@ pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 
 pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
     match &geometry.cranks {
         None => core::array::from_fn(|i| geometry.between(i, pose).norm()),
-        Some(cranks) => cranks.arcs(geometry, pose),
+        Some(cranks) => cranks.arcs(&cranks.arms_in(geometry, pose)),
     }
 }
 

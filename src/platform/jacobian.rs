@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::{Geometry, Joints, Pose};
+use super::{Geometry, Joints, Pose, leg_lengths};
 use crate::motion::square_root::square_root;
 
 /// The Jacobian, with a row for each leg. Its columns are the velocity x, y, z \[m/s\] and the
@@ -27,8 +27,7 @@ pub type Jacobian = Matrix6<f64>;
 pub fn jacobian(geometry: &Geometry, pose: &Pose) -> Jacobian {
     let Geometry { base, platform, cranks } = geometry;
     if let Some(cranks) = cranks {
-        let amplified = Vector6::from(cranks.amplifications(geometry, pose));
-        return Matrix6::from_diagonal(&amplified) * jacobian(&geometry.rods(pose), pose);
+        return cranks.arcs_with_jacobian(geometry, pose).1;
     }
     let (arm, p) = (platform.turned(&pose.orientation.rotation), pose.position);
     // The directions of the legs, and their moments about the platform's origin.
@@ -43,4 +42,12 @@ pub fn jacobian(geometry: &Geometry, pose: &Pose) -> Jacobian {
         m.z[i] = arm.x[i] * n.y[i] - arm.y[i] * n.x[i];
     }
     Matrix6::from_columns(&[n.x, n.y, n.z, m.x, m.y, m.z].map(Vector6::from))
+}
+
+/// Lengths of the legs, or arcs of the cranks, in a pose \[m\], and the Jacobian there.
+pub(crate) fn lengths_with_jacobian(geometry: &Geometry, pose: &Pose) -> ([f64; 6], Jacobian) {
+    match &geometry.cranks {
+        None => (leg_lengths(geometry, pose), jacobian(geometry, pose)),
+        Some(cranks) => cranks.arcs_with_jacobian(geometry, pose),
+    }
 }

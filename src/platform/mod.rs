@@ -42,7 +42,9 @@ pub(crate) use coordinates::PlatformCoordinates;
 pub use crank::Cranks;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
 pub(crate) use guard::{ActuatorGuard, stroke_reserve};
+pub(crate) use inverse::joint_distances;
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
+pub(crate) use jacobian::lengths_with_jacobian;
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;
 #[cfg(feature = "std")]
@@ -76,7 +78,7 @@ impl Geometry {
     /// In a pose, the rods of cranks as legs of a fixed length, with the ends of the arms as their
     /// base joints. Legs are what they are.
     pub fn rods(&self, pose: &Pose) -> Self {
-        self.cranks.map_or(*self, |cranks| cranks.rods(self, &cranks.arcs(self, pose)))
+        self.cranks.map_or(*self, |cranks| cranks.rods(self, &leg_lengths(self, pose)))
     }
 
     /// The smallest transmission of the cranks in a pose, the sine of the angle between rod and

@@ -3,7 +3,6 @@
 
 use moris_washout::interface::{RollPitchYaw, StrategyKind};
 use moris_washout::motion::orientation::Orientation;
-use moris_washout::platform::reach::{Axis, single_axis_range};
 use moris_washout::platform::{
     Geometry, PlatformMotion, Pose, forward_kinematics, inverse_kinematics, leg_accelerations, leg_lengths,
     motion_of_legs,
@@ -11,53 +10,8 @@ use moris_washout::platform::{
 use moris_washout::{Input, Output, Parameters, Rig, Washout, check, check_rig};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::common::crank_rigs::{hobby, on, person};
 use crate::common::random::Random;
-
-/// A simulator that carries a person: arms of 184 mm, from a published machine's measures.
-fn person() -> Rig {
-    let base = [[0.2032, 0.351_953], [0.4064, 0.0], [0.2032, -0.351_953]];
-    let platform = [[0.306_456, 0.257_147], [0.375_924, 0.136_825], [0.069_468, -0.393_972]];
-    symmetric(base, platform, [150.0, -90.0, 30.0, 150.0, -90.0, 30.0], [0.648_134, 0.184_15, 0.7239], 60.0)
-}
-
-/// A model with servos: arms of 15 mm.
-fn hobby() -> Rig {
-    let base = [[0.046_391, 0.061_450], [0.076_413, 0.009_451], [0.030_021, -0.070_901]];
-    let platform = [[0.010_006, 0.048_789], [0.047_256, -0.015_729], [0.037_250, -0.033_060]];
-    symmetric(base, platform, [-60.0, 120.0, 180.0, 0.0, 60.0, -120.0], [0.132_943_591_247_488, 0.015, 0.14], 80.0)
-}
-
-/// A rig whose joints 6, 5 and 4 are the mirror images of these three in the y axis.
-fn symmetric(base: [[f64; 2]; 3], platform: [[f64; 2]; 3], headings: [f64; 6], sizes: [f64; 3], degrees: f64) -> Rig {
-    let joints = |half: [[f64; 2]; 3]| {
-        std::array::from_fn(|i| {
-            let [x, y] = half[i.min(5 - i)];
-            Vector3::new(if i < 3 { x } else { -x }, y, 0.0)
-        })
-    };
-    let [neutral_height, crank_arm, crank_rod] = sizes;
-    Rig {
-        base: joints(base),
-        platform: joints(platform),
-        neutral_height,
-        crank_arm,
-        crank_rod,
-        crank_heading: headings.map(f64::to_radians),
-        crank_min_angle: -degrees.to_radians(),
-        crank_max_angle: degrees.to_radians(),
-        velocity_limit: 6.0 * crank_arm,
-        acceleration_limit: 60.0 * crank_arm,
-        ..Rig::default()
-    }
-}
-
-/// Parameters on a rig; the safety limits are 95 % of what it reaches along an axis.
-fn on(rig: Rig) -> Parameters {
-    let reach = [Axis::Surge, Axis::Sway, Axis::Heave].map(|axis| 0.95 * single_axis_range(&rig, axis).min_reach());
-    let mut parameters = Parameters { rig, ..Parameters::default() };
-    parameters.safety.position_limit = Vector3::from(reach).map(|reach| reach.max(1e-9));
-    parameters
-}
 
 /// A rig with cranks of this seed on which a washout runs.
 fn random_rig(seed: u64) -> Rig {
@@ -296,8 +250,32 @@ fn derivatives_of_outputs_are_those_of_angles_and_distances() {
 struct Watch {
     parameters: Parameters,
     last: Option<([f64; 6], [f64; 6])>,
-    /// The smallest of what transmissions have beyond their limit.
-    closest: f64,
+    extremes: Extremes,
+}
+
+/// How near the limits a motion came.
+#[derive(Clone, Copy, Debug)]
+struct Extremes {
+    /// Least distance of an angle from either end \[rad\], and of a transmission from its limit.
+    angle_room: f64,
+    transmission_room: f64,
+    /// Largest speed and acceleration, as a fraction of the limits.
+    speed: f64,
+    acceleration: f64,
+}
+
+impl Extremes {
+    const NONE: Self =
+        Extremes { angle_room: f64::INFINITY, transmission_room: f64::INFINITY, speed: 0.0, acceleration: 0.0 };
+
+    fn with(&self, other: &Self) -> Self {
+        Extremes {
+            angle_room: self.angle_room.min(other.angle_room),
+            transmission_room: self.transmission_room.min(other.transmission_room),
+            speed: self.speed.max(other.speed),
+            acceleration: self.acceleration.max(other.acceleration),
+        }
+    }
 }
 
 impl Watch {
@@ -314,7 +292,11 @@ impl Watch {
             let (lowest, highest) = (rig.crank_min_angle - 1e-9, rig.crank_max_angle + 1e-9);
             assert!((lowest..=highest).contains(&angle), "crank {i} at {angle} rad");
             assert!(transmission >= rig.crank_least_transmission - 1e-9, "crank {i} has {transmission}");
-            self.closest = self.closest.min(transmission - rig.crank_least_transmission);
+            let mut now = Extremes {
+                angle_room: (angle - rig.crank_min_angle).min(rig.crank_max_angle - angle),
+                transmission_room: transmission - rig.crank_least_transmission,
+                ..Extremes::NONE
+            };
             let rate = output.angular_rate[i];
             assert!(rate.abs() <= speed * (1.0 + 1e-6), "crank {i} at {rate} rad/s");
             if let Some((before, last_mean)) = self.last {
@@ -323,7 +305,9 @@ impl Watch {
                 assert!(mean[i].abs() <= speed * (1.0 + 1e-6) + rounding, "crank {i} turns at {} rad/s", mean[i]);
                 let second = ((mean[i] - last_mean[i]).abs() - 2.0 * rounding) / step;
                 assert!(second <= acceleration * (1.0 + 1e-6), "crank {i}: {second} rad/s2 beyond {acceleration}");
+                (now.speed, now.acceleration) = ((mean[i].abs() - rounding) / speed, second / acceleration);
             }
+            self.extremes = self.extremes.with(&now);
         }
         self.last = Some((angles.map(|[angle, _]| angle), mean));
     }
@@ -336,10 +320,10 @@ fn displacement(parameters: &Parameters, output: &Output) -> f64 {
 }
 
 /// An episode of hostile input of constant steps, and then rest until the platform is neutral.
-/// Returns the farthest that it was from neutral, relative to an arm.
-fn survive(parameters: &Parameters, seed: u64, count: usize, step: f64) -> f64 {
+/// Returns the farthest that it was from neutral, relative to an arm, and how near the limits.
+fn survive(parameters: &Parameters, seed: u64, count: usize, step: f64) -> (f64, Extremes) {
     let mut washout = Washout::new(parameters).unwrap();
-    let mut watch = Watch { parameters: *parameters, last: None, closest: 1.0 };
+    let mut watch = Watch { parameters: *parameters, last: None, extremes: Extremes::NONE };
     watch.check(&washout.output(), step);
     let mut random = Random::new(seed);
     let mut input = Input::default();
@@ -363,7 +347,7 @@ fn survive(parameters: &Parameters, seed: u64, count: usize, step: f64) -> f64 {
     }
     for _ in 0..(200.0 / step) as usize {
         if displacement(parameters, &washout.output()) < 1e-6 {
-            return farthest / parameters.rig.crank_arm;
+            return (farthest / parameters.rig.crank_arm, watch.extremes);
         }
         washout.step(&Input::default(), step);
         watch.check(&washout.output(), step);
@@ -374,8 +358,8 @@ fn survive(parameters: &Parameters, seed: u64, count: usize, step: f64) -> f64 {
 #[test]
 fn limits_of_cranks_hold_whatever_the_input_and_the_platform_comes_home() {
     let strategies = StrategyKind::ALL;
-    let mut moved = 0;
-    for seed in 0..crate::cases::cases(60, 12) {
+    let (mut moved, mut extremes) = (0, Extremes::NONE);
+    for seed in 0..crate::cases::cases(150, 12) {
         let rig = match seed % 6 {
             0 => person(),
             1 => hobby(),
@@ -389,8 +373,10 @@ fn limits_of_cranks_hold_whatever_the_input_and_the_platform_comes_home() {
         let step = [0.001, 0.004, 0.002][seed as usize % 3];
         parameters.structure.max_step = step;
         let Ok(()) = check(&parameters) else { continue };
-        let farthest = survive(&parameters, seed, crate::cases::cases(20_000, 4_000), step);
+        let (farthest, near) = survive(&parameters, seed, crate::cases::cases(20_000, 4_000), step);
         moved += usize::from(farthest > 0.1);
+        extremes = extremes.with(&near);
     }
+    println!("{moved} platforms moved; {extremes:?}");
     assert!(moved >= 6, "the platforms move: {moved}");
 }

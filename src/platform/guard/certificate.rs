@@ -46,7 +46,24 @@ impl Machine {
         }
     }
 
-    /// The same with the actuators as levers; the transmission matters with cranks alone.
+    /// As [`Machine::certify_by_bounds`], if bounds also certify the way home from where the stop
+    /// ends.
+    #[inline(always)]
+    pub fn certify_home_by_bounds(
+        &self,
+        from: &PlatformState,
+        to: &PlatformState,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<f64> {
+        if let Some(cranks) = &self.geometry.cranks {
+            return self.certify_cranks_home_by_bounds(cranks, from, to, safety, step);
+        }
+        let duration = self.certify_within::<false>(&self.lever_of_legs(), from, to, safety, step)?;
+        self.sees_home_by_bounds(to, duration).then_some(duration)
+    }
+
+    /// The same as [`Machine::certify_by_bounds`] with the actuators as levers; the transmission matters with cranks alone.
     #[inline(always)]
     pub(super) fn certify_within<const CRANKS: bool>(
         &self,
@@ -85,8 +102,16 @@ impl Machine {
 
         let [least, greatest] = to.legs.extremes();
         let moved = if CRANKS { reach / lever.transmission } else { reach };
+        let rates_keep = || {
+            let [linear, angular] = [change.norm() * per_step, sum_of_magnitudes(&turn) * per_step];
+            let bounds =
+                JointBounds { velocity: fastest, ..JointBounds::new([fastest, rate], [linear, angular], self.radius) };
+            let gap = (gap_acceleration + 2.0 * gap_turning) / lever.transmission;
+            let rates = [&from.legs.velocity, &to.legs.velocity];
+            self.rates_keep_acceleration(lever, rates, &bounds, gap, step)
+        };
         let legs_keep = curvature <= (1.0 - STOP_FRACTION) * lever.acceleration
-            && curvature + steady <= lever.acceleration
+            && (curvature + steady <= lever.acceleration || CRANKS && rates_keep())
             && fastest <= lever.velocity
             && least - moved >= self.limits.min
             && greatest + moved <= self.limits.max

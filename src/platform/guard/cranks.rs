@@ -2,19 +2,31 @@
 //! actuators are cranks.
 //!
 //! Let G1, G2, G3 be the bounds on the derivatives of the joints' vectors ([`JointBounds`]), a the
-//! arm and s the rod. While no transmission is smaller than k, an arc q has
+//! arm and s the rod. An arc q with the rod's direction n, the arm's direction o and its tangent t
+//! has q' = n·V/k, and the rod's ends move apart at Q = V - t q'. Q is the projection of V along t
+//! onto the plane across n, so |Q| <= |V|/k, as |q'|. |n·o| and the part of t across n are at most
+//! c = sqrt(1 - k²). From n·Q = 0 it follows that
 //!
 //! ```text
-//!     |q'|   <= F1 = G1/k                                     Q1 = G1 + F1
-//!     |q''|  <= F2 = (G2 + F1²/a + Q1²/s)/k                   Q2 = G2 + F1²/a + F2
-//!     |q'''| <= F3 = (G3 + F1³/a² + 3 F1 F2/a + 3 Q1 Q2/s)/k
-//!     |k'|   <= Q1/s + F1/a
+//!     k q''  = n·V' + (n·o) q'²/a + |Q|²/s
+//!     k q''' = n·V'' + 3 Q·Q'/s + 3 (n·o) q' q''/a + k q'³/a²
+//!     k'     = Q·t/s - (n·o) q'/a
+//! ```
+//!
+//! So, while no transmission is smaller than k,
+//!
+//! ```text
+//!     |q'|   <= F1 = G1/k
+//!     |q''|  <= F2 = (G2 + c F1²/a + F1²/s)/k
+//!     |Q·Q'| <= F1 S2,   S2 = (G2 + F1²/a + c F1²/s)/k
+//!     |q'''| <= F3 = (G3 + 3 F1 S2/s + 3 c F1 F2/a)/k + F1³/a²
+//!     |k'|   <= c F1 (1/s + 1/a)
 //! ```
 //!
 //! k is assumed, and shown afterwards. A transmission is continuous: from a larger value at an end
 //! of the piece it cannot fall below k within the piece at that rate.
 //!
-//! In terms of the joints, F1 and F2 are G1/k and (G2 + G1²/c)/k with a length c, as a leg's are
+//! In terms of the joints, F1 and F2 are G1/k and (G2 + G1²/b)/k with a length b, as a leg's are
 //! with k = 1 and its length ([`Lever`]).
 
 use super::bounds::JointBounds;
@@ -24,13 +36,18 @@ use crate::interface::SafetyParameters;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
 use crate::platform::PlatformState;
-use crate::platform::crank::Cranks;
+use crate::platform::crank::{Arms, Cranks};
 
 /// The transmission that is assumed, relative to that of a state: what is left is for the motion.
 const ASSUMED_PART: f64 = 0.8;
 /// Largest turn of an arm within a piece \[rad\]. Angles are within 2 rad from level, so from a
 /// larger one to another turn of it is more than 2 rad: none is taken for another.
 const LARGEST_TURN: f64 = 2.0;
+
+/// The largest cosine of an angle of transmission whose sine is not smaller than this one.
+fn cosine(transmission: f64) -> f64 {
+    square_root(max(1.0 - transmission * transmission, 0.0))
+}
 
 /// Limits of the actuators as limits of the joints.
 #[derive(Clone, Copy, Debug)]
@@ -57,26 +74,24 @@ impl Cranks {
 
     /// The largest change of a transmission for each metre of a joint's travel \[1/m\].
     pub(super) fn transmission_slope(&self, transmission: f64) -> f64 {
-        (1.0 + 1.0 / transmission) / self.rod + 1.0 / (self.arm * transmission)
+        cosine(transmission) / transmission * (1.0 / self.rod + 1.0 / self.arm)
     }
 
     /// What a joint's speed squared adds to its acceleration, as one over a length \[1/m\].
     pub(super) fn turning(&self, transmission: f64) -> f64 {
-        let rod = 1.0 + 1.0 / transmission;
-        1.0 / (self.arm * transmission * transmission) + rod * rod / self.rod
+        (cosine(transmission) / self.arm + 1.0 / self.rod) / (transmission * transmission)
     }
 
     /// Bound on |q'''| with these bounds of the joints, where no transmission is smaller
     /// than this one \[m/s3\].
     pub(super) fn arc_jerk(&self, bounds: &JointBounds, transmission: f64) -> f64 {
         let JointBounds { velocity, acceleration, jerk } = *bounds;
-        let Cranks { arm, rod, .. } = *self;
-        let rate = velocity / transmission;
-        let rod_rate = velocity + rate;
-        let second = (acceleration + rate * rate / arm + rod_rate * rod_rate / rod) / transmission;
-        let rod_second = acceleration + rate * rate / arm + second;
-        let of_arm = rate * rate * rate / (arm * arm) + 3.0 * rate * second / arm;
-        (jerk + of_arm + 3.0 * rod_rate * rod_second / rod) / transmission
+        let per = 1.0 / transmission;
+        let (cosine, rate) = (cosine(transmission), velocity * per);
+        let [of_arm, of_rod] = [self.arm, self.rod].map(|length| rate / length);
+        let second = (acceleration + rate * (cosine * of_arm + of_rod)) * per;
+        let rod_second = (acceleration + rate * (of_arm + cosine * of_rod)) * per;
+        (jerk + 3.0 * (of_rod * rod_second + cosine * of_arm * second)) * per + rate * of_arm * of_arm
     }
 
     /// The change of the arcs' accelerations within half of an interval,
@@ -89,27 +104,30 @@ impl Cranks {
         (ends - lost >= transmission && turns <= LARGEST_TURN).then(|| self.arc_jerk(bounds, transmission) * half)
     }
 
-    /// Bound on the second derivative of any transmission's square on a line on which joints move
-    /// by at most `joint`, with second derivatives of at most `bend`. All joints are `nearest` to
-    /// `farthest` from their axles there.
+    /// Bound on the second derivative of any transmission's square on a way on which joints move
+    /// by at most `joint`, with second derivatives of at most `bend`, up to `farthest` from their
+    /// axles. g is nowhere smaller than `least_g`.
     ///
-    /// The square is (e² + f² - g²)/(2 a s)², and e, f, g are at most quadratic
-    /// in the joint's vector.
-    fn square_bend(&self, joint: f64, bend: f64, [nearest, farthest]: [f64; 2]) -> f64 {
+    /// The square is (e² + f² - g²)/(2 a s)². e and f are linear in the joint's vector l, and
+    /// g'' = 2 |l'|² + 2 l·l''. The square of g' makes the second derivative only smaller, and so
+    /// does |l'|² where g is positive.
+    fn square_bend(&self, joint: f64, bend: f64, farthest: f64, least_g: f64) -> f64 {
         let Cranks { arm, rod, .. } = *self;
-        let apart = |distance: f64| (distance * distance + arm * arm - rod * rod).abs();
-        let g = max(apart(nearest), apart(farthest));
+        let (below, above) = (max(-least_g, 0.0), max(farthest * farthest + arm * arm - rod * rod, 0.0));
+        let (square, turned) = (joint * joint, farthest * bend);
         let scale = 1.0 / (2.0 * arm * rod);
-        (8.0 * arm * arm + 4.0 * g) * (joint * joint + farthest * bend) * scale * scale
+        ((8.0 * arm * arm + 4.0 * below) * (square + turned) + 4.0 * above * turned) * scale * scale
     }
 }
 
-/// The cranks at neutral, and bounds on the straight way there.
-struct Way {
+/// Bounds on the straight way to neutral.
+pub(super) struct Way {
     /// Bound on the second derivative of any transmission's square.
-    square_bend: f64,
+    pub(super) square_bend: f64,
+    /// Bounds on the first and second derivatives of the joints' vectors, and on those vectors \[m\].
     joint: f64,
     bend: f64,
+    farthest: f64,
 }
 
 impl Way {
@@ -153,35 +171,99 @@ impl Machine {
         self.certify_within::<true>(&lever, from, to, safety, step)
     }
 
+    /// As [`Machine::certify_home_by_bounds`], for cranks.
+    #[inline(never)]
+    pub(super) fn certify_cranks_home_by_bounds(
+        &self,
+        cranks: &Cranks,
+        from: &PlatformState,
+        to: &PlatformState,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<f64> {
+        let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
+        let lever = self.lever_of(cranks, arms.least_transmission());
+        let duration = self.certify_within::<true>(&lever, from, to, safety, step)?;
+        self.arms_see_home_by_bounds(cranks, &arms, &lever, to, duration).then_some(duration)
+    }
+
     /// As [`Machine::sees_home_by_bounds`], for cranks.
     #[inline(never)]
     pub(super) fn cranks_see_home_by_bounds(&self, cranks: &Cranks, to: &PlatformState, duration: f64) -> bool {
+        let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
+        self.arms_see_home_by_bounds(cranks, &arms, &self.lever_of(cranks, arms.least_transmission()), to, duration)
+    }
+
+    /// The same, where the arms are known. An angle is inside its range all the way if the joint's
+    /// distance from the end of an arm at the range's end is: there arms are legs of the rod's
+    /// length, whose squares have the second derivatives that `home.rs` has.
+    #[inline(always)]
+    fn arms_see_home_by_bounds(
+        &self,
+        cranks: &Cranks,
+        arms: &Arms,
+        lever: &Lever,
+        to: &PlatformState,
+        duration: f64,
+    ) -> bool {
         let speed = Speed::of(&to.coordinates);
         let travel = 0.5 * duration * speed.of_joints(self.radius);
         let turn = 0.5 * duration * speed.angular;
-        let transmission = cranks.transmission(&self.geometry, &to.motion.pose());
-        let lever = self.lever_of(cranks, transmission);
         let from = Distance::of(&to.coordinates, self.radius);
-        let way = self.way(cranks, Distance { joint: from.joint + travel, angular: from.angular + turn });
-        let ends = [lever.transmission, self.home.transmission];
-        let smaller = min(ends[0], ends[1]);
-        // Clear of the limit all the way by what is kept at neutral.
-        let clear = self.transmission_needed(cranks, 1.0);
-        let keeps = travel <= lever.travel && smaller * smaller - 0.125 * way.square_bend >= clear * clear;
-        let Some(bend) = way.arc_bend(cranks, ends, 1.0).filter(|_| keeps) else { return false };
-        let [below, above] = self.home.beyond_clearance;
-        let moved = travel / lever.transmission;
-        let [least, greatest] = to.legs.extremes();
-        least - moved >= self.limits.min + max(0.5 * bend - below, 0.0)
-            && greatest + moved <= self.limits.max - max(0.5 * bend - above, 0.0)
+        let way = self.way(cranks, arms, Distance { joint: from.joint + travel, angular: from.angular + turn }, travel);
+        // Squares of transmissions beyond what is needed at either end of the way.
+        let [start, needed] = [cranks.least_transmission, self.transmission_needed(cranks, 1.0)];
+        let left = arms.least_transmission() - travel * cranks.transmission_slope(lever.transmission);
+        let start = left * left - start * start;
+        let neutral = self.home.transmission * self.home.transmission - needed * needed;
+        let farthest = way.farthest + cranks.arm;
+        let [below, above] = arms.clear_of(self.home.ends);
+        let below = below - 2.0 * travel * farthest;
+        let above = above - travel * (2.0 * cranks.rod + travel);
+        let turned = farthest * way.bend;
+        travel <= lever.travel
+            && left > 0.0
+            && start >= 0.0
+            && start + neutral >= 0.5 * way.square_bend
+            && below >= 0.0
+            && below + self.home.clear_beyond[0] >= way.joint * way.joint + turned
+            && above >= 0.0
+            && above + self.home.clear_beyond[1] >= turned
     }
 
-    /// Bounds on the way home over this distance.
-    fn way(&self, cranks: &Cranks, Distance { joint, angular }: Distance) -> Way {
-        let bend = angular * angular * self.radius;
+    /// Bounds on the way home over this distance, from within `travel` of where the arms are.
+    ///
+    /// A joint's way is its chord but for its second derivative b: there, g is no more than
+    /// (|l'|² + |l| b)/4 below its values at the ends, and |l'| no more than b/2 above the chord.
+    pub(super) fn way(&self, cranks: &Cranks, arms: &Arms, distance: Distance, travel: f64) -> Way {
+        let bend = distance.angular * distance.angular * self.radius;
         let [nearest, farthest] = self.home.joints;
-        let square_bend = cranks.square_bend(joint, bend, [max(nearest - joint, 0.0), farthest + joint]);
-        Way { square_bend, joint, bend }
+        let farthest = farthest + distance.joint;
+        let joint =
+            min(arms.farthest_from_neutral(&self.geometry, self.neutral_height) + travel + 0.5 * bend, distance.joint);
+        let neutral_g = nearest * nearest + cranks.arm * cranks.arm - cranks.rod * cranks.rod;
+        let least_g = min(arms.least_g() - 2.0 * farthest * travel, neutral_g);
+        let least_g = least_g - 0.25 * (joint * joint + farthest * bend);
+        Way { square_bend: cranks.square_bend(joint, bend, farthest, least_g), joint, bend, farthest }
+    }
+
+    /// True if rates of the arms at both ends of a transition show that their accelerations keep
+    /// the limit within it, where the joints keep these bounds and the rates of both ends are off by
+    /// at most `gap` times the step \[m/s2\].
+    ///
+    /// The mean of an acceleration is the change of the rate over the step, and somewhere in it the
+    /// acceleration is that mean.
+    pub(super) fn rates_keep_acceleration(
+        &self,
+        lever: &Lever,
+        rates: [&[f64; 6]; 2],
+        bounds: &JointBounds,
+        gap: f64,
+        step: f64,
+    ) -> bool {
+        let Some(cranks) = &self.geometry.cranks else { return false };
+        let mean = (0..6).fold(0.0, |most, i| max((rates[1][i] - rates[0][i]).abs(), most)) / step;
+        mean + gap + step * cranks.arc_jerk(bounds, lever.transmission) <= self.limits.acceleration
     }
 
     /// True if a part of the way home is certified by its ends, which are at these fractions of the
@@ -189,11 +271,10 @@ impl Machine {
     pub(super) fn cranks_keep_part(
         &self,
         cranks: &Cranks,
-        distance: &Distance,
+        way: &Way,
         fractions: [f64; 2],
         points: [&Point; 2],
     ) -> bool {
-        let way = self.way(cranks, *distance);
         let part = fractions[1] - fractions[0];
         let transmissions = points.map(|point| point.transmission);
         let [left, right] = [0, 1].map(|k: usize| {

@@ -21,6 +21,7 @@ use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
+use crate::platform::crank::Cranks;
 use crate::platform::{PlatformCoordinates, PlatformState};
 
 /// The largest number of points of a way that are looked at, and the largest number of parts into
@@ -100,14 +101,19 @@ impl Machine {
             };
             lengths.map(|length| [above(length), longest - length])
         };
-        let at = |s: f64| {
-            let coordinates = PlatformCoordinates {
-                linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
-                angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
-            };
-            Point {
-                beyond: beyond(s, &self.state(coordinates).legs.length),
-                transmission: self.transmission_at(&coordinates),
+        let coordinates_at = |s: f64| PlatformCoordinates {
+            linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
+            angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
+        };
+        let arms_at = |s: f64, cranks: &Cranks| {
+            cranks.arms_in(&self.geometry, &coordinates_at(s).motion(self.neutral_height).pose())
+        };
+        let way = cranks.map(|cranks| self.way(cranks, &arms_at(0.0, cranks), distance, 0.0));
+        let at = |s: f64| match cranks {
+            None => Point { beyond: beyond(s, &self.state(coordinates_at(s)).legs.length), transmission: 1.0 },
+            Some(cranks) => {
+                let arms = arms_at(s, cranks);
+                Point { beyond: beyond(s, &cranks.arcs(&arms)), transmission: arms.least_transmission() }
             }
         };
         let neutral = Point { beyond: beyond(1.0, &self.home.length), transmission: self.home.transmission };
@@ -115,12 +121,12 @@ impl Machine {
         for _ in 1..MOST_POINTS {
             let end = begin + part;
             let right = if end < 1.0 { at(end) } else { neutral };
-            let certified = match cranks {
+            let certified = match cranks.zip(way.as_ref()) {
                 None => {
                     let least = [chord_gap * part * part, 0.5 * turning * part * part];
                     keep_chords(&left.beyond, &right.beyond, least)
                 }
-                Some(cranks) => self.cranks_keep_part(cranks, &distance, [begin, end], [&left, &right]),
+                Some((cranks, way)) => self.cranks_keep_part(cranks, way, [begin, end], [&left, &right]),
             };
             if certified && end >= 1.0 {
                 return true;

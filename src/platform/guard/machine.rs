@@ -66,6 +66,10 @@ pub struct Home {
     pub(super) beyond_clearance: [f64; 2],
     /// 1/(2 times the shortest length) \[1/m\].
     pub(super) per_two_lengths: f64,
+    /// Of cranks: cosine and sine of the lowest and of the highest angle, and what the joints have
+    /// beyond their clearances of arms there ([`Arms::clear_of`]) \[m2\]. Zero with legs.
+    pub(super) ends: [[f64; 2]; 2],
+    pub(super) clear_beyond: [f64; 2],
 }
 
 impl Home {
@@ -78,14 +82,20 @@ impl Home {
         let length = leg_lengths(geometry, neutral);
         let [shortest, longest] = extremes(&length);
         let room = [shortest - limits.min, limits.max - longest];
+        let arms = geometry.cranks.as_ref().map(|cranks| (cranks, cranks.arms_in(geometry, neutral)));
+        let ends = arms.map_or([[0.0; 2]; 2], |(cranks, _)| {
+            [limits.min, limits.max].map(|arc| libm::sincos(arc / cranks.arm)).map(|(sin, cos)| [cos, sin])
+        });
         Home {
             length,
             longest,
             joints: extremes(&leg_lengths(&geometry.with_legs(), neutral)),
-            transmission: geometry.cranks.as_ref().map_or(1.0, |cranks| cranks.transmission(geometry, neutral)),
+            transmission: arms.as_ref().map_or(1.0, |(_, arms)| arms.least_transmission()),
             clearance: room.map(|room| CLEARANCE * room),
             beyond_clearance: room.map(|room| (1.0 - CLEARANCE) * room),
             per_two_lengths: 0.5 / limits.min,
+            ends,
+            clear_beyond: arms.map_or([0.0; 2], |(_, arms)| arms.clear_of(ends).map(|room| (1.0 - CLEARANCE) * room)),
         }
     }
 }

@@ -94,8 +94,7 @@ impl ActuatorGuard {
     #[inline(always)]
     pub fn advance(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
         if self.limited.is_none()
-            && let Some(duration) = self.machine.certify_by_bounds(&self.now, demand, safety, step)
-            && self.machine.sees_home_by_bounds(demand, duration)
+            && let Some(duration) = self.machine.certify_home_by_bounds(&self.now, demand, safety, step)
         {
             self.now = *demand;
             self.plan.restart(&demand.coordinates, StopDurations::common(duration));

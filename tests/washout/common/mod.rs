@@ -2,6 +2,7 @@
 //! arrays, and random numbers.
 
 pub mod chain;
+pub mod crank_rigs;
 pub mod limits;
 pub mod manoeuvres;
 pub mod random;

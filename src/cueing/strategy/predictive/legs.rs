@@ -8,7 +8,7 @@ use crate::cueing::strategy::law::Circumstances;
 use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 use crate::platform::reach::{neutral_lengths, short_stroke};
-use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
+use crate::platform::{Geometry, Pose, lengths_with_jacobian};
 
 /// The rig, and the motion of the platform that is not planned.
 #[derive(Clone, Copy, Debug)]
@@ -126,8 +126,7 @@ fn legs_near(
     let Surroundings { geometry, neutral_height, .. } = *surroundings;
     let orientation = Orientation::new(RollPitchYaw::new(angles.x + tilt[1], angles.y - tilt[0], angles.z));
     let pose = Pose { position: Vector3::new(position[0], position[1], neutral_height + heave), orientation };
-    let lengths = leg_lengths(geometry, &pose);
-    let jacobian = jacobian(geometry, &pose);
+    let (lengths, jacobian) = lengths_with_jacobian(geometry, &pose);
     // A surge's tilt is a pitch nose up.
     let about = [RollPitchYaw::new(0.0, -1.0, 0.0), RollPitchYaw::new(1.0, 0.0, 0.0)]
         .map(|rates| orientation.angular_velocity(rates));
@@ -146,6 +145,7 @@ pub(super) mod tests {
 
     use super::*;
     use crate::interface::Rig;
+    use crate::platform::leg_lengths;
 
     /// The default rig's, with a platform that only the plan moves.
     pub fn surroundings(geometry: &Geometry) -> Surroundings<'_> {

@@ -13,6 +13,7 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use super::bounds::JointBounds;
 use super::certificate;
+use super::home::Distance;
 use super::machine::Machine;
 use super::*;
 use crate::interface::Rig;
@@ -105,18 +106,23 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
     assert!(closest.iter().all(|ratio| ratio.get() > 0.4), "{closest:?}");
 }
 
-/// Cranks about neutral, which move at random: derivatives of arcs against their bounds at the real
-/// transmission, and the change of the transmission against its slope.
-#[test]
-fn no_crank_exceeds_the_bounds_on_its_derivatives() {
-    let mut rig = Rig {
+/// The joints of the default rig with cranks between them.
+fn crank_rig() -> Rig {
+    Rig {
+        neutral_height: 0.98,
         crank_arm: 0.2,
         crank_rod: 1.1,
         crank_heading: [-1.6, 1.6, 0.5, 3.7, 2.6, 5.8],
         crank_least_transmission: 0.05,
         ..Rig::default()
-    };
-    rig.neutral_height = 0.98;
+    }
+}
+
+/// Cranks about neutral, which move at random: derivatives of arcs against their bounds at the real
+/// transmission, and the change of the transmission against its slope.
+#[test]
+fn no_crank_exceeds_the_bounds_on_its_derivatives() {
+    let rig = crank_rig();
     let geometry = crate::platform::Geometry::from(&rig);
     let cranks = geometry.cranks.expect("the rig has cranks");
     let radius = rig.platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
@@ -130,8 +136,8 @@ fn no_crank_exceeds_the_bounds_on_its_derivatives() {
             let start = PlatformCoordinates { linear, angles };
             let h = 1e-4;
             let motion = |time: f64| coordinates_after(&start, time).motion(rig.neutral_height);
-            let state = |time: f64| cranks.arm_state(i, &geometry.between(i, &motion(time).pose()));
-            let transmission = (-3..=3).map(|k| state(f64::from(k) * h).transmission).fold(f64::INFINITY, f64::min);
+            let arms = |time: f64| cranks.arms_in(&geometry, &motion(time).pose());
+            let transmission = (-3..=3).map(|k| arms(f64::from(k) * h).transmission[i]).fold(f64::INFINITY, f64::min);
             if transmission < 0.1 {
                 return Ok(());
             }
@@ -145,8 +151,8 @@ fn no_crank_exceeds_the_bounds_on_its_derivatives() {
                 radius,
             );
             let JointBounds { velocity, acceleration, .. } = bounds;
-            let [first, second, third] = derivatives(|time| cranks.arm * state(time).angle(), 0.0, h);
-            let slope = (state(h).transmission - state(-h).transmission) / (2.0 * h);
+            let [first, second, third] = derivatives(|time| cranks.arm * arms(time).angle(i), 0.0, h);
+            let slope = (arms(h).transmission[i] - arms(-h).transmission[i]) / (2.0 * h);
             let pairs = [
                 (first, velocity / transmission),
                 (second, (acceleration + velocity * velocity * cranks.turning(transmission)) / transmission),
@@ -243,6 +249,100 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
         .unwrap();
     let (certified, refused) = (certified.get(), refused.get());
     assert!(certified.min(refused) > case_count(200_000) / 20, "{certified} certified, {refused} refused");
+}
+
+/// Cranks whose stops and ways home are certified, by bounds or by points: their limits are kept at
+/// all points of both.
+#[test]
+fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
+    let cases = (-1.0..0.7_f64, 0.3..1.4_f64, 0.05..0.8_f64, -2.3..-0.7_f64, -2.0..-0.3_f64);
+    let states = cases.prop_flat_map(|(fastest, range, least, far, size)| {
+        let [far, size] = [far, size].map(|exponent| 10.0_f64.powf(exponent));
+        let acceleration_limit = 10.0_f64.powf(fastest + 0.7);
+        let rig = Rig {
+            velocity_limit: 10.0_f64.powf(fastest),
+            acceleration_limit,
+            crank_min_angle: -range,
+            crank_max_angle: 1.1 * range,
+            crank_least_transmission: least,
+            ..crank_rig()
+        };
+        let machine = Machine::new(&rig, 4e-3);
+        let motions = (moving(far, size, size), moving(far, size, size));
+        (Just(machine), motions)
+    });
+    let [by_bounds, by_points, refused] = [const { Cell::new(0) }; 3];
+    let count = |cell: &Cell<u32>| cell.set(cell.get() + 1);
+    search(case_count(200_000))
+        .run(&states, |(machine, (linear, angles))| {
+            let (step, safety) = (2e-3, SafetyParameters::default());
+            let cranks = machine.geometry.cranks.expect("the rig has cranks");
+            let start = PlatformCoordinates { linear, angles };
+            let end = coordinates_after(&start, step);
+            let [from, to] = [start, end].map(|coordinates| machine.state(coordinates));
+            let plan = machine.certify(&from, &to, &safety, step);
+            let duration = plan.map(|plan| plan.durations().breakpoints()[3]);
+            let bounds = machine.certify_home_by_bounds(&from, &to, &safety, step).is_some();
+            let home = |(plan, duration): &(StopPlan, f64)| bounds || machine.sees_home(&plan.at(*duration));
+            let Some((plan, duration)) = plan.zip(duration).filter(home) else {
+                count(&refused);
+                return Ok(());
+            };
+            count(if bounds { &by_bounds } else { &by_points });
+            let keeps = |coordinates: &PlatformCoordinates| {
+                let legs = leg_motion(&machine.geometry, &coordinates.motion(machine.neutral_height));
+                keep(&machine, coordinates) && legs.transmission >= cranks.least_transmission * (1.0 - 1e-9)
+            };
+            const POINTS: usize = 100;
+            for k in 0..=POINTS {
+                let fraction = k as f64 / POINTS as f64;
+                prop_assert!(keeps(&plan.at(fraction * duration)), "{fraction} of the stop from {to:?}");
+                let rest = plan.at(duration);
+                let home = |motion: Motion<Vector3<f64>>| Motion {
+                    position: (1.0 - fraction) * motion.position,
+                    ..Motion::default()
+                };
+                let on_way = PlatformCoordinates { linear: home(rest.linear), angles: home(rest.angles) };
+                prop_assert!(keeps(&on_way), "{fraction} of the way home from {rest:?}");
+            }
+            Ok(())
+        })
+        .unwrap();
+    let counts = [by_bounds, by_points, refused].map(|cell| cell.get());
+    assert!(counts.iter().all(|count| *count > case_count(200_000) / 50), "{counts:?}");
+}
+
+/// Squares of transmissions on the straight way home lie beneath their chords by no more than the
+/// bound has.
+#[test]
+fn squares_of_transmissions_keep_near_their_chords() {
+    let machine = Machine::new(&crank_rig(), 1e-3);
+    let cranks = machine.geometry.cranks.expect("the rig has cranks");
+    let closest = Cell::new(0.0_f64);
+    search(case_count(200_000))
+        .run(&(vector(0.3), vector(0.3)), |(position, angles)| {
+            let arms = |s: f64| {
+                let at = |position: &Vector3<f64>| Motion { position: (1.0 - s) * position, ..Motion::default() };
+                let coordinates = PlatformCoordinates { linear: at(&position), angles: at(&angles) };
+                cranks.arms_in(&machine.geometry, &coordinates.motion(machine.neutral_height).pose())
+            };
+            let angular = sum(&angles);
+            let distance = Distance { joint: position.norm() + angular * machine.radius, angular };
+            let bend = machine.way(&cranks, &arms(0.0), distance, 0.0).square_bend;
+            let [start, middle, end] = [0.0, 0.5, 1.0].map(|s| arms(s).transmission.map(|k| k * k));
+            for i in 0..6 {
+                // Zero stands for rods that do not reach: then nothing is known of the square.
+                if start[i] > 0.0 && middle[i] > 0.0 {
+                    let beneath = 0.5 * (start[i] + end[i]) - middle[i];
+                    prop_assert!(beneath <= 0.125 * bend, "{beneath} beneath, bound {}", 0.125 * bend);
+                    closest.set(closest.get().max(beneath / (0.125 * bend)));
+                }
+            }
+            Ok(())
+        })
+        .unwrap();
+    // It is wide, as it is of all joints and angles that move so far.
+    assert!(closest.get() > 0.01, "{closest:?}");
 }
 
 /// A machine without limits.
