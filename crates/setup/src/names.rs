@@ -1,7 +1,7 @@
 //! Which of the right names a wrong one was meant to be.
 
-/// The candidates that look most like `name`, the best first; none that does not look like it at
-/// all.
+/// The candidates that look most like `name`, the best first. Those that do not look like it are
+/// left out.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     // Least similarity of a proposed name to the wrong one, from 0 to 1.
     const MIN_NAME_SIMILARITY: f64 = 0.6;
@@ -21,8 +21,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     close.take(MAX_PROPOSALS).map(|(_, candidate)| candidate.to_owned()).collect()
 }
 
-/// The end of a message about a wrong name: ": did you mean a, b or c?", or what to do when nothing
-/// looks like it.
+/// The end of a message about a wrong name: ": did you mean a, b or c?". Where nothing looks like
+/// it, what to do.
 pub(crate) fn suggestion(nearest: &[String], otherwise: &str) -> String {
     match nearest {
         [] => format!("; {otherwise}"),

@@ -192,8 +192,8 @@ pub struct Options {
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "replay")]
     learn: Option<Option<PathBuf>>,
 
-    /// Start with the automatic scale that the last session has found. The file, one for each vehicle
-    /// and rig, is a parameter file; it is written at the end
+    /// Start with the automatic scale that the last session has found. The file, one for each
+    /// vehicle and rig, is a parameter file; it is written at the end
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
     learn_scale: Option<PathBuf>,
 
@@ -469,7 +469,8 @@ fn with_learned_scale(options: &Options) -> Result<SetupOptions> {
     Ok(setup)
 }
 
-/// Time between frames \[s\]: the template's, or what a slower serial line takes for one, which is said.
+/// Time between frames \[s\]: the template's, or what a slower serial line takes
+/// for one, which is said.
 ///
 /// # Errors
 /// The controller gives up before the line has carried a frame.

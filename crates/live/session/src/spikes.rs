@@ -13,7 +13,8 @@ struct SpikeLimits {
     change_factor: f64,
     /// Samples over which changes and violent samples are averaged.
     averaged_samples: f64,
-    /// Fraction of violent samples up to which two that are alike are a blow, which itself is two of them.
+    /// Fraction of violent samples up to which two that are alike are a blow, which
+    /// itself is two of them.
     blow_fraction: f64,
     /// Samples alike beyond that fraction which are no spike: 60 ms at 100 Hz.
     alike_samples: u32,

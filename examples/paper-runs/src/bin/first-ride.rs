@@ -1,5 +1,5 @@
-//! `cargo first-ride`: builds the FMU, simulates a ride through town with it, and draws what the
-//! rider feels.
+//! `cargo first-ride`: builds the FMU and simulates a ride through town with it. A picture shows
+//! what the rider feels.
 
 use std::fs;
 

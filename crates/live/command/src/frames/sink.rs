@@ -90,7 +90,8 @@ impl Sink {
         Some(&packet[..length])
     }
 
-    /// Time in which a serial line carries so many bytes, each with a start and a stop bit \[s\]; 0 by other ways.
+    /// Time in which a serial line carries so many bytes, each with a start and a stop bit
+    /// \[s\]; 0 by other ways.
     pub fn line_time(&self, bytes: usize) -> f64 {
         match self {
             #[cfg(feature = "serial")]

@@ -33,8 +33,8 @@ pub fn rounding_error(quantum: f64, step: f64) -> f64 {
 /// Fewest samples of which derivatives are taken.
 pub const MIN_DERIVATIVE_SAMPLES: usize = DIFFERENCE_SAMPLES;
 
-/// First and second derivative of a series of at least [`MIN_DERIVATIVE_SAMPLES`] samples: central differences of
-/// fourth order, and one-sided ones over five samples at the ends.
+/// First and second derivative of a series of at least [`MIN_DERIVATIVE_SAMPLES`] samples: central
+/// differences of fourth order, and one-sided ones over five samples at the ends.
 pub fn derivatives(values: &[f64], step: f64) -> Vec<[f64; 2]> {
     let last = values.len() - DIFFERENCE_SAMPLES;
     let at = |k: usize| {

@@ -1,7 +1,7 @@
 //! Rules that every recording must pass, in SI units and the washout's axes.
 //!
-//! A row of [`RECORDING_RULES`] is one of them: what it needs, when it fires, and which others it explains.
-//! Their sentences stand in `texts.toml`.
+//! A row of [`RECORDING_RULES`] is one of them: what it needs, when it fires, and which others it
+//! explains. Their sentences stand in `texts.toml`.
 //!
 //! - `units` detects wrong units and axes, by gravity, and by what heads can do.
 //! - `waveform` looks at one channel: it stands still, repeats, or has few digits.

@@ -80,8 +80,8 @@ impl Level {
         (right.slope > LEAN).then_some(Estimate { direction, error: right.error, evidence: "the lean in bends" })
     }
 
-    /// Mean forces of [`SMOOTHED_BLOCKS`] blocks around each, zero where they are not those of a straight
-    /// acceleration.
+    /// Mean forces of [`SMOOTHED_BLOCKS`] blocks around each, zero where they are not those of a
+    /// straight acceleration.
     ///
     /// A bend at up to 100 m/s has a larger yaw rate for its force.
     fn straight(&self) -> Vec<Vector3<f64>> {
@@ -168,7 +168,8 @@ impl Level {
     }
 }
 
-/// Lengths of the parts between changes of the yaw rate's sign, within the limits of [`CLUSTER_SIZES`].
+/// Lengths of the parts between changes of the yaw rate's sign, within the limits
+/// of [`CLUSTER_SIZES`].
 fn bend_lengths(yaw_rates: &[f64]) -> Vec<usize> {
     let mut lengths = Vec::new();
     let mut start = 0;
