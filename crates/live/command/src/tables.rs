@@ -34,7 +34,7 @@ pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
         List::Frames { name: Some(name) } => write!(out, "{}", shipped("frames", name, &frame::SHIPPED_FRAMES)?)?,
         List::Formats { name: None } => {
             for (name, text) in format::SHIPPED_FORMATS {
-                writeln!(out, "{name:<12} {}", text.parse::<format::Format>()?.about)?;
+                writeln!(out, "{name:<14} {}", text.parse::<format::Format>()?.about)?;
             }
         }
         List::Frames { name: None } => {

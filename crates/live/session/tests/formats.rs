@@ -1,6 +1,6 @@
 //! Packets written out by hand from each layout, and any bytes at all.
 
-use moris_live::format::{Format, SHIPPED_FORMATS, shipped};
+use moris_live::format::{Dropped, Format, SHIPPED_FORMATS, shipped};
 use moris_live::{Motion, Sample};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -164,6 +164,22 @@ fn the_player_in_a_list_of_cars() {
     let packet = br#"{"me":1,"cars":[{"a":1,"b":2},{"a":3,"b":4}]}"#;
     assert_eq!(json.decode(packet).unwrap().motion.force(), Vector3::new(3.0, 4.0, G));
     assert!(json.decode(br#"{"cars":[{"a":1,"b":2}]}"#).is_err());
+    // Places that count from the first car, which longer packets have elsewhere.
+    let relative: Format = format!(
+        "{head}layout = \"binary\"\nlengths = [10, 12]\nplayer = {{ at = 0, first = 2, stride = 4 }}\n[fields]\n\
+         ax = {{ at = 0, type = \"u16\", of-player = true }}\nay = {{ at = 2, type = \"u16\", of-player = true }}\n\
+         [[of-lengths]]\nlengths = [12]\nplayer = {{ at = 1, first = 4, stride = 4 }}\nfields = {{}}"
+    )
+    .parse()
+    .unwrap();
+    let short = [1_u8, 9, 1, 0, 2, 0, 3, 0, 4, 0];
+    let long = [9_u8, 0, 9, 9, 5, 0, 6, 0, 7, 0, 8, 0];
+    for (packet, force) in [(&short[..], [3.0, 4.0, G]), (&long, [5.0, 6.0, G])] {
+        assert_eq!(relative.decode(packet).unwrap().motion.force(), Vector3::from(force));
+    }
+    let wide = "[[of-lengths]]\nlengths = [12]\nplayer = { at = 0, first = 4096, stride = 4 }\nfields = {}\n";
+    let wide = format!("{head}layout = \"binary\"\n[fields]\nax = {{ at = 0 }}\nay = {{ at = 4 }}\n{wide}");
+    assert!(wide.parse::<Format>().unwrap_err().to_string().contains("`first` and `stride` below 4096"));
     let without = format!("{head}layout = \"csv\"\n[fields]\nax = {{ at = 0, of-player = true }}\nay = {{ at = 1 }}");
     assert!(without.parse::<Format>().unwrap_err().to_string().contains("needs a line `player`"));
 }
@@ -264,6 +280,215 @@ fn codemasters() {
     assert_motion(&sample.motion, [-0.5 * G, -0.25 * G, G], [0.0; 3], [0.0; 3], 8.0);
 }
 
+/// Numbers of 32 bits as a packet has them.
+fn floats(numbers: &[f32]) -> Vec<u8> {
+    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+}
+
+/// A header of F1 with the year, the packet's number, the time and the player's number, field by
+/// field of each specification.
+fn f1_header(year: u16, packet: u8, time: f32, player: u8) -> Vec<u8> {
+    let versions: &[u8] = match year {
+        2018 => &[1],
+        2019..=2022 => &[1, 3, 1],
+        _ => &[23, 1, 3, 1],
+    };
+    let frames = if year < 2023 { 1 } else { 2 };
+    let second_player: &[u8] = if year < 2020 { &[] } else { &[255] };
+    let (year, session) = (year.to_le_bytes(), 7_u64.to_le_bytes());
+    let frame = 600_u32.to_le_bytes().repeat(frames);
+    [&year, versions, &[packet], &session, &time.to_le_bytes(), &frame, &[player], second_player].concat()
+}
+
+/// A motion packet of F1 in which the third car is the player's.
+fn f1_motion(year: u16) -> Vec<u8> {
+    let other = [0xEE; 60].to_vec();
+    let directions = [0_i16, -655, 32760, -32760, -3275, 0].map(i16::to_le_bytes).concat();
+    let car = [
+        floats(&[1.0, 2.0, 3.0]),     // position: left, up, forward
+        floats(&[0.0, 0.0, 8.0]),     // velocity
+        directions,                   // forward, 655/32767 downward; right, down
+        floats(&[0.25, -0.5, 0.125]), // g-forces: lateral, longitudinal, vertical
+        floats(&[0.5, 9.0, 0.125]),   // yaw, pitch (not the car's before 2022), roll
+    ]
+    .concat();
+    let cars = if year < 2020 { 20 } else { 22 };
+    let list: Vec<Vec<u8>> = (0..cars).map(|k| if k == 2 { car.clone() } else { other.clone() }).collect();
+    // Position, velocity, acceleration of the suspension, speed and slip of the wheels; local
+    // velocity; angular velocity; angular acceleration, angle of the wheels.
+    let own = [vec![0; 5 * 16], floats(&[0.0; 3]), floats(&[9.0, 0.375, 9.0]), floats(&[9.0; 4])].concat();
+    let own = if year < 2023 { own } else { Vec::new() };
+    [f1_header(year, 0, 1.5, 2), list.concat(), own].concat()
+}
+
+#[test]
+fn f1() {
+    let pitch = 655.0 / 32767.0_f64;
+    let (roll, yaw) = (0.125_f64, 0.5);
+    // Braking is backward and a left turn leftward; to these gravity's reaction is added, of a nose
+    // that is down and a right side that is down.
+    let force =
+        [-0.5 * G - G * pitch.sin(), 0.25 * G + G * pitch.cos() * roll.sin(), 0.125 * G + G * pitch.cos() * roll.cos()];
+    for (year, length) in
+        [(2018, 1341), (2019, 1343), (2020, 1464), (2021, 1464), (2022, 1464), (2023, 1349), (2024, 1349), (2025, 1349)]
+    {
+        let packet = f1_motion(year);
+        assert_eq!(packet.len(), length, "the size that the specification of {year} states");
+        let sample = decoded("f1", &packet);
+        let place = Some(Vector3::new(3.0, 1.0, 2.0));
+        assert_eq!((sample.time, sample.position, sample.has_angles), (Some(1.5), place, true), "{year}");
+        let rate = if year < 2023 { 0.375 } else { 0.0 };
+        assert_motion(&sample.motion, force, [0.0, 0.0, rate], [roll, pitch, yaw], 8.0);
+    }
+    // Packets of another kind are no samples, and those of another program are told.
+    let laps = [f1_header(2025, 2, 1.5, 2), vec![0; 1256]].concat();
+    assert!(all(&format("f1"), &laps).is_empty());
+    assert!(!format("f1").explain(&laps, 20777).contains("f1 fits"));
+    assert_eq!(format("f1").decode_all(&[1; 1285], |_| ()), Err(Dropped::Length(1285)));
+    // The number of the player may be beyond the list.
+    let mut beyond = f1_motion(2025);
+    beyond[27] = 255;
+    assert!(format("f1").decode(&beyond).is_err());
+}
+
+#[test]
+fn assetto_corsa() {
+    // A handshake and a subscription: device, version, operation.
+    let request = |operation: i32| [1, 1, operation].map(i32::to_le_bytes).concat();
+    assert_eq!(format("assetto-corsa").subscriptions(), [request(0), request(1)]);
+    let names = [0; 100];
+    let reply = [&names[..], &names, &4242_i32.to_le_bytes(), &1_i32.to_le_bytes(), &names, &names].concat();
+    assert!(reply.len() == 408 && all(&format("assetto-corsa"), &reply).is_empty());
+
+    let packet = [
+        b"a\0\0\0".to_vec(),            // identifier, padding
+        328_i32.to_le_bytes().to_vec(), // size
+        floats(&[28.8, 17.9, 8.0]),     // speed in km/h, mph, m/s
+        vec![0; 6 + 2],                 // ABS, traction control, pit, limiter; padding
+        floats(&[0.25, 9.0, -0.5]),     // g-forces: lateral, vertical, frontal
+        vec![0; 4 * 4],                 // laps
+        floats(&[0.0; 5]),              // pedals, engine, steering wheel
+        vec![0; 4],                     // gear
+        floats(&[0.5]),                 // height of the centre of gravity
+        floats(&[9.0; 4]).repeat(14),   // wheels
+        floats(&[0.5, 0.0]),            // place on the lap, slope
+        floats(&[1.0, 2.0, 3.0]),       // coordinates: left, up, forward
+    ]
+    .concat();
+    let sample = decoded("assetto-corsa", &packet);
+    assert_eq!((packet.len(), sample.time, sample.position), (328, None, Some(Vector3::new(3.0, 1.0, 2.0))));
+    assert_motion(&sample.motion, [-0.5 * G, 0.25 * G, G], [0.0; 3], [0.0; 3], 8.0);
+}
+
+#[test]
+fn project_cars_2() {
+    let base = |kind: u8, version: u8| [vec![0; 4 + 4 + 2], vec![kind, version]].concat();
+    let packet = [
+        base(0, 2),
+        vec![9; 1 + 4 + 1],             // participant, pedals, flags
+        vec![9; 5 * 2 + 4],             // oil, water, fuel; pedals
+        floats(&[0.5, 8.0]),            // fuel, speed
+        vec![9; 2 + 2 + 4],             // engine, steering, gear, boost, crash
+        floats(&[100.0]),               // odometer
+        floats(&[9.0; 3]),              // orientation
+        floats(&[9.0; 3]),              // local velocity
+        floats(&[9.0; 3]),              // world velocity
+        floats(&[9.0, 0.375, 9.0]),     // angular velocity: left turns in the middle
+        floats(&[2.0, 0.5, 4.0]),       // local acceleration: left, up, backward
+        floats(&[9.0; 6]),              // world acceleration, extents
+        vec![9; 4 + 4],                 // flags, terrain
+        floats(&[9.0; 8]),              // tyres
+        vec![9; 4],                     // temperature
+        floats(&[9.0; 4]),              // height above the ground
+        vec![9; 3 * 4],                 // wear, damage
+        vec![9; 9 * 8],                 // temperatures
+        floats(&[9.0; 16]),             // wheels, ride, suspension
+        vec![9; 8 + 8],                 // ride, pressure
+        floats(&[9.0; 2]),              // engine
+        vec![9; 2 + 1 + 1 + 1 + 4 + 1], // wings, brake, damage, joypad
+        vec![0; 4 * 40],                // compounds
+        floats(&[9.0; 4]),              // boost, position
+        vec![9; 1 + 4],                 // bias, ticks
+    ]
+    .concat();
+    let sample = decoded("project-cars-2", &packet);
+    assert_eq!((packet.len(), sample.time, sample.position), (559, None, None));
+    assert_motion(&sample.motion, [-4.0, 2.0, G + 0.5], [0.0, 0.0, 0.375], [0.0; 3], 8.0);
+    let timings = [base(3, 3), vec![0; 1051]].concat();
+    assert!(all(&format("project-cars-2"), &timings).is_empty());
+    assert!(format("project-cars-2").decode_all(&vec![0; 1063], |_| ()).is_err());
+}
+
+#[test]
+fn rfactor() {
+    let packet = [
+        vec![0; 4 + 4 + 4 + 64 + 64],   // time, lap; names
+        floats(&[1.0, 2.0, -3.0]),      // position: left, up, backward
+        floats(&[0.0, 0.0, -8.0]),      // local velocity
+        floats(&[2.0, 0.5, 4.0]),       // local acceleration
+        floats(&[9.0; 3]),              // orientation: rows of world X,
+        floats(&[0.0, 1.0, 0.0]),       // world Y,
+        floats(&[9.0; 3]),              // world Z
+        floats(&[0.125, -0.375, 0.25]), // rotation: nose up, to the right, right side down
+        vec![0; 780 - 140 - 7 * 12],
+    ]
+    .concat();
+    let sample = decoded("rfactor", &packet);
+    assert_eq!((packet.len(), sample.position), (780, Some(Vector3::new(3.0, 1.0, 2.0))));
+    assert_motion(&sample.motion, [-4.0, 2.0, G + 0.5], [0.25, -0.125, 0.375], [0.0; 3], 8.0);
+    // Nose down by 30 degrees, the car's Z, which is backward, points up by its sine; right side down
+    // by 0.25, its X, which is left, points up.
+    for (row, angles) in [([0.0, 0.75_f32.sqrt(), 0.5], [0.0, 0.5]), ([0.25, 0.97, 0.0], [0.25, 0.0])] {
+        let mut turned = packet.clone();
+        turned[188..200].copy_from_slice(&floats(&row));
+        let found = decoded("rfactor", &turned).motion.angles();
+        assert_eq!([found.roll, found.pitch], angles);
+    }
+}
+
+#[test]
+fn iracing() {
+    let packet = br#"{"meta":{"timestamp":"2026-02-20T21:46:10Z","game":"iRacing","tick":90},
+        "motion":{"acceleration":{"x":2.0,"y":9.5,"z":-4.0},"g_force":{"x":0.2,"y":0.97,"z":-0.4},"position":null,
+        "rotation":{"x":9.0,"y":9.0,"z":9.0},"pitch_rate":9.0,"yaw_rate":22.5,"roll_rate":9.0},
+        "vehicle":{"speed":8.0,"on_track":true},"session":{"session_time":1.5}}"#;
+    let sample = decoded("iracing", packet);
+    assert_eq!((sample.time, sample.paused, sample.has_angles), (Some(1.5), false, false));
+    assert_motion(&sample.motion, [-4.0, 2.0, 9.5], [0.0, 0.0, 22.5_f64.to_radians()], [0.0; 3], 8.0);
+    let text = String::from_utf8(packet.to_vec()).unwrap();
+    assert!(decoded("iracing", text.replace("true", "false").as_bytes()).paused);
+    assert!(format("iracing").decode(text.replace("\"acceleration\":{", "\"other\":{").as_bytes()).is_err());
+}
+
+#[test]
+fn piboso() {
+    let packet = |state: i32| {
+        [
+            b"data\0".to_vec(),
+            state.to_le_bytes().to_vec(),
+            1500_i32.to_le_bytes().to_vec(),
+            vec![0; 4 + 4 + 4 + 4 + 4],    // engine, temperatures, gear, fuel
+            floats(&[9.0]),                // speedometer
+            floats(&[-1.0, 2.0, 3.0]),     // position: east, up, north
+            floats(&[0.0, 0.0, 8.0]),      // velocity
+            floats(&[-0.25, 1.5, -0.5]),   // acceleration: right, up, forward, in 9.81 m/s2
+            floats(&[9.0; 9]),             // rotation matrix
+            floats(&[-90.0, 5.0, 30.0]),   // yaw clockwise, pitch nose down, roll to the left
+            floats(&[-22.5, 11.25, 45.0]), // their velocities
+            vec![9; 60],                   // what follows is different in each game
+        ]
+        .concat()
+    };
+    let sample = decoded("piboso", &packet(2));
+    let position = Some(Vector3::new(3.0, 1.0, 2.0));
+    assert_eq!((sample.time, sample.position, sample.paused), (Some(1.5), position, false));
+    let rates = [-45_f64, 11.25, 22.5].map(f64::to_radians);
+    let angles = [-30_f64, 5.0, 90.0].map(f64::to_radians);
+    assert_motion(&sample.motion, [-0.5 * 9.81, 0.25 * 9.81, 1.5 * 9.81], rates, angles, 8.0);
+    assert!(decoded("piboso", &packet(0)).paused);
+    assert!(format("piboso").decode(&[&b"evnt\0"[..], &packet(2)[5..]].concat()).is_err());
+}
+
 #[test]
 fn x_plane() {
     let requests = format("x-plane").subscriptions();
@@ -312,6 +537,7 @@ fn tables_that_make_no_sense_are_refused() {
         ("gravity = \"included\"", "", "missing field"),
         ("name = ", "Name = ", "unknown field"),
         ("gravity = \"included\"\n", "gravity = \"included\"\nforce-axes = \"world\"\n", ""),
+        ("layout = \"binary\"", "layout = \"pairs\"\nothers = { at = 0, values = [1] }", "for the layout binary"),
     ] {
         let text = table.replacen(from, to, 1);
         assert_ne!(text, table);

@@ -134,7 +134,7 @@ fn what_cannot_be_used_is_said() {
         (output.status.success(), String::from_utf8([output.stdout, output.stderr].concat()).unwrap())
     };
     for (arguments, text) in [
-        (&["formats"][..], "motionsim    BeamNG.drive"),
+        (&["formats"][..], "motionsim      BeamNG.drive"),
         (&["formats", "forza"], "[fields]"),
         (&["frames", "bff"], "leg1:hi"),
     ] {

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::line::Line;
 use super::{
-    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Player, QUANTITY_COUNT,
+    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, Others, Player, QUANTITY_COUNT,
     QUATERNION_QUANTITIES, Quantity, SHIPPED_FORMATS, Unit,
 };
 use crate::motion::{Motion, Sample};
@@ -21,9 +21,9 @@ pub enum Dropped {
     /// The packet's first bytes are not the format's.
     #[error("a packet with another head")]
     Head,
-    /// The packet has titles alone.
-    #[error("a packet of titles without numbers")]
-    Titles,
+    /// The packet has titles alone, or is another one of the program's.
+    #[error("a packet without a sample")]
+    NoSample,
     /// The packet lacks the player's number.
     #[error("a packet without the player's number")]
     Player,
@@ -48,7 +48,7 @@ impl Format {
     pub fn decode(&self, packet: &[u8]) -> Result<Sample, Dropped> {
         let mut first = None;
         self.decode_all(packet, |sample| first = first.or(Some(sample)))?;
-        first.ok_or(Dropped::Titles)
+        first.ok_or(Dropped::NoSample)
     }
 
     /// Gives the samples in a packet in their order: lines of text, objects in lines, and packets
@@ -59,7 +59,10 @@ impl Format {
     pub fn decode_all(&self, packet: &[u8], mut sample: impl FnMut(Sample)) -> Result<(), Dropped> {
         match self.layout {
             Layout::Binary | Layout::Pairs => {
-                let part = self.part_length(packet.len()).ok_or(Dropped::Length(packet.len()))?;
+                let Some(part) = self.part_length(packet.len()) else {
+                    let is_known = self.others.as_ref().is_some_and(|others| self.is_other(others, packet));
+                    return if is_known { Ok(()) } else { Err(Dropped::Length(packet.len())) };
+                };
                 for part in packet.chunks(part.max(1)) {
                     let body = part.strip_prefix(self.head.as_bytes()).ok_or(Dropped::Head)?;
                     let is_binary = self.layout == Layout::Binary;
@@ -109,6 +112,12 @@ impl Format {
         parts.next().filter(|_| parts.next().is_none())
     }
 
+    /// True for a packet with the mark of the program's other packets.
+    fn is_other(&self, others: &Others, packet: &[u8]) -> bool {
+        let found = number(packet, others.at, others.kind, self.byte_order);
+        others.values.iter().any(|value| found == Some(f64::from(*value)))
+    }
+
     /// A packet of text, behind its head.
     fn text<'a>(&self, packet: &'a [u8]) -> Result<&'a str, Dropped> {
         if !self.lengths.is_empty() && !self.lengths.contains(&packet.len()) {
@@ -120,11 +129,11 @@ impl Format {
 
     fn sample_of(&self, record: &Record, length: usize) -> Result<Sample, Dropped> {
         let mut values = [None; QUANTITY_COUNT];
-        let player = match &self.player {
-            Some(player) => Some(self.player_of(player, record).ok_or(Dropped::Player)?),
+        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&length));
+        let player = match further.clone().find_map(|of| of.player.as_ref()).or(self.player.as_ref()) {
+            Some(player) => Some((player, self.player_of(player, record).ok_or(Dropped::Player)?)),
             None => None,
         };
-        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&length));
         for (quantity, field) in self.fields.iter().chain(further.flat_map(|of| &of.fields)) {
             // Without these a packet of text says nothing.
             let is_needed = matches!(quantity, Quantity::Ax | Quantity::Ay);
@@ -151,11 +160,9 @@ impl Format {
         found.filter(|number| (0.0..MAX_PLAYERS).contains(number)).map(|number| number as usize)
     }
 
-    fn read(&self, record: &Record, quantity: Quantity, field: &Field, player: Option<usize>) -> Option<f64> {
-        let further = match (player, &self.player) {
-            (Some(number), Some(player)) if field.of_player => number * player.stride,
-            _ => 0,
-        };
+    fn read(&self, record: &Record, quantity: Quantity, field: &Field, of: Option<(&Player, usize)>) -> Option<f64> {
+        let of = of.filter(|_| field.of_player);
+        let further = of.map_or(0, |(player, number)| player.first + number * player.stride);
         match (&field.at, record) {
             (FieldAddress::Index(at), Record::Binary(bytes)) => {
                 number(bytes, at + further, field.kind, self.byte_order)
@@ -166,8 +173,8 @@ impl Format {
                 line.value(quantity.word()).or_else(|| field.keys.iter().find_map(|key| line.value(key)))
             }
             (FieldAddress::Key(key), Record::Line(line)) => line.value(key),
-            (FieldAddress::Key(key), Record::Json(object)) => match player.filter(|_| field.of_player) {
-                Some(number) => value(at_path(object, &key.replace("{player}", &number.to_string()))?),
+            (FieldAddress::Key(key), Record::Json(object)) => match of {
+                Some((_, number)) => value(at_path(object, &key.replace("{player}", &number.to_string()))?),
                 None => value(at_path(object, key)?),
             },
             _ => None,

@@ -69,6 +69,8 @@ pub struct Format {
     pub rate_axes: Axes,
     /// The player's place in a list of vehicles.
     pub player: Option<Player>,
+    /// Mark of the program's other packets, which are skipped without a word.
+    pub others: Option<Others>,
     /// Subscription that the program must receive first.
     pub subscribe: Option<Subscribe>,
     /// The fields.
@@ -84,8 +86,24 @@ pub struct Format {
 pub struct OfLengths {
     /// The lengths \[bytes\].
     pub lengths: Vec<usize>,
+    /// The player's place, if it is another one.
+    pub player: Option<Player>,
     /// The fields.
     pub fields: BTreeMap<Quantity, Field>,
+}
+
+/// Numbers that mark packets of other lengths as the program's own: a game sends its lap times to
+/// the same port.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Others {
+    /// Offset of the number \[bytes\].
+    pub at: usize,
+    /// Type of the number.
+    #[serde(rename = "type", default = "byte")]
+    pub kind: Number,
+    /// Values that it may have.
+    pub values: Vec<u32>,
 }
 
 /// Layout of a packet.
@@ -112,6 +130,9 @@ pub struct Player {
     /// Type of a binary number.
     #[serde(rename = "type", default = "byte")]
     pub kind: Number,
+    /// Offset or column of the first vehicle, from which the places of its fields count.
+    #[serde(default)]
+    pub first: usize,
     /// Bytes or columns from a vehicle to the next one.
     #[serde(default)]
     pub stride: usize,
@@ -164,14 +185,19 @@ pub enum Axes {
     World,
 }
 
-/// Request by which a program is asked for values, as X-Plane's RREF.
+/// Request by which a program is asked for values: packets of bytes, or X-Plane's RREF for each
+/// field with a dataref.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Subscribe {
     /// Port to which it is sent.
     pub port: u16,
-    /// Values a second.
+    /// Values a second, of X-Plane.
+    #[serde(default)]
     pub rate: i32,
+    /// Packets that are sent as they are.
+    #[serde(default)]
+    pub packets: Vec<Vec<u8>>,
 }
 
 /// A field of a packet.
@@ -306,10 +332,15 @@ impl FromStr for Format {
         if QUATERNION_QUANTITIES.into_iter().any(has) && !QUATERNION_QUANTITIES.into_iter().all(has) {
             return Err(FormatError::Whole("a quaternion needs qw, qx, qy and qz"));
         }
-        if let Some(Player { at: FieldAddress::Index(at), stride, .. }) = &format.player
-            && (*at >= MAX_FIELDS || !(1..MAX_FIELDS).contains(stride) || format.layout == Layout::Json)
-        {
-            return Err(FormatError::Whole("player needs `at` and `stride` below 4096; in JSON `at` is a key"));
+        for player in format.of_lengths.iter().filter_map(|of| of.player.as_ref()).chain(&format.player) {
+            let Player { at: FieldAddress::Index(at), first, stride, .. } = player else { continue };
+            if (*at).max(*first) >= MAX_FIELDS || !(1..MAX_FIELDS).contains(stride) || format.layout == Layout::Json {
+                let reason = "player needs `at`, `first` and `stride` below 4096; in JSON `at` is a key";
+                return Err(FormatError::Whole(reason));
+            }
+        }
+        if format.others.is_some() && format.layout != Layout::Binary {
+            return Err(FormatError::Whole("`others` is for the layout binary"));
         }
         let turned = format.force_axes == Axes::World || format.rate_axes == Axes::World;
         let angles = [Quantity::Roll, Quantity::Pitch, Quantity::Yaw];
@@ -321,7 +352,7 @@ impl FromStr for Format {
 }
 
 /// The shipped tables, each with its name and text.
-pub const SHIPPED_FORMATS: [(&str, &str); 8] = [
+pub const SHIPPED_FORMATS: [(&str, &str); 14] = [
     ("json", include_str!("tables/json.toml")),
     ("csv", include_str!("tables/csv.toml")),
     ("packed", include_str!("tables/packed.toml")),
@@ -329,6 +360,12 @@ pub const SHIPPED_FORMATS: [(&str, &str); 8] = [
     ("motionsim", include_str!("tables/motionsim.toml")),
     ("forza", include_str!("tables/forza.toml")),
     ("codemasters", include_str!("tables/codemasters.toml")),
+    ("f1", include_str!("tables/f1.toml")),
+    ("assetto-corsa", include_str!("tables/assetto-corsa.toml")),
+    ("project-cars-2", include_str!("tables/project-cars-2.toml")),
+    ("rfactor", include_str!("tables/rfactor.toml")),
+    ("iracing", include_str!("tables/iracing.toml")),
+    ("piboso", include_str!("tables/piboso.toml")),
     ("x-plane", include_str!("tables/x-plane.toml")),
 ];
 
@@ -358,6 +395,6 @@ impl Format {
             packet.resize(413, 0);
             Some(packet)
         };
-        self.fields.values().filter_map(request).collect()
+        subscribe.packets.iter().cloned().chain(self.fields.values().filter_map(request)).collect()
     }
 }
