@@ -271,13 +271,13 @@ fn forza() {
 fn codemasters() {
     let mut packet = vec![0; 264];
     packet[0..4].copy_from_slice(&hex("00 00 20 41")); // 10 s
-    packet[16..28].copy_from_slice(&hex("00 00 80 3F  00 00 00 40  00 00 40 40")); // 1, 2 above, 3
+    packet[16..28].copy_from_slice(&hex("00 00 80 3F  00 00 00 40  00 00 40 40")); // left, up, forward
     packet[28..32].copy_from_slice(&hex("00 00 00 41")); // 8 m/s
     packet[136..140].copy_from_slice(&hex("00 00 80 3E")); // lateral 0.25 g
     packet[140..144].copy_from_slice(&hex("00 00 00 BF")); // longitudinal -0.5 g
     let sample = decoded("codemasters", &packet);
-    assert_eq!((sample.time, sample.position), (Some(10.0), Some(Vector3::new(1.0, 3.0, 2.0))));
-    assert_motion(&sample.motion, [-0.5 * G, -0.25 * G, G], [0.0; 3], [0.0; 3], 8.0);
+    assert_eq!((sample.time, sample.position), (Some(10.0), Some(Vector3::new(3.0, 1.0, 2.0))));
+    assert_motion(&sample.motion, [-0.5 * G, 0.25 * G, G], [0.0; 3], [0.0; 3], 8.0);
 }
 
 /// Numbers of 32 bits as a packet has them.
