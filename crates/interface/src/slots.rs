@@ -47,6 +47,11 @@ pub fn slot_of(rows: &'static [Row], name: &str) -> Option<(usize, &'static Row)
     rows.iter().find_map(|row| {
         let begin = first;
         first += row.slots();
+        // Names of elements are made one by one: only where they can be the one.
+        let stem = row.name.split_once(['#', '@']).map_or(row.name, |(stem, _)| stem);
+        if !name.starts_with(stem) {
+            return None;
+        }
         let element = (0..row.slots()).find(|&element| row.variable_name(element) == name)?;
         Some((begin + element, row))
     })
