@@ -2,8 +2,8 @@
 //!
 //! Words after the number of steps choose what is stepped:
 //!
-//! - `classical`, `adaptive`, `optimal`, `robust`, `paper`: the parameters of that name in the place
-//!   of the default.
+//! - `classical`, `adaptive`, `optimal`, `robust`, `paper`: the parameters of that name in the
+//!   place of the default.
 //! - `brisk`: a ride with stops, bends and vibration in the place of a smooth one.
 //! - `jumps`: inputs that jump, on slow actuators, so that the actuator guard limits the motion.
 //! - `cranks`: a simulator with cranks that carries a person, in the place of the default rig.

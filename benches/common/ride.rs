@@ -21,8 +21,8 @@ pub fn smooth() -> Vec<Input> {
         .collect()
 }
 
-/// Starts, stops and bends of two minutes that never repeat, with an engine's and a road's vibration,
-/// in steps of 1 ms.
+/// Starts, stops and bends of two minutes that never repeat, with an engine's and a road's
+/// vibration, in steps of 1 ms.
 pub fn brisk() -> Vec<Input> {
     let waves = |t: f64, waves: &[(f64, f64)]| -> f64 { waves.iter().map(|(a, f)| a * (TAU * f * t).sin()).sum() };
     (0..120_000)
