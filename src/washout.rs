@@ -167,7 +167,7 @@ impl Washout {
             input_filter: InputFilter::default(),
             preaction: StopPreaction::new(structure.max_step),
             strategy,
-            angular: AngularChannel::new(angular, structure.angular_order),
+            angular: AngularChannel::new(angular, structure.angular_order, structure.max_step),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
             soft_limits,
             resting: 0.0,

@@ -23,7 +23,7 @@ pub struct DirectLinearMotion {
 impl DirectLinearMotion {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(parameters: &SplitterParameters, order: i32, longest_step: f64) -> Self {
-        let chains = FadedChains::new(high_pass_denominators(parameters, order), 2);
+        let chains = FadedChains::new(high_pass_denominators(parameters, order), 2, longest_step);
         DirectLinearMotion { chains, offset: GlidingOffset::default(), safety: SafetyUnits::new(longest_step) }
     }
 

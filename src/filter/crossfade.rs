@@ -33,9 +33,10 @@ pub struct FadedChains {
 const FADE_TIME: f64 = 1.8;
 
 impl FadedChains {
-    /// Chains at rest, of which the first `kept` states make up the motion.
-    pub fn new(denominators: [Denominator; 3], kept: usize) -> Self {
-        let chains = Chains::new(denominators);
+    /// Chains at rest, of which the first `kept` states make up the motion, ready for steps of
+    /// `usual_step` seconds.
+    pub fn new(denominators: [Denominator; 3], kept: usize, usual_step: f64) -> Self {
+        let chains = Chains::new(denominators, usual_step);
         FadedChains {
             chains,
             before: chains,

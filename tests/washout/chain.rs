@@ -203,7 +203,7 @@ fn other_coefficients_leave_the_motion_and_what_is_washed_out() {
     let denominators = |[w1, z1, w2, z2]: [f64; 4]| [Denominator::new(4, w1, z1, w2, z2); 3];
     let input = Vector3::new(1.0, -2.0, 0.5);
     for moving in [0.7, 60.0] {
-        let mut chains = Chains::new(denominators(before));
+        let mut chains = Chains::new(denominators(before), 0.01);
         for _ in 0..(moving / 0.01) as usize {
             chains.advance(input, input, 0.01);
         }
@@ -218,7 +218,7 @@ fn other_coefficients_leave_the_motion_and_what_is_washed_out() {
         assert!(error.amax() < 1e-12, "after {moving} s: {error}");
     }
     // After a minute nothing of the held input is left, and nothing comes back.
-    let mut chains = Chains::new(denominators(before));
+    let mut chains = Chains::new(denominators(before), 0.01);
     for k in 0..12_000 {
         if k == 6000 {
             chains.retune(denominators(after), 2);

@@ -21,7 +21,7 @@ impl Classical {
     pub fn new(parameters: &Parameters) -> Self {
         let Parameters { splitter, structure, .. } = parameters;
         Classical {
-            low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass),
+            low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass, structure.max_step),
             gravitational: GravitationalStrategy::default(),
         }
     }

@@ -13,11 +13,8 @@ const MIDDLE: usize = 1;
 
 impl Chain {
     pub fn new(denominator: Denominator) -> Self {
-        Chain(Chains::new([
-            Denominator::new(4, 3.0, 0.9, 0.7, 1.2),
-            denominator,
-            Denominator::new(2, 5.0, 0.4, 1.0, 1.0),
-        ]))
+        let neighbours = [Denominator::new(4, 3.0, 0.9, 0.7, 1.2), Denominator::new(2, 5.0, 0.4, 1.0, 1.0)];
+        Chain(Chains::new([neighbours[0], denominator, neighbours[1]], 0.001))
     }
 
     pub fn advance(&mut self, start: f64, end: f64, step: f64) {
