@@ -1,6 +1,7 @@
 //! The actuators' lengths along a plan, linearized about the plan before.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use super::horizon::{BLOCKS, Horizon};
 use super::program::Nodes;
@@ -35,7 +36,7 @@ pub struct Surroundings<'a> {
 }
 
 /// A leg's length near a pose, and how it changes with position and tilt of surge and sway.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LegRow {
     /// The length less what the nominal positions and tilts contribute by the slopes \[m\].
     pub offset: f64,
@@ -43,6 +44,22 @@ pub struct LegRow {
     pub by_position: [f64; 2],
     /// By tilt, of surge and sway \[m/rad\].
     pub by_tilt: [f64; 2],
+}
+
+impl LegRow {
+    /// The length less its offset, at these positions and tilts of surge and sway.
+    #[inline(always)]
+    pub fn change(&self, position: [f64; 2], tilt: [f64; 2]) -> f64 {
+        let LegRow { by_position, by_tilt, .. } = self;
+        (by_position[0] * position[0] + by_tilt[0] * tilt[0]) + (by_position[1] * position[1] + by_tilt[1] * tilt[1])
+    }
+
+    /// The length in another unit.
+    pub fn scaled(&self, scale: f64) -> Self {
+        let LegRow { offset, by_position, by_tilt } = *self;
+        let [by_position, by_tilt] = [by_position, by_tilt].map(|pair| pair.map(|value| scale * value));
+        LegRow { offset: scale * offset, by_position, by_tilt }
+    }
 }
 
 /// Frequency at which heave returns to neutral, relative to its high-pass's break frequency: it

@@ -25,13 +25,15 @@ use alloc::boxed::Box;
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use self::dual_active_set::{DualActiveSet, Rows, Status};
+use self::dual_active_set::{DualActiveSet, Status};
 use self::forecast::{Forecaster, Memory, Tables};
 use self::homing::Homing;
 use self::horizon::{BLOCKS, Horizon, SAMPLE, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::PreviewedCue;
-use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
+use self::program::{
+    AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, RAMP, ROWS,
+};
 use super::law::{AxisState, Decision, Jump, Law, PlanStatus, Previewed, Situation, Unsolvable};
 use super::regulator::{AxisModel, Weights};
 use crate::filter::bumpless::GlidingOffset;
@@ -70,7 +72,7 @@ pub struct Predictive {
     forecasters: [Box<Forecaster>; 2],
     until_sample: f64,
     programs: Programs,
-    rows: Box<Rows<CONTROLS, ROWS>>,
+    limits: Box<PlanLimits>,
     solver: Box<DualActiveSet<CONTROLS, ROWS>>,
     /// True: a new plan is due.
     due: bool,
@@ -202,7 +204,7 @@ impl Predictive {
             forecasters: [0, 1].map(|_| Box::new(Forecaster::new(&tables))),
             tables,
             until_sample: SAMPLE,
-            rows: Box::new(program::rows(&programs.near)),
+            limits: Box::default(),
             programs,
             solver: Box::new(DualActiveSet::new()),
             due: true,
@@ -247,7 +249,6 @@ impl Predictive {
             // Weights on the way may be unusable where both ends are not: the next ones follow.
             let _ = self.programs.retune(&self.models, &weights);
         }
-        program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
         self.until_followed = FOLLOW_TIME;
     }
 
@@ -293,7 +294,6 @@ impl Predictive {
             self.glide.advance(step);
             if self.glide.is_over() {
                 let _ = self.programs.retune(&self.models, &self.tuning.weights);
-                program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
                 self.solver.abandon();
             }
         }
@@ -305,6 +305,7 @@ impl Predictive {
     pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], rates: &Vector3<f64>, step: f64) {
         for (forecaster, beside) in self.forecasters.iter_mut().zip(beside) {
             forecaster.set_angular(beside, rates);
+            forecaster.learn_next(&self.tables);
         }
         let mut left = step;
         loop {
@@ -334,10 +335,7 @@ impl Predictive {
         let preview = self.preview_length();
         let far = preview > LONG_PREVIEW || time_to_stop.is_finite();
         let horizon = if far { Horizon::Far } else { Horizon::Near };
-        if horizon != self.horizon {
-            self.horizon = horizon;
-            program::set_axis_normals(&mut self.rows, self.programs.over(horizon));
-        }
+        self.horizon = horizon;
         let program = self.programs.over(horizon);
         let mut gradient = SVector::<f64, CONTROLS>::zeros();
         for (k, axis) in program.axes.iter().enumerate() {
@@ -353,8 +351,8 @@ impl Predictive {
             gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
             let free = axis.rows(&self.free[k], &AxisControls::zeros());
             let bounds = axis.bounds(&states[k]);
-            self.rows.lower.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(-bounds - free));
-            self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(bounds - free));
+            self.limits.lower.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(-bounds - free));
+            self.limits.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(bounds - free));
         }
         self.limit_legs(surroundings);
         self.solver.start(&self.programs.over(horizon).factor, &gradient);
@@ -370,7 +368,6 @@ impl Predictive {
         let planned = surroundings.planned_stroke();
         let scale = 2.0 / (planned[1] - planned[0]);
         let ends = self.horizon.ends();
-        let program = self.programs.over(self.horizon);
         // After a change of horizon the plan's nodes are at other times: the rows are less exact for once.
         for (node, legs) in leg_rows(surroundings, &self.plan.nodes, self.horizon).iter().enumerate() {
             let part = reserved(ends[node]);
@@ -379,20 +376,13 @@ impl Predictive {
                 stroke + part * (planned[end] - stroke)
             });
             let states = self.free.each_ref().map(|axis| axis.at(node));
-            let responses = program.axes.each_ref().map(|axis| axis.responses(node));
             for (leg, row) in legs.iter().enumerate() {
-                let mut free = row.offset;
+                let row = row.scaled(scale);
+                let free = row.offset + row.change(states.map(|axis| axis.position), states.map(|axis| axis.tilt));
                 let number = 2 * AXIS_ROWS + 6 * node + leg;
-                let Some(normal) = self.rows.normals.get_mut(number) else { continue };
-                for (axis, [to_position, to_tilt]) in responses.iter().enumerate() {
-                    let (by_position, by_tilt) = (row.by_position[axis], row.by_tilt[axis]);
-                    let AxisState { position, tilt, .. } = states[axis];
-                    free += by_position * position + by_tilt * tilt;
-                    let controls = by_position * to_position + by_tilt * to_tilt;
-                    normal.fixed_rows_mut::<AXIS_CONTROLS>(axis * AXIS_CONTROLS).copy_from(&(scale * controls));
-                }
-                self.rows.lower[number] = scale * (min - free);
-                self.rows.upper[number] = scale * (max - free);
+                self.limits.lower[number] = scale * min - free;
+                self.limits.upper[number] = scale * max - free;
+                self.limits.legs[node][leg] = row;
             }
         }
     }
@@ -403,7 +393,8 @@ impl Predictive {
             return;
         }
         let pace = (ITERATIONS_PER_STEP * step / PACE).clamp(ITERATIONS_PER_STEP, f64::from(MAX_ITERATIONS));
-        match self.solver.advance(&self.rows, pace as u32) {
+        let rows = PlanRows { program: self.programs.over(self.horizon), limits: &self.limits };
+        match self.solver.advance(&rows, pace as u32) {
             Status::Running if self.solver.iterations() < MAX_ITERATIONS => {}
             Status::Solved => self.commit(),
             Status::Running | Status::Failed => {

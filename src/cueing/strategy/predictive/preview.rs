@@ -87,7 +87,10 @@ impl PreviewedCues {
     /// Takes a new course. One without values, or with another step, removes those before.
     pub fn give(&mut self, course: &PreviewedCue) {
         if course.step != self.latest.step || course.count == 0 {
-            *self = PreviewedCues::default();
+            // Most hosts give none, each step.
+            if self.latest.count > 0 {
+                *self = PreviewedCues::default();
+            }
         } else if self.latest.begun && self.is_apart() {
             let next = usize::from(self.next) % REMEMBERED;
             self.before[next] = self.latest;
@@ -145,26 +148,30 @@ pub struct Ahead {
     count: usize,
 }
 
+impl Default for Ahead {
+    fn default() -> Self {
+        Ahead { times: [0.0; CORNERS], values: [0.0; CORNERS], count: 1 }
+    }
+}
+
 impl Ahead {
-    /// The course from now on. The angular channel is the part `beside` of the effective reference
-    /// \[m/s2\]. None if the course is over.
+    /// Sets the course from now on. The angular channel is the part `beside` of the effective
+    /// reference \[m/s2\]. False if the course is over.
     ///
     /// Now the reference is on the line from `low`, what it was about `lag` seconds ago without its
     /// vibration, to the course's next value.
-    pub fn new(courses: &PreviewedCues, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
-        let mut points = courses.points().peekable();
-        // Most steps have no preview: they need no room for it.
-        points.peek()?;
-        let mut ahead = Ahead { times: [0.0; CORNERS], values: [0.0; CORNERS], count: 1 };
-        for (time, value) in points {
-            if time > ahead.times[ahead.count - 1] + INSTANT {
-                ahead.times[ahead.count] = time;
-                ahead.values[ahead.count] = value + beside * libm::exp(-time / BESIDE_TIME);
-                ahead.count += 1;
+    pub fn set(&mut self, courses: &PreviewedCues, (lag, low): (f64, f64), beside: f64) -> bool {
+        (self.times[0], self.count) = (0.0, 1);
+        for (time, value) in courses.points() {
+            if time > self.times[self.count - 1] + INSTANT {
+                let fading = if beside == 0.0 { 0.0 } else { beside * libm::exp(-time / BESIDE_TIME) };
+                self.times[self.count] = time;
+                self.values[self.count] = value + fading;
+                self.count += 1;
             }
         }
-        ahead.values[0] = low + (ahead.values[1] - low) * lag / (lag + ahead.times[1]);
-        (ahead.count > 1).then_some(ahead)
+        self.values[0] = low + (self.values[1] - low) * lag / (lag + self.times[1]);
+        self.count > 1
     }
 
     /// Time from now to the end \[s\].
@@ -208,8 +215,8 @@ impl Ahead {
 
 /// A reference as previewed, and from the preview's end on as forecast there.
 #[derive(Clone, Copy, Debug)]
-pub struct Previewed {
-    pub ahead: Ahead,
+pub struct Previewed<'a> {
+    pub ahead: &'a Ahead,
     /// The forecast as of the preview's end.
     pub after: Forecast,
     /// The slow part of the reference now \[m/s2\], and its time constant \[s\].
@@ -217,14 +224,18 @@ pub struct Previewed {
     pub slow_time: f64,
 }
 
-impl Previewed {
+impl Previewed<'_> {
     /// The reference's means over the blocks of a horizon, and its slow and its
     /// fast part at the end.
     pub fn over(&self, horizon: Horizon) -> Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let length = self.ahead.length();
         let integral = |time: f64| self.ahead.integral(time) + self.after.integral((time - length).max(0.0));
-        let means = SVector::from_fn(|k, _| (integral(ends[k]) - integral(ends[k] - durations[k])) / durations[k]);
+        let mut before = 0.0;
+        let means = SVector::from_fn(|k, _| {
+            let to_end = integral(ends[k]);
+            (to_end - core::mem::replace(&mut before, to_end)) / durations[k]
+        });
         Forecast { means, end: self.parts(ends[BLOCKS - 1]) }
     }
 
@@ -258,6 +269,11 @@ mod tests {
 
     use super::*;
 
+    fn ahead(courses: &PreviewedCues, past: (f64, f64), beside: f64) -> Option<Ahead> {
+        let mut ahead = Ahead::default();
+        ahead.set(courses, past, beside).then_some(ahead)
+    }
+
     /// One and a half seconds of a course that was given 0.1 s ago.
     fn course() -> PreviewedCue {
         let mut values = [0.0; PREVIEW_SAMPLES];
@@ -289,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_course_is_linear_between_its_values_and_starts_from_the_present_one() {
-        let ahead = Ahead::new(&alone(course()), (0.0, 0.5), 0.0).unwrap();
+        let ahead = ahead(&alone(course()), (0.0, 0.5), 0.0).unwrap();
         assert!((ahead.length() - 1.5).abs() < 1e-12 && ahead.last() == -2.0);
         let (mut integral, mut low) = (0.0, 0.2);
         let step = 1e-5;
@@ -309,16 +325,16 @@ mod tests {
 
     #[test]
     fn a_course_that_is_over_is_none() {
-        assert!(Ahead::new(&alone(PreviewedCue { age: 1.6, ..course() }), (0.0, 0.5), 0.0).is_none());
-        assert!(Ahead::new(&PreviewedCues::default(), (0.0, 0.5), 0.0).is_none());
+        assert!(ahead(&alone(PreviewedCue { age: 1.6, ..course() }), (0.0, 0.5), 0.0).is_none());
+        assert!(ahead(&PreviewedCues::default(), (0.0, 0.5), 0.0).is_none());
         assert_eq!(PreviewedCue { age: 1.7, ..course() }.length(), 0.0);
     }
 
     #[test]
     fn blocks_hold_the_preview_s_integral_and_then_the_forecast_s() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
-        let ahead = Ahead::new(&alone(course()), (0.0, 0.5), 0.0).unwrap();
-        let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
+        let ahead = ahead(&alone(course()), (0.0, 0.5), 0.0).unwrap();
+        let previewed = Previewed { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
         for horizon in [Horizon::Near, Horizon::Far] {
             let forecast = previewed.over(horizon);
             let total = forecast.means.dot(&SVector::from(horizon.durations()));
@@ -339,9 +355,9 @@ mod tests {
     fn between_the_preview_s_end_and_the_forecast_s_the_low_pass_follows_the_forecast() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
         for count in [4, 8] {
-            let ahead = Ahead::new(&alone(PreviewedCue { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
+            let ahead = ahead(&alone(PreviewedCue { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
             let length = ahead.length();
-            let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
+            let previewed = Previewed { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
             let mut low = ahead.low_pass(0.2, 0.6, length);
             let (ends, step) = (Horizon::Near.ends(), 1e-4);
             for k in 0..29_000 {
@@ -406,7 +422,7 @@ mod tests {
     #[test]
     fn previews_given_often_together_tell_the_means_of_a_vibrating_force() {
         for period in [0.001, 0.005, 0.02] {
-            let ahead = Ahead::new(&given(period, 1.0), (0.0, vibrating(1.0)), 0.0).unwrap();
+            let ahead = ahead(&given(period, 1.0), (0.0, vibrating(1.0)), 0.0).unwrap();
             assert!((ahead.length() - 1.6).abs() < 1e-9);
             for (from, to) in [(0.0, 0.2), (0.1, 0.4), (0.5, 1.4), (1.0, 1.3)] {
                 let exact = |time: f64| 0.2 * time * time - (TAU * 4.7 * time).cos() / (TAU * 4.7);
@@ -415,7 +431,7 @@ mod tests {
                 assert!((found - expected).abs() < 0.03, "{period} s: {found} beside {expected}");
             }
         }
-        let once = Ahead::new(&given(0.3, 0.9), (0.0, vibrating(0.9)), 0.0).unwrap();
+        let once = ahead(&given(0.3, 0.9), (0.0, vibrating(0.9)), 0.0).unwrap();
         assert_eq!(once.count, 9, "points older than a step are given anew");
     }
 

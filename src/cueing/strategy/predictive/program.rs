@@ -18,14 +18,15 @@
 //! their squares and of their slopes' squares, the trapezoidal rule for the motion, and the
 //! regulator's cost to come at the end.
 
-use alloc::{boxed::Box, vec};
+use alloc::boxed::Box;
 
 use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
 
-use super::dual_active_set::Rows;
+use super::dual_active_set::{Rows, Search};
 use super::expected::Forecast;
 use super::horizon::{BLOCKS, Horizon, reserved};
+use super::legs::LegRow;
 use crate::cueing::strategy::law::{AxisState, Unsolvable};
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 use crate::motion::min_max::max;
@@ -193,6 +194,43 @@ pub struct AxisProgram {
     hessian: SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS>,
     /// L^-T of the Hessian L L'.
     factor: SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS>,
+    scales: RowScales,
+}
+
+/// Factors by which motions are relative to their limits in the rows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct RowScales {
+    /// Of the position at each node, and in the middle of the block before it.
+    positions: [f64; BLOCKS],
+    middles: [f64; BLOCKS],
+    velocity: f64,
+    /// Of tilt, tilt rate and tilt acceleration in the row of the tilt.
+    tilt: [f64; 3],
+    /// Of tilt rate and tilt acceleration in the row of the tilt rate.
+    tilt_rate: [f64; 2],
+    /// Of tilt and tilt rate at the end.
+    end_tilt: [f64; 2],
+}
+
+impl RowScales {
+    fn new(model: &AxisModel, horizon: Horizon) -> Self {
+        let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = *model;
+        let (ends, durations) = (horizon.ends(), horizon.durations());
+        let position = |time| 1.0 / (position_limit * (1.0 - reserved(time) * (1.0 - POSITION_FRACTION)));
+        let limits = model.tilt_limits();
+        // What the tilt approaches is linear in its state.
+        let [by_tilt, by_rate, by_acceleration] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, acceleration_limit]]
+            .map(|[q, w, a]| limits.approached(q, w, a));
+        let rate_scale = 1.0 / (RATE_FRACTION * rate_limit);
+        RowScales {
+            positions: ends.map(position),
+            middles: core::array::from_fn(|node| position(ends[node] - 0.5 * durations[node])),
+            velocity: 1.0 / (VELOCITY_FRACTION * velocity_limit),
+            tilt: [by_tilt[0], by_rate[0], by_acceleration[0]].map(|value| value / angle_limit),
+            tilt_rate: [by_rate[1], by_acceleration[1]].map(|value| value * rate_scale),
+            end_tilt: [1.0, 0.5 * rate_limit / acceleration_limit].map(|value| value / angle_limit),
+        }
+    }
 }
 
 impl AxisProgram {
@@ -244,28 +282,56 @@ impl AxisProgram {
         let cholesky = hessian.cholesky().ok_or(Unsolvable::Program)?;
         let solved = cholesky.l_dirty().solve_lower_triangular_mut(&mut inverse);
         let factor = inverse.transpose();
-        let program = AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian, factor };
+        let scales = RowScales::new(model, horizon);
+        let program =
+            AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian, factor, scales };
         solved.then_some(program).ok_or(Unsolvable::Program)
     }
 
     /// The nodes without any control.
     pub fn free_nodes(&self, data: &Data) -> Nodes {
-        Nodes(self.from_data * data)
+        let AxisProgram { from_data, .. } = self;
+        Nodes(from_data * data)
     }
 
     /// The nodes under these controls.
     pub fn nodes(&self, free: &Nodes, controls: &AxisControls) -> Nodes {
-        Nodes(free.0 + self.from_controls * controls)
+        let controls = controls.data.0[0];
+        let mut nodes = *free;
+        for (node, state) in nodes.0.as_mut_slice().as_chunks_mut::<4>().0.iter_mut().enumerate() {
+            let moved = self.moved(node, &controls);
+            *state = core::array::from_fn(|k| state[k] + moved[k]);
+        }
+        nodes
+    }
+
+    /// The state at a node after these controls from rest at neutral.
+    #[inline(always)]
+    fn moved(&self, node: usize, controls: &[f64; AXIS_CONTROLS]) -> [f64; 4] {
+        let (mut state, node) = ([0.0; 4], node.min(BLOCKS - 1));
+        let (columns, _) = self.from_controls.as_slice().as_chunks::<4>();
+        let Some(columns) = columns.first_chunk::<{ AXIS_CONTROLS * BLOCKS }>() else { return state };
+        // A control moves the nodes from the end of its block on.
+        for block in 0..node + 1 {
+            for control in [block, BLOCKS + block] {
+                let by_control = &columns[control * BLOCKS + node];
+                for k in 0..4 {
+                    state[k] += controls[control] * by_control[k];
+                }
+            }
+        }
+        state
+    }
+
+    /// Effects of one unit of each control on the nodes.
+    fn columns(&self) -> impl Iterator<Item = &[f64]> {
+        self.from_controls.as_slice().chunks_exact(4 * BLOCKS)
     }
 
     /// The gradient of the cost without any control.
     pub fn gradient(&self, data: &Data) -> AxisControls {
-        self.gradient * data
-    }
-
-    /// Effects of one unit of each control on position and tilt of a node.
-    pub fn responses(&self, node: usize) -> [AxisControls; 2] {
-        [0, 2].map(|state| self.from_controls.row(4 * node + state).transpose())
+        let AxisProgram { gradient, .. } = self;
+        gradient * data
     }
 
     /// Matrix of the cost's quadratic part.
@@ -273,45 +339,62 @@ impl AxisProgram {
         &self.hessian
     }
 
-    /// The normals of the axis's rows; all rows lie within -1 and 1.
-    pub fn normals(&self) -> SMatrix<f64, AXIS_CONTROLS, AXIS_ROWS> {
-        let mut normals = SMatrix::<f64, AXIS_CONTROLS, AXIS_ROWS>::zeros();
-        for control in 0..AXIS_CONTROLS {
-            let mut controls = AxisControls::zeros();
-            controls[control] = 1.0;
-            let nodes = Nodes(self.from_controls.column(control).into_owned());
-            normals.set_row(control, &self.rows(&nodes, &controls).transpose());
+    /// The values of the axis's rows, all of which lie within -1 and 1.
+    pub fn rows(&self, nodes: &Nodes, controls: &AxisControls) -> SVector<f64, AXIS_ROWS> {
+        let mut rows = SVector::<f64, AXIS_ROWS>::zeros();
+        let mut before = [0.0; 4];
+        for (node, state) in nodes.0.as_slice().as_chunks::<4>().0.iter().enumerate() {
+            self.visit_rows(node, [&before, state], controls[BLOCKS + node], |row, value| rows[row] = value);
+            before = *state;
         }
-        normals
+        rows
     }
 
-    /// The values of the axis's rows.
-    pub fn rows(&self, nodes: &Nodes, controls: &AxisControls) -> SVector<f64, AXIS_ROWS> {
-        let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = self.model;
-        let position = |time| 1.0 / (position_limit * (1.0 - reserved(time) * (1.0 - POSITION_FRACTION)));
-        let (ends, durations) = (self.horizon.ends(), self.horizon.durations());
-        let tilt_limits = self.model.tilt_limits();
-        let mut rows = SVector::zeros();
-        for node in 0..BLOCKS {
-            let state = nodes.at(node);
-            rows[4 * node] = position(ends[node]) * state.position;
-            rows[4 * node + 1] = state.velocity / (VELOCITY_FRACTION * velocity_limit);
-            let alpha = self.model.acceleration_limit * controls[BLOCKS + node];
-            let [tilt, tilt_rate] = tilt_limits.approached(state.tilt, state.tilt_rate, alpha);
-            rows[4 * node + 2] = tilt / angle_limit;
-            rows[4 * node + 3] = tilt_rate / (RATE_FRACTION * rate_limit);
-            rows[4 * BLOCKS + node] = controls[BLOCKS + node];
-            if node + 1 < BLOCKS {
-                let alpha = self.model.acceleration_limit * controls[BLOCKS + node + 1];
-                let middle = ends[node] + 0.5 * durations[node + 1];
-                rows[5 * BLOCKS + node] = position(middle) * self.middle(nodes, node + 1, alpha);
-            }
+    /// Visits the rows of a node, in this state after that of the node before: position, velocity,
+    /// tilt, tilt rate, and the relative tilt acceleration in the block between them. After the
+    /// first node also the position in the middle of the block, and after the last one the position
+    /// and the tilt with which the platform can stop.
+    #[inline(always)]
+    fn visit_rows(&self, node: usize, states: [&[f64; 4]; 2], tilting: f64, mut visit: impl FnMut(usize, f64)) {
+        let scales = &self.scales;
+        let [before, [x, v, q, w]] = states;
+        let [by_tilt, by_rate, by_acceleration] = scales.tilt;
+        visit(4 * node, scales.positions[node] * x);
+        visit(4 * node + 1, scales.velocity * v);
+        visit(4 * node + 2, by_tilt * q + by_rate * w + by_acceleration * tilting);
+        visit(4 * node + 3, scales.tilt_rate[0] * w + scales.tilt_rate[1] * tilting);
+        visit(4 * BLOCKS + node, tilting);
+        if node > 0 {
+            let middle = self.middle(before, states[1], node, tilting);
+            visit(5 * BLOCKS + node - 1, scales.middles[node] * middle);
         }
-        let end = nodes.at(BLOCKS - 1);
-        let tilt_stopping_time = 0.5 * rate_limit / acceleration_limit;
-        rows[AXIS_ROWS - 2] = position(ends[BLOCKS - 1]) * (end.position + STOPPING_TIME * end.velocity);
-        rows[AXIS_ROWS - 1] = (end.tilt + tilt_stopping_time * end.tilt_rate) / angle_limit;
-        rows
+        if node == BLOCKS - 1 {
+            let [by_tilt, by_rate] = scales.end_tilt;
+            visit(AXIS_ROWS - 2, scales.positions[node] * (x + STOPPING_TIME * v));
+            visit(AXIS_ROWS - 1, by_tilt * q + by_rate * w);
+        }
+    }
+
+    /// Sets how a row depends on the controls. `normal` is zero before.
+    fn set_normal(&self, row: usize, normal: &mut [f64]) {
+        let node = match row {
+            row if row < 4 * BLOCKS => row / 4,
+            row if row < 5 * BLOCKS => row - 4 * BLOCKS,
+            row if row < AXIS_ROWS - 2 => row - 5 * BLOCKS + 1,
+            _ => BLOCKS - 1,
+        };
+        for (k, (column, value)) in self.columns().zip(normal).enumerate() {
+            if k % BLOCKS > node {
+                continue;
+            }
+            let states = column.as_chunks::<4>().0;
+            let tilting = if k == BLOCKS + node { 1.0 } else { 0.0 };
+            self.visit_rows(node, [&states[node.max(1) - 1], &states[node]], tilting, |visited, by_control| {
+                if visited == row {
+                    *value = by_control;
+                }
+            });
+        }
     }
 }
 
@@ -346,15 +429,23 @@ impl AxisProgram {
         bounds
     }
 
-    /// Position in the middle of a block after the first.
+    /// Position in the middle of a block after the first, between the nodes before and after it.
+    /// `tilting` is the block's tilt acceleration, relative to its limit.
     ///
     /// It is that of the cubic through the nodes, and by the tilt acceleration a term of fourth
     /// order less. The ramp's part of that is left out.
-    pub fn middle(&self, nodes: &Nodes, block: usize, alpha: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn middle(
+        &self,
+        [x, v, ..]: &[f64; 4],
+        [next_x, next_v, ..]: &[f64; 4],
+        block: usize,
+        tilting: f64,
+    ) -> f64 {
         let t = self.horizon.durations()[block];
-        let (before, after) = (nodes.at(block - 1), nodes.at(block));
-        let cubic = 0.5 * (before.position + after.position) + 0.125 * t * (before.velocity - after.velocity);
-        cubic - CHORD * self.model.gravity * alpha * (t * t * (t * t)) / 384.0
+        let AxisModel { gravity, acceleration_limit, .. } = self.model;
+        let cubic = 0.5 * (x + next_x) + 0.125 * t * (v - next_v);
+        cubic - CHORD * gravity * acceleration_limit * tilting * (t * t * (t * t)) / 384.0
     }
 }
 
@@ -447,26 +538,71 @@ fn node_weight(
     if last { running + regulator.cost.fixed_view::<4, 4>(0, 0) } else { running }
 }
 
-/// The rows, those of the actuators without their normals.
-pub fn rows(program: &Program) -> Rows<CONTROLS, ROWS> {
-    let mut rows =
-        Rows { normals: vec![SVector::zeros(); ROWS], lower: SVector::repeat(-1.0), upper: SVector::repeat(1.0) };
-    set_axis_normals(&mut rows, program);
-    rows
+/// What the rows of a plan have beside the program: their bounds, and the legs near the plan
+/// before, in halves of the stroke.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanLimits {
+    pub lower: SVector<f64, ROWS>,
+    pub upper: SVector<f64, ROWS>,
+    pub legs: [[LegRow; 6]; BLOCKS],
 }
 
-/// Sets the normals that do not change from plan to plan.
-pub fn set_axis_normals(rows: &mut Rows<CONTROLS, ROWS>, program: &Program) {
-    for (k, axis) in program.axes.iter().enumerate() {
-        let normals = axis.normals();
-        for (normal, column) in rows.normals.iter_mut().skip(k * AXIS_ROWS).zip(normals.column_iter()) {
-            normal.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&column);
+impl Default for PlanLimits {
+    fn default() -> Self {
+        let legs = [[LegRow::default(); 6]; BLOCKS];
+        PlanLimits { lower: SVector::repeat(-1.0), upper: SVector::repeat(1.0), legs }
+    }
+}
+
+/// The rows of a plan, as functions of its controls.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanRows<'a> {
+    pub program: &'a Program,
+    pub limits: &'a PlanLimits,
+}
+
+impl Rows<CONTROLS, ROWS> for PlanRows<'_> {
+    fn evaluate(&self, controls: &SVector<f64, CONTROLS>, search: &mut Search) {
+        let controls = controls.as_slice().as_chunks::<AXIS_CONTROLS>().0;
+        let mut before = [[0.0; 4]; 2];
+        for (node, legs) in self.limits.legs.iter().enumerate() {
+            let axes = self.program.axes.iter().zip(controls).zip(&mut before).enumerate();
+            for (k, ((axis, controls), before)) in axes {
+                let state = axis.moved(node, controls);
+                axis.visit_rows(node, [before, &state], controls[BLOCKS + node], |row, value| {
+                    search.see(k * AXIS_ROWS + row, value);
+                });
+                *before = state;
+            }
+            let [surge, sway] = &before;
+            for (leg, row) in legs.iter().enumerate() {
+                search.see(2 * AXIS_ROWS + 6 * node + leg, row.change([surge[0], sway[0]], [surge[2], sway[2]]));
+            }
         }
+    }
+
+    fn set_normal(&self, row: usize, normal: &mut SVector<f64, CONTROLS>) {
+        let axes = self.program.axes.iter().zip(normal.as_mut_slice().chunks_exact_mut(AXIS_CONTROLS)).enumerate();
+        for (k, (axis, normal)) in axes {
+            if let Some(leg) = row.checked_sub(2 * AXIS_ROWS) {
+                let (node, row) = (leg / 6, &self.limits.legs[leg / 6][leg % 6]);
+                for (value, column) in normal.iter_mut().zip(axis.columns()) {
+                    *value = row.by_position[k] * column[4 * node] + row.by_tilt[k] * column[4 * node + 2];
+                }
+            } else if row / AXIS_ROWS == k {
+                axis.set_normal(row % AXIS_ROWS, normal);
+            }
+        }
+    }
+
+    fn bounds(&self) -> [&SVector<f64, ROWS>; 2] {
+        [&self.limits.lower, &self.limits.upper]
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::dual_active_set::tests::{DenseRows, most_violated};
     use super::*;
     use crate::interface::STANDARD_GRAVITY;
 
@@ -627,23 +763,35 @@ mod tests {
         let (state, forecast, controls) = example();
         for horizon in [Horizon::Near, Horizon::Far] {
             let program = program(horizon);
-            let rows = rows(&program);
-            assert_eq!((rows.normals.len(), rows.lower.min(), rows.upper.max()), (ROWS, -1.0, 1.0));
+            let mut limits = PlanLimits::default();
+            limits.legs[3][2] = LegRow { offset: 0.2, by_position: [0.5, -0.7], by_tilt: [0.9, -0.3] };
+            let normals = |limits: &PlanLimits| DenseRows::of(&PlanRows { program: &program, limits }).normals;
             for (k, axis) in program.axes.iter().enumerate() {
                 let free = axis.free_nodes(&axis.data(&state, DROPPED_BEFORE, &forecast));
                 let expected =
                     axis.rows(&axis.nodes(&free, &controls), &controls) - axis.rows(&free, &AxisControls::zeros());
                 let mut all = SVector::<f64, CONTROLS>::zeros();
                 all.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&controls);
-                for (number, normal) in rows.normals.iter().enumerate() {
-                    let inside = (k * AXIS_ROWS..(k + 1) * AXIS_ROWS).contains(&number);
-                    let expected = if inside { expected[number - k * AXIS_ROWS] } else { 0.0 };
-                    assert!((normal.dot(&all) - expected).abs() < 1e-12, "row {number} of axis {k}");
+                let change = axis.nodes(&Nodes::at_rest(), &controls).at(3);
+                let leg = [0.5, -0.7][k] * change.position + [0.9, -0.3][k] * change.tilt;
+                for (row, normal) in normals(&limits).iter().enumerate() {
+                    let expected = match row.checked_sub(k * AXIS_ROWS) {
+                        Some(row) if row < AXIS_ROWS => expected[row],
+                        _ if row == 2 * AXIS_ROWS + 6 * 3 + 2 => leg,
+                        _ => 0.0,
+                    };
+                    assert!((normal.dot(&all) - expected).abs() < 1e-12, "row {row} of axis {k}");
                 }
-                for node in [0, 3, BLOCKS - 1] {
-                    let change = axis.nodes(&Nodes::at_rest(), &controls).at(node);
-                    let found = axis.responses(node).map(|response| response.dot(&controls));
-                    assert!((found[0] - change.position).abs() < 1e-12 && (found[1] - change.tilt).abs() < 1e-12);
+            }
+            // The search sees each row's value: the normal times the controls.
+            let all = SVector::<f64, CONTROLS>::from_fn(|k, _| (2.0 + k as f64).cos());
+            for (row, normal) in normals(&limits).iter().enumerate() {
+                for (side, beyond) in [(1.0, true), (1.0, false), (-1.0, true), (-1.0, false)] {
+                    let bound = normal.dot(&all) + if beyond { -side } else { side } * 1e-9;
+                    (limits.lower, limits.upper) = (SVector::repeat(-1e9), SVector::repeat(1e9));
+                    *(if side > 0.0 { &mut limits.upper[row] } else { &mut limits.lower[row] }) = bound;
+                    let found = most_violated(&PlanRows { program: &program, limits: &limits }, &all);
+                    assert_eq!(found, beyond.then_some(row), "side {side}");
                 }
             }
         }

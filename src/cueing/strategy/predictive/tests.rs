@@ -5,7 +5,7 @@ use crate::interface::{Parameters, Rig};
 use crate::platform::Geometry;
 use nalgebra::SMatrix;
 
-use dual_active_set::tests::{Program, compare};
+use dual_active_set::tests::{DenseRows, Program, compare};
 use legs::tests::{length, surroundings};
 use std::f64::consts::TAU;
 
@@ -21,6 +21,11 @@ const MODEL: AxisModel = AxisModel {
 
 fn predictive() -> Predictive {
     Predictive::new(&[MODEL; 2], &(&Parameters::default().predictive).into()).unwrap()
+}
+
+/// The rows of the plan that is being made.
+fn rows(predictive: &Predictive) -> DenseRows<CONTROLS, ROWS> {
+    DenseRows::of(&PlanRows { program: predictive.programs.over(predictive.horizon), limits: &predictive.limits })
 }
 
 /// Advances by `steps` steps of 1 ms at this reference. Returns the last step's decisions.
@@ -229,8 +234,6 @@ fn retuning_is_construction_and_what_cannot_be_used_changes_nothing() {
     passed(&mut predictive, 10_000, 3.0);
     let made = Predictive::new(&models, &other).unwrap();
     assert_eq!((&predictive.programs, predictive.models, predictive.tuning), (&made.programs, models, other));
-    let normals = |predictive: &Predictive| predictive.rows.normals[..2 * AXIS_ROWS].to_vec();
-    assert_eq!(normals(&predictive), normals(&made));
 }
 
 #[test]
@@ -274,8 +277,6 @@ fn a_long_preview_is_planned_for_over_the_far_horizon() {
         predictive.solver.abandon();
         passed(&mut predictive, 1, 0.0);
         assert_eq!(predictive.horizon, horizon, "{counts:?} elements, {lag} s later");
-        let normals = program::rows(predictive.programs.over(horizon)).normals;
-        assert_eq!(predictive.rows.normals[..2 * AXIS_ROWS], normals[..2 * AXIS_ROWS]);
     }
 }
 
@@ -334,8 +335,9 @@ fn the_plan_keeps_the_actuators_within_their_stroke() {
     let states = [AxisState { tilt: 0.05, ..AxisState::default() }, AxisState { tilt: -0.03, ..AxisState::default() }];
     passed_in(&mut predictive, &narrow, 3000, &states, [5.0, 3.0]);
     assert!(!predictive.plan.kept);
-    assert!(predictive.rows.normals.iter().all(|normal| normal.amax() > 0.0), "each row limits something");
-    assert!((predictive.rows.upper - predictive.rows.lower).add_scalar(-2.0).amax() < 1e-12);
+    let DenseRows { normals, lower, upper } = rows(&predictive);
+    assert!(normals.iter().all(|normal| normal.amax() > 0.0), "each row limits something");
+    assert!((upper - lower).add_scalar(-2.0).amax() < 1e-12);
     // The plan is that of the step before, about which the rows are linear.
     let mut farthest = 0.0_f64;
     for (node, legs) in leg_rows(&narrow, &predictive.plan.nodes, Horizon::Near).iter().enumerate() {
@@ -408,7 +410,7 @@ fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds(
                 let factor = *predictive.programs.over(predictive.horizon).factor;
                 let inverse = factor.try_inverse().unwrap();
                 let gradient = -inverse.tr_mul(&(inverse * predictive.solver.solution()));
-                compare(&Program { factor, gradient, rows: (*predictive.rows).clone() });
+                compare(&Program { factor, gradient, rows: rows(&predictive) });
             }
         }
         limited += usize::from(predictive.plan().iterations > 10);
@@ -455,7 +457,8 @@ fn condensed_nodes_are_those_of_the_block_equations() {
         let step = duration / f64::from(steps);
         for k in 0..steps {
             if 2 * k == steps && block > 0 {
-                let found = axis.middle(&nodes, block, alpha_after);
+                let [before, after] = [block - 1, block].map(|node| core::array::from_fn(|k| nodes.0[4 * node + k]));
+                let found = axis.middle(&before, &after, block, controls[BLOCKS + block]);
                 // The ramp's part is left out.
                 let lever = MODEL.head_height + MODEL.gravity * duration * duration;
                 let ramp = lever * RAMP * duration * (alpha_after - alpha_before).abs();

@@ -18,7 +18,7 @@
 //! The solver's state is plain data of a fixed size: a solve can be interrupted after any
 //! iteration, stored, and continued.
 
-use alloc::vec::Vec;
+use core::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
@@ -29,12 +29,39 @@ use crate::motion::square_root::square_root;
 pub(crate) mod tests;
 
 /// The rows lower <= C u <= upper of a quadratic program.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rows<const N: usize, const M: usize> {
-    /// The M rows of C. On the heap, because they are too much for a small stack.
-    pub normals: Vec<SVector<f64, N>>,
-    pub lower: SVector<f64, M>,
-    pub upper: SVector<f64, M>,
+pub trait Rows<const N: usize, const M: usize> {
+    /// Shows each row's value at a point to a search.
+    fn evaluate(&self, point: &SVector<f64, N>, search: &mut Search);
+
+    /// Sets `normal`, which is zero before, to a row of C.
+    fn set_normal(&self, row: usize, normal: &mut SVector<f64, N>);
+
+    /// The lower and the upper bounds.
+    fn bounds(&self) -> [&SVector<f64, M>; 2];
+}
+
+/// A search for the row that is violated most.
+#[derive(Clone, Debug)]
+pub struct Search<'a> {
+    lower: &'a [f64],
+    upper: &'a [f64],
+    given_up: &'a [bool],
+    worst: f64,
+    found: Option<PendingRow>,
+}
+
+impl Search<'_> {
+    /// Sees a row's value.
+    #[inline(always)]
+    pub fn see(&mut self, row: usize, value: f64) {
+        let (below, above) = (self.lower[row] - value, value - self.upper[row]);
+        let violation = if below > above { below } else { above };
+        if violation > self.worst && !self.given_up[row] {
+            let side = if below > above { 1.0 } else { -1.0 };
+            self.worst = violation;
+            self.found = Some(PendingRow { row: row as u32, side, multiplier: 0.0 });
+        }
+    }
 }
 
 /// The state of a solve with N variables and M rows.
@@ -108,8 +135,10 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     pub fn start(&mut self, factor: &SMatrix<f64, N, N>, gradient: &SVector<f64, N>) {
         self.factor.copy_from(factor);
         self.solution.fill(0.0);
-        for column in factor.column_iter() {
-            self.solution.axpy(-column.dot(gradient), &column, 1.0);
+        for column in columns(factor) {
+            let used = span(column);
+            let part = -dot(&column[used.clone()], &gradient.as_slice()[used.clone()]);
+            add_scaled(&mut self.solution.as_mut_slice()[used.clone()], part, &column[used]);
         }
         self.active = 0;
         self.pending = None;
@@ -126,7 +155,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     }
 
     /// Continues with at most so many iterations. The rows must be those of the iterations before.
-    pub fn advance(&mut self, rows: &Rows<N, M>, iterations: u32) -> Status {
+    pub fn advance(&mut self, rows: &impl Rows<N, M>, iterations: u32) -> Status {
         for _ in 0..iterations {
             if self.status != Status::Running {
                 break;
@@ -158,7 +187,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
 
     /// One step of the method: to the point where the pending row holds, or where an active
     /// row's multiplier vanishes.
-    fn iterate(&mut self, rows: &Rows<N, M>) {
+    fn iterate(&mut self, rows: &impl Rows<N, M>) {
         let Some(mut pending) = self.pending.take().or_else(|| self.most_violated(rows)) else {
             let finite = self.solution.iter().all(|value| value.is_finite());
             self.status = if finite { Status::Solved } else { Status::Failed };
@@ -166,22 +195,23 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         };
         self.iterations += 1;
         let row = pending.row as usize;
-        let (Some(normal), true) = (rows.normals.get(row), row < M && self.active <= N) else {
+        if row >= M || self.active > N {
             // No solve leads here, but a deserialized state may.
             self.status = Status::Failed;
             return;
-        };
-        let projection: SVector<f64, N> = self.factor.tr_mul(normal) * pending.side;
-        let change = self.multiplier_change(&projection);
-        let (blocking, longest) = self.blocking(&change);
+        }
+        let mut normal = SVector::<f64, N>::zeros();
+        rows.set_normal(row, &mut normal);
+        let mut projection = SVector::<f64, N>::zeros();
+        self.project(normal.as_slice(), pending.side, projection.as_mut_slice());
+        let mut change = SVector::<f64, N>::zeros();
+        self.set_multiplier_change(projection.as_slice(), change.as_mut_slice());
+        let (blocking, longest) = self.blocking(change.as_slice());
 
         let free_squared = sum_of_squares(&projection.as_slice()[self.active..]);
-        let independent = free_squared > DEPENDENT * DEPENDENT * projection.norm_squared();
-        let violation = if pending.side > 0.0 {
-            rows.lower[row] - normal.dot(&self.solution)
-        } else {
-            normal.dot(&self.solution) - rows.upper[row]
-        };
+        let independent = free_squared > DEPENDENT * DEPENDENT * sum_of_squares(projection.as_slice());
+        let (value, [lower, upper]) = (dot(normal.as_slice(), self.solution.as_slice()), rows.bounds());
+        let violation = if pending.side > 0.0 { lower[row] - value } else { value - upper[row] };
         let full = if independent { violation / free_squared } else { f64::INFINITY };
         let step = if longest < full { longest } else { full };
         if step == f64::INFINITY {
@@ -190,17 +220,17 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         }
         let mut direction = SVector::<f64, N>::zeros();
         if independent {
-            for k in self.active..N {
-                direction.axpy(projection[k], &self.factor.column(k), 1.0);
+            for (column, &part) in columns(&self.factor).zip(&projection).skip(self.active) {
+                add_scaled(direction.as_mut_slice(), part, column);
             }
-            self.solution.axpy(step, &direction, 1.0);
+            add_scaled(self.solution.as_mut_slice(), step, direction.as_slice());
         }
         for k in 0..self.active {
             self.multipliers[k] = (self.multipliers[k] - step * change[k]).max(0.0);
         }
         pending.multiplier += step;
         if step == full {
-            self.add(pending, &projection, free_squared, &direction);
+            self.add(pending, projection.as_slice(), free_squared, direction.as_mut_slice());
         } else {
             self.drop_row(blocking);
             self.pending = Some(pending);
@@ -208,39 +238,40 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     }
 
     /// The row violated most, if any is.
-    fn most_violated(&self, rows: &Rows<N, M>) -> Option<PendingRow> {
-        let (mut worst, mut found) = (FEASIBLE, None);
-        for (row, normal) in rows.normals.iter().enumerate().take(M) {
-            let value = normal.dot(&self.solution);
-            let (below, above) = (rows.lower[row] - value, value - rows.upper[row]);
-            let (violation, side) = if below > above { (below, 1.0) } else { (above, -1.0) };
-            if violation > worst && !self.given_up[row] {
-                (worst, found) = (violation, Some(PendingRow { row: row as u32, side, multiplier: 0.0 }));
-            }
-        }
-        found
+    fn most_violated(&self, rows: &impl Rows<N, M>) -> Option<PendingRow> {
+        let [lower, upper] = rows.bounds().map(|bounds| bounds.as_slice());
+        let given_up = self.given_up.as_slice();
+        let mut search = Search { lower, upper, given_up, worst: FEASIBLE, found: None };
+        rows.evaluate(&self.solution, &mut search);
+        search.found
     }
 
-    /// R^-1 of the projection's first part: how the active rows' multipliers fall as
-    /// the pending one's grows.
-    fn multiplier_change(&self, projection: &SVector<f64, N>) -> SVector<f64, N> {
-        let mut change = *projection;
-        for k in (0..self.active).rev() {
-            change[k] /= self.triangle[(k, k)];
-            let (value, column) = (change[k], self.triangle.column(k));
-            for i in 0..k {
-                change[i] -= value * column[i];
-            }
+    /// Sets `projection` to J' times a row's normal, which points inwards on this side.
+    fn project(&self, normal: &[f64], side: f64, projection: &mut [f64]) {
+        let used = span(normal);
+        for (value, column) in projection.iter_mut().zip(columns(&self.factor)) {
+            *value = side * dot(&column[used.clone()], &normal[used.clone()]);
         }
-        change
+    }
+
+    /// Sets `change` to R^-1 of the projection's first part: how the active rows' multipliers fall
+    /// as the pending one's grows.
+    fn set_multiplier_change(&self, projection: &[f64], change: &mut [f64]) {
+        let change = &mut change[..self.active];
+        change.copy_from_slice(&projection[..self.active]);
+        for (k, column) in columns(&self.triangle).enumerate().take(self.active).rev() {
+            change[k] /= column[k];
+            let (before, value) = change[..k + 1].split_at_mut(k);
+            add_scaled(before, -value[0], &column[..k]);
+        }
     }
 
     /// The active row whose multiplier vanishes first, and the step at which it does.
-    fn blocking(&self, change: &SVector<f64, N>) -> (usize, f64) {
+    fn blocking(&self, change: &[f64]) -> (usize, f64) {
         let (mut first, mut shortest) = (0, f64::INFINITY);
-        for k in 0..self.active {
-            let step = self.multipliers[k] / change[k];
-            if change[k] > 0.0 && step < shortest {
+        for (k, &change) in change.iter().enumerate().take(self.active) {
+            let step = self.multipliers[k] / change;
+            if change > 0.0 && step < shortest {
                 (first, shortest) = (k, step);
             }
         }
@@ -249,23 +280,21 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
 
     /// Makes the pending row active. A Householder reflection turns the projection's free part into
     /// one component; `direction` is J times that part, of which the reflection of J needs no more.
-    fn add(&mut self, row: PendingRow, projection: &SVector<f64, N>, free_squared: f64, direction: &SVector<f64, N>) {
+    fn add(&mut self, row: PendingRow, projection: &[f64], free_squared: f64, direction: &mut [f64]) {
         let first = self.active;
         let length = -square_root(free_squared).copysign(projection[first]);
         // The reflection is I - w w' / (w' w / 2) with w = free part - length e1.
-        let mut mirror = *projection;
-        mirror[first] -= length;
         let half_squared = free_squared - length * projection[first];
-        let mut reflected = *direction;
-        reflected.axpy(-length, &self.factor.column(first), 1.0);
-        reflected /= half_squared;
-        for k in first..N {
-            self.factor.column_mut(k).axpy(-mirror[k], &reflected, 1.0);
+        let reflected = direction;
+        for (value, column) in reflected.iter_mut().zip(&self.factor.as_slice()[first * N..]) {
+            *value = (*value - length * column) / half_squared;
         }
-        let mut column = self.triangle.column_mut(first);
-        for k in 0..first {
-            column[k] = projection[k];
+        for (k, column) in self.factor.as_mut_slice().chunks_exact_mut(N).enumerate().skip(first) {
+            let part = if k == first { projection[k] - length } else { projection[k] };
+            add_scaled(column, -part, reflected);
         }
+        let column = &mut self.triangle.as_mut_slice()[first * N..];
+        column[..first].copy_from_slice(&projection[..first]);
         column[first] = length;
         self.multipliers[first] = row.multiplier;
         self.active += 1;
@@ -276,8 +305,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         self.active -= 1;
         for k in dropped..self.active {
             self.multipliers[k] = self.multipliers[k + 1];
-            let next = self.triangle.column(k + 1).into_owned();
-            self.triangle.set_column(k, &next);
+            self.triangle.as_mut_slice().copy_within((k + 1) * N..(k + 2) * N, k * N);
         }
         for k in dropped..self.active {
             let (a, b) = (self.triangle[(k, k)], self.triangle[(k + 1, k)]);
@@ -300,6 +328,40 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     }
 }
 
+fn columns<const N: usize>(matrix: &SMatrix<f64, N, N>) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSizeIterator {
+    matrix.as_slice().chunks_exact(N)
+}
+
+/// From the first to the last value that is not zero.
+fn span(values: &[f64]) -> Range<usize> {
+    let first = values.iter().position(|&value| value != 0.0).unwrap_or(0);
+    let last = values.iter().rposition(|&value| value != 0.0).unwrap_or(first);
+    first..last + 1
+}
+
+/// Adds `factor` times `other`. A factor of zero is frequent: the axes of a plan hardly meet.
+fn add_scaled(values: &mut [f64], factor: f64, other: &[f64]) {
+    if factor != 0.0 {
+        for (value, other) in values.iter_mut().zip(other) {
+            *value += factor * other;
+        }
+    }
+}
+
+/// Scalar product, in four sums side by side.
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 fn sum_of_squares(values: &[f64]) -> f64 {
-    values.iter().map(|value| value * value).sum()
+    dot(values, values)
 }

@@ -5,18 +5,54 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use nalgebra::{SMatrix, SVector};
 
-use super::{DualActiveSet, PendingRow, Rows, Status};
+use super::{DualActiveSet, PendingRow, Rows, Search, Status};
+
+/// Rows that are given one by one.
+pub struct DenseRows<const N: usize, const M: usize> {
+    pub normals: Vec<SVector<f64, N>>,
+    pub lower: SVector<f64, M>,
+    pub upper: SVector<f64, M>,
+}
+
+impl<const N: usize, const M: usize> DenseRows<N, M> {
+    /// Those of other rows.
+    pub fn of(rows: &impl Rows<N, M>) -> Self {
+        let [lower, upper] = rows.bounds().map(|bounds| *bounds);
+        let normal = |row| {
+            let mut normal = SVector::zeros();
+            rows.set_normal(row, &mut normal);
+            normal
+        };
+        DenseRows { normals: (0..M).map(normal).collect(), lower, upper }
+    }
+}
+
+impl<const N: usize, const M: usize> Rows<N, M> for DenseRows<N, M> {
+    fn evaluate(&self, point: &SVector<f64, N>, search: &mut Search) {
+        for (row, normal) in self.normals.iter().enumerate().take(M) {
+            search.see(row, normal.dot(point));
+        }
+    }
+
+    fn set_normal(&self, row: usize, normal: &mut SVector<f64, N>) {
+        *normal = self.normals[row];
+    }
+
+    fn bounds(&self) -> [&SVector<f64, M>; 2] {
+        [&self.lower, &self.upper]
+    }
+}
 
 /// A program, random or of a ride.
 pub struct Program<const N: usize, const M: usize> {
     /// J with J J' = H^-1, upper triangular.
     pub factor: SMatrix<f64, N, N>,
     pub gradient: SVector<f64, N>,
-    pub rows: Rows<N, M>,
+    pub rows: DenseRows<N, M>,
 }
 
 impl<const N: usize, const M: usize> Program<N, M> {
-    fn new(hessian: SMatrix<f64, N, N>, gradient: SVector<f64, N>, rows: Rows<N, M>) -> Self {
+    fn new(hessian: SMatrix<f64, N, N>, gradient: SVector<f64, N>, rows: DenseRows<N, M>) -> Self {
         let lower = hessian.cholesky().expect("positive definite").l();
         Program { factor: lower.transpose().try_inverse().expect("regular"), gradient, rows }
     }
@@ -25,6 +61,12 @@ impl<const N: usize, const M: usize> Program<N, M> {
         let inverse = self.factor.try_inverse().expect("regular");
         inverse.transpose() * inverse
     }
+}
+
+/// The row that is violated most at a point, if one is.
+pub fn most_violated<const N: usize, const M: usize>(rows: &impl Rows<N, M>, point: &SVector<f64, N>) -> Option<usize> {
+    let solver = DualActiveSet::<N, M> { solution: *point, ..DualActiveSet::new() };
+    solver.most_violated(rows).map(|found| found.row as usize)
 }
 
 /// Numbers from -1 to 1: xorshift64*.
@@ -51,7 +93,8 @@ impl Random {
         };
         let lower = at_inside.map(|value| value - room());
         let upper = at_inside.map(|value| value + room());
-        let rows = Rows { normals: normals.column_iter().map(|column| column.into_owned()).collect(), lower, upper };
+        let rows =
+            DenseRows { normals: normals.column_iter().map(|column| column.into_owned()).collect(), lower, upper };
         let gradient = SVector::from_fn(|_, _| 10.0 * self.next());
         Program::new(a * a.transpose() + 0.1 * SMatrix::identity(), gradient, rows)
     }
@@ -59,7 +102,7 @@ impl Random {
     /// A feasible program with repeated rows and sums of rows: many bounds are reached at once.
     fn degenerate<const N: usize, const M: usize>(&mut self) -> Program<N, M> {
         let mut program = self.feasible::<N, M>();
-        let Rows { normals, lower, upper } = &mut program.rows;
+        let DenseRows { normals, lower, upper } = &mut program.rows;
         for k in (2..M).step_by(3) {
             let (a, b) = (k - 1, k - 2);
             if k % 2 == 0 {
@@ -76,7 +119,7 @@ impl Random {
     /// A program two of whose rows contradict each other by a margin.
     fn infeasible<const N: usize, const M: usize>(&mut self) -> Program<N, M> {
         let mut program = self.feasible::<N, M>();
-        let Rows { normals, lower, upper } = &mut program.rows;
+        let DenseRows { normals, lower, upper } = &mut program.rows;
         normals[1] = -normals[0];
         lower[1] = -lower[0] + 0.1 + 0.1 * self.next().abs();
         upper[1] = lower[1] + 1.0;
@@ -104,7 +147,7 @@ fn solved<const N: usize, const M: usize>(program: &Program<N, M>, at_once: u32)
 /// norm of the remainder.
 fn proven_distance<const N: usize, const M: usize>(program: &Program<N, M>, solver: &DualActiveSet<N, M>) -> f64 {
     const ROUNDING: f64 = 1e-8;
-    let Rows { normals, lower, upper } = &program.rows;
+    let DenseRows { normals, lower, upper } = &program.rows;
     let point = solver.solution();
     let inverse = program.factor.try_inverse().expect("regular");
     let mut left_over = inverse * point + program.factor.tr_mul(&program.gradient);
@@ -136,7 +179,7 @@ fn oracle<const N: usize, const M: usize>(program: &Program<N, M>) -> Option<SVe
         let lines: Vec<Vec<f64>> = (0..rows).map(|i| (0..columns).map(|j| value(i, j)).collect()).collect();
         CscMatrix::from(&lines)
     };
-    let Rows { normals, lower, upper } = &program.rows;
+    let DenseRows { normals, lower, upper } = &program.rows;
     let both = dense(2 * M, N, &|i, j| if i < M { normals[i][j] } else { -normals[i - M][j] });
     let bounds: Vec<f64> = upper.iter().copied().chain(lower.iter().map(|bound| -bound)).collect();
     let settings = DefaultSettingsBuilder::default()
@@ -182,7 +225,7 @@ pub fn compare<const N: usize, const M: usize>(program: &Program<N, M>) {
     }
     let values = SVector::<f64, M>::from_fn(|row, _| program.rows.normals[row].dot(solver.solution()));
     if solver.given_up() == 0 {
-        let Rows { lower, upper, .. } = &program.rows;
+        let DenseRows { lower, upper, .. } = &program.rows;
         let violation = (lower - values).max().max((values - upper).max());
         assert!(violation <= 1e-9, "violated by {violation:e}");
     }
@@ -294,7 +337,7 @@ fn numbers_that_are_not_finite_end_the_solve() {
 fn at_least<const M: usize>(rows: [([f64; 2], f64); M]) -> Program<2, M> {
     let normals = rows.iter().map(|(normal, _)| SVector::from(*normal)).collect();
     let lower = SVector::from(rows.map(|(_, lower)| lower));
-    Program::new(SMatrix::identity(), SVector::zeros(), Rows { normals, lower, upper: SVector::repeat(1e9) })
+    Program::new(SMatrix::identity(), SVector::zeros(), DenseRows { normals, lower, upper: SVector::repeat(1e9) })
 }
 
 #[test]

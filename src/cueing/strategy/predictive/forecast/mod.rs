@@ -112,6 +112,10 @@ pub struct Forecaster {
     fitted: Linear,
     /// The targets that are fitted at a sample: one of [`FIT_EVERY`] parts of them.
     turn: usize,
+    /// The next target that the latest sample has to be added to, and the part of its fit that it
+    /// keeps.
+    unlearned: usize,
+    keep_fit: f64,
     /// Mean squared error of each expert on each target.
     errors: SMatrix<f64, EXPERTS, TARGETS>,
     /// The forecast without the preview.
@@ -144,15 +148,12 @@ impl StoredSample {
         Features::from([self.value, low[0], low[1], low[2], low[3], low[4], rates.x, rates.y, rates.z])
     }
 
-    /// Forecasts of the fixed experts at this instant: hold, trend, fade.
-    fn fixed_forecasts(&self, tables: &Tables) -> [Targets; EXPERTS - 1] {
+    /// The slow and the fast part of the reference, and its slope.
+    fn parts(&self) -> [f64; 3] {
         let slow = self.low_passes[SLOW];
-        let fast = self.value - slow;
-        let hold = slow * tables.hold[0] + fast * tables.hold[1];
         let [quick, lagging] = TREND.map(|k| self.low_passes[k]);
         let slope = (quick - lagging) / (TIME_CONSTANTS[TREND[1]] - TIME_CONSTANTS[TREND[0]]);
-        let fade = slow * tables.fade[0] + fast * tables.fade[1];
-        [hold, hold + slope * tables.trend, fade]
+        [slow, self.value - slow, slope]
     }
 }
 
@@ -165,6 +166,19 @@ pub struct Tables {
     trend: Targets,
     /// Prior of each target's recursive least-squares fit; old data decay towards it.
     priors: [Regression; TARGETS],
+    /// Fractions of the squared errors beside a preview that are kept over a sample, while they rise
+    /// and while they fall.
+    preview_keep: [f64; 2],
+}
+
+impl Tables {
+    /// Forecasts of a target by the fixed experts, for these [parts](StoredSample::parts): hold,
+    /// trend, fade.
+    fn fixed_forecasts(&self, [slow, fast, slope]: [f64; 3], target: usize) -> [f64; EXPERTS - 1] {
+        let hold = slow * self.hold[0][target] + fast * self.hold[1][target];
+        let fade = slow * self.fade[0][target] + fast * self.fade[1][target];
+        [hold, hold + slope * self.trend[target], fade]
+    }
 }
 
 impl Default for Tables {
@@ -180,6 +194,7 @@ impl Default for Tables {
                 let samples = PRIOR_FRACTION * samples_to_end(target) as f64;
                 Regression::new(samples * covariance, &linear.row(target).transpose())
             }),
+            preview_keep: PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time)),
         }
     }
 }
@@ -256,6 +271,8 @@ impl Forecaster {
             fits: tables.priors,
             fitted: from_features(&tables.fade),
             turn: 0,
+            unlearned: TARGETS,
+            keep_fit: 0.0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
             courses: PreviewedCues::default(),
@@ -303,19 +320,34 @@ impl Forecaster {
     /// The forecast over the blocks of a horizon, by the preview where there is one.
     pub fn over(&self, horizon: Horizon, tables: &Tables, kind: ForecastKind) -> Forecast {
         let learned = if horizon == Horizon::Near { self.forecast } else { self.forecast.over(horizon) };
-        match self.previewed(tables, kind) {
-            Some(previewed) => learned.towards(&previewed.over(horizon), &self.trust(horizon)),
+        match self.preview_over(horizon, tables, kind) {
+            Some(previewed) => learned.towards(&previewed, &self.trust(horizon)),
             None => learned,
         }
     }
 
+    /// The forecast by the preview alone, if there is one.
+    fn preview_over(&self, horizon: Horizon, tables: &Tables, kind: ForecastKind) -> Option<Forecast> {
+        // Most steps have no preview: they need no room for it.
+        if self.preview_length() == 0.0 {
+            return None;
+        }
+        self.previewed(&mut Ahead::default(), tables, kind).map(|previewed| previewed.over(horizon))
+    }
+
     /// The reference by the preview, followed from the preview's end by the
     /// forecast as of that time.
-    fn previewed(&self, tables: &Tables, kind: ForecastKind) -> Option<Previewed> {
+    ///
+    /// `ahead` is the room for it, so that the many corners are not moved.
+    fn previewed<'a>(&self, ahead: &'a mut Ahead, tables: &Tables, kind: ForecastKind) -> Option<Previewed<'a>> {
         let past = (TIME_CONSTANTS[QUICK], self.low_passes[QUICK]);
-        let ahead = Ahead::new(&self.courses, past, self.beside)?;
+        if !ahead.set(&self.courses, past, self.beside) {
+            return None;
+        }
         let mut end = StoredSample { value: ahead.last(), ..StoredSample::default() };
-        for (low, (now, time)) in end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)) {
+        // No forecast uses the last one.
+        for (low, (now, time)) in end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)).take(QUICK)
+        {
             *low = ahead.low_pass(*now, time, ahead.length());
         }
         let fitted = self.fitted * end.features();
@@ -356,6 +388,9 @@ impl Forecaster {
     /// Updates the errors and the fit with the latest samples, and forecasts anew. To be called
     /// once every [`SAMPLE`].
     pub fn sample(&mut self, tables: &Tables, kind: ForecastKind, memory: &Memory) {
+        while self.unlearned < TARGETS {
+            self.learn_next(tables);
+        }
         self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
         let mut now = StoredSample {
             value: self.value,
@@ -369,19 +404,22 @@ impl Forecaster {
         now.fitted = self.fitted * now.features();
         self.forecast = self.expected(&now, &now.fitted, tables, kind);
         now.expected =
-            self.previewed(tables, kind).map(|course| [self.forecast.means, course.over(Horizon::Near).means]);
+            self.preview_over(Horizon::Near, tables, kind).map(|previewed| [self.forecast.means, previewed.means]);
         self.remember(&now);
     }
 
     /// The experts' forecast from an instant on; `fitted` is the fit's forecast.
     fn expected(&self, then: &StoredSample, fitted: &Targets, tables: &Tables, kind: ForecastKind) -> Forecast {
-        let [hold, trend, fade] = then.fixed_forecasts(tables);
-        let targets = match kind {
-            ForecastKind::Hold => hold,
-            ForecastKind::Decay => fade,
-            ForecastKind::Learned => self.mixture(&[hold, trend, fade, *fitted]),
+        let parts = then.parts();
+        let target = |target: usize| {
+            let [hold, trend, fade] = tables.fixed_forecasts(parts, target);
+            match kind {
+                ForecastKind::Hold => hold,
+                ForecastKind::Decay => fade,
+                ForecastKind::Learned => self.mixture(target, [hold, trend, fade, fitted[target]]),
+            }
         };
-        Forecast { means: targets.fixed_rows::<BLOCKS>(0).into_owned(), end: [targets[BLOCKS], targets[BLOCKS + 1]] }
+        Forecast { means: SVector::from_fn(|block, _| target(block)), end: [target(BLOCKS), target(BLOCKS + 1)] }
     }
 
     fn remember(&mut self, now: &StoredSample) {
@@ -391,71 +429,91 @@ impl Forecaster {
     }
 
     /// The sample that is `count` samples old.
-    fn ago(&self, count: usize) -> StoredSample {
-        let index = (self.latest as usize + MEMORY - count) % MEMORY;
-        self.samples.get(index).copied().unwrap_or_default()
+    fn ago(&self, count: usize) -> Option<&StoredSample> {
+        self.samples.get((self.latest as usize + MEMORY - count) % MEMORY)
     }
 
-    /// A target whose time has just ended.
-    fn truth(&self, target: usize) -> f64 {
-        let now = self.ago(0);
-        match target {
+    /// The sample from whose time on a target has just ended, and the target's value.
+    fn ended(&self, target: usize) -> Option<(&StoredSample, f64)> {
+        let (then, now) = (self.ago(samples_to_end(target))?, self.ago(0)?);
+        let truth = match target {
             BLOCKS => now.low_passes[SLOW],
             target if target > BLOCKS => now.value - now.low_passes[SLOW],
-            block => (now.integral - self.ago(SAMPLES[block]).integral) / Horizon::Near.durations()[block],
-        }
+            block => (now.integral - self.ago(SAMPLES[block])?.integral) / Horizon::Near.durations()[block],
+        };
+        Some((then, truth))
     }
 
-    /// Updates the errors and the fits with the targets whose time has just ended. Fits a part of
-    /// the targets anew.
+    /// Updates the errors with the targets whose time has just ended. Fits a part of the targets
+    /// anew; the fits of the others learn [in the steps that follow](Forecaster::learn_next).
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
         let [keep_fit, keep_errors] = [memory.fit, memory.selection].map(|time| libm::exp(-SAMPLE / time));
         for target in 0..TARGETS {
-            let (then, truth) = (self.ago(samples_to_end(target)), self.truth(target));
-            self.compare(target, &then, truth, tables, keep_errors);
-            self.fits[target].add(keep_fit, &tables.priors[target], &then.features(), truth);
+            self.compare(target, tables, keep_errors);
         }
+        (self.unlearned, self.keep_fit) = (0, keep_fit);
         self.turn = (self.turn + 1) % FIT_EVERY;
         for target in (self.turn..TARGETS).step_by(FIT_EVERY) {
+            self.add_to_fit(target, tables);
             if let Some(coefficients) = self.fits[target].coefficients() {
                 self.fitted.set_row(target, &coefficients.transpose());
             }
         }
     }
 
-    /// Updates the mean squared errors with those of the forecasts of a target, made at `then`. The
-    /// experts' errors keep a part `keep` of what they were.
-    fn compare(&mut self, target: usize, then: &StoredSample, truth: f64, tables: &Tables, keep: f64) {
-        let [hold, trend, fade] = then.fixed_forecasts(tables);
-        for (expert, forecast) in [hold, trend, fade, then.fitted].iter().enumerate() {
-            let error = forecast[target] - truth;
+    /// Adds the latest sample to the fit of one more target, if one is left. To be called once a
+    /// step, so that no step has all of them.
+    pub fn learn_next(&mut self, tables: &Tables) {
+        if self.unlearned < TARGETS && self.unlearned % FIT_EVERY == self.turn {
+            self.unlearned += 1;
+        }
+        if self.unlearned < TARGETS {
+            self.add_to_fit(self.unlearned, tables);
+            self.unlearned += 1;
+        }
+    }
+
+    /// Adds a target whose time ended at the latest sample to its fit.
+    fn add_to_fit(&mut self, target: usize, tables: &Tables) {
+        if let Some((then, truth)) = self.ended(target) {
+            let features = then.features();
+            self.fits[target].add(self.keep_fit, &tables.priors[target], &features, truth);
+        }
+    }
+
+    /// Updates the mean squared errors with those of the forecasts of a target whose time has just
+    /// ended. The experts' errors keep a part `keep` of what they were.
+    fn compare(&mut self, target: usize, tables: &Tables, keep: f64) {
+        let Some((then, truth)) = self.ended(target) else { return };
+        let ([hold, trend, fade], fitted) = (tables.fixed_forecasts(then.parts(), target), then.fitted[target]);
+        let expected = then.expected.filter(|_| target < BLOCKS).map(|means| means.map(|means| means[target]));
+        for (expert, forecast) in [hold, trend, fade, fitted].into_iter().enumerate() {
+            let error = forecast - truth;
             let mean = &mut self.errors[(expert, target)];
             *mean = keep * *mean + (1.0 - keep) * (LEAST_ERROR + error * error);
         }
-        if let (Some(expected), block @ 0..BLOCKS) = (then.expected, target) {
-            let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
-            for (errors, means) in self.preview_errors.iter_mut().zip(expected) {
-                let error = means[block] - truth;
+        if let Some(expected) = expected {
+            let [keep_rising, keep_falling] = tables.preview_keep;
+            for (errors, mean) in self.preview_errors.iter_mut().zip(expected) {
+                let error = mean - truth;
                 let squared = LEAST_ERROR + error * error;
-                let keep = if squared > errors[block] { keep_rising } else { keep_falling };
-                errors[block] = keep * errors[block] + (1.0 - keep) * squared;
+                let keep = if squared > errors[target] { keep_rising } else { keep_falling };
+                errors[target] = keep * errors[target] + (1.0 - keep) * squared;
             }
         }
     }
 
-    /// The experts' forecasts, each target weighted by the inverse fourth power of
-    /// the mean squared errors.
-    fn mixture(&self, forecasts: &[Targets; EXPERTS]) -> Targets {
-        Targets::from_fn(|target, _| {
-            let errors = self.errors.column(target);
-            let least = errors.min();
-            let (mut sum, mut weights) = (0.0, 0.0);
-            for (forecast, error) in forecasts.iter().zip(errors.iter()) {
-                let squared = (least / error) * (least / error);
-                sum += squared * squared * forecast[target];
-                weights += squared * squared;
-            }
-            sum / weights
-        })
+    /// The experts' forecasts of a target, weighted by the inverse fourth power of the mean squared
+    /// errors.
+    fn mixture(&self, target: usize, forecasts: [f64; EXPERTS]) -> f64 {
+        let errors = self.errors.column(target);
+        let least = errors.min();
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (forecast, error) in forecasts.into_iter().zip(errors.iter()) {
+            let squared = (least / error) * (least / error);
+            sum += squared * squared * forecast;
+            weights += squared * squared;
+        }
+        sum / weights
     }
 }

@@ -10,7 +10,8 @@ pub const FEATURES: usize = FORCES + 3;
 pub type Features = SVector<f64, FEATURES>;
 pub type Covariance = SMatrix<f64, FEATURES, FEATURES>;
 
-/// Weighted sums of x x' and x y over the past, for features x and a target y.
+/// Weighted sums of x x', in the lower triangle, and x y over the past, for features x and a target
+/// y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Regression {
     pub(super) squares: Covariance,
@@ -25,8 +26,14 @@ impl Regression {
 
     /// Forgets a part of the past in favour of the prior, and adds a sample.
     pub fn add(&mut self, keep: f64, prior: &Regression, x: &Features, y: f64) {
-        self.squares = keep * self.squares + (1.0 - keep) * prior.squares + x * x.transpose();
-        self.products = keep * self.products + (1.0 - keep) * prior.products + x * y;
+        let forgotten = 1.0 - keep;
+        for column in 0..FEATURES {
+            for row in column..FEATURES {
+                let at = (row, column);
+                self.squares[at] = keep * self.squares[at] + forgotten * prior.squares[at] + x[row] * x[column];
+            }
+            self.products[column] = keep * self.products[column] + forgotten * prior.products[column] + x[column] * y;
+        }
     }
 
     /// The coefficients with the least squared error; none where rounding makes the sums

@@ -320,10 +320,10 @@ fn the_fit_begins_as_the_fading_expert_with_the_priors_weight() {
     let mut low_passes = SVector::from_fn(|k, _| 0.2 * k as f64);
     low_passes[SLOW] = low_passes[FIT_SLOW];
     let sample = StoredSample { value: 1.3, low_passes, rates: Vector3::new(0.3, 0.2, 0.1), ..StoredSample::default() };
-    let [.., fade] = sample.fixed_forecasts(&tables);
     for (target, prior) in tables.priors.iter().enumerate() {
         let forecast = prior.coefficients().unwrap().dot(&sample.features());
-        assert!((forecast - fade[target]).abs() < 1e-9, "target {target}");
+        let [.., fade] = tables.fixed_forecasts(sample.parts(), target);
+        assert!((forecast - fade).abs() < 1e-9, "target {target}");
     }
 }
 
@@ -387,7 +387,8 @@ fn after_a_right_preview_the_forecast_is_the_one_made_then() {
     forecaster.preview(&course(cornered, 12.0, 8));
     assert!((forecaster.preview_length() - 1.6).abs() < 1e-12);
     let then = followed(cornered, 13.6, ForecastKind::Decay);
-    let previewed = forecaster.previewed(&tables, ForecastKind::Decay).unwrap();
+    let mut ahead = Ahead::default();
+    let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Decay).unwrap();
     // The forecaster holds each value for a millisecond, and knows the present one by a low-pass.
     assert!((previewed.after.means - then.forecast.means).amax() < 0.02, "{}", previewed.after.means);
     assert!((previewed.slow - forecaster.low_passes[SLOW]).abs() < 1e-15);
@@ -403,7 +404,8 @@ fn the_forecast_goes_towards_the_preview_by_its_trust() {
     let tables = Tables::default();
     let mut forecaster = followed(lively, 8.0, ForecastKind::Learned);
     forecaster.preview(&course(|time| 3.0 * time.cos(), 0.0, 30));
-    let previewed = forecaster.previewed(&tables, ForecastKind::Learned).unwrap();
+    let mut ahead = Ahead::default();
+    let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Learned).unwrap();
     for horizon in [Horizon::Near, Horizon::Far] {
         let learned = forecaster.forecast.over(horizon);
         let (previewed, trust) = (previewed.over(horizon), forecaster.trust(horizon));
@@ -458,8 +460,8 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
             forecaster.preview(&course(|time| lively(time) + wrong, n as f64 * SAMPLE, 20));
         }
         forecaster.sample(&tables, ForecastKind::Learned, &MEMORY);
-        let previewed = forecaster.previewed(&tables, ForecastKind::Learned);
-        made.push(previewed.map(|course| [forecaster.forecast.means, course.over(Horizon::Near).means]));
+        let previewed = forecaster.preview_over(Horizon::Near, &tables, ForecastKind::Learned);
+        made.push(previewed.map(|previewed| [forecaster.forecast.means, previewed.means]));
         let mut age = 0;
         for block in 0..BLOCKS {
             age += SAMPLES[block];
@@ -485,6 +487,7 @@ fn the_angular_channels_part_of_the_reference_fades_over_a_preview() {
     let mut forecaster = followed(|_| 0.0, 1.0, ForecastKind::Hold);
     forecaster.preview(&course(|_| 0.0, 0.0, 8));
     forecaster.set_angular(0.5, &Vector3::zeros());
-    let previewed = forecaster.previewed(&tables, ForecastKind::Hold).unwrap();
+    let mut ahead = Ahead::default();
+    let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Hold).unwrap();
     assert!((previewed.ahead.last() - 0.5 * (-1.6_f64).exp()).abs() < 1e-12, "{}", previewed.ahead.last());
 }
