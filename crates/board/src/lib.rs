@@ -9,6 +9,8 @@
 extern crate alloc;
 
 pub mod arena;
+#[cfg(target_arch = "arm")]
+mod copying;
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
@@ -21,7 +23,7 @@ use moris_interface::{Group, Reader, Writer, slot_count};
 use moris_washout::{Input, Output, Parameters, Preview, Washout};
 
 /// Size of the buffer for a washout with the strategies that are built in, in bytes.
-pub const BUFFER_SIZE: usize = if cfg!(feature = "predictive") { 288 << 10 } else { 24 << 10 };
+pub const BUFFER_SIZE: usize = if cfg!(feature = "predictive") { 240 << 10 } else { 24 << 10 };
 /// Elements of the output.
 pub const OUTPUT_COUNT: usize = slot_count(Output::ROWS);
 
