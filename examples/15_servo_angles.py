@@ -16,7 +16,7 @@ import numpy as np
 from recording import main as write_recording
 
 DIRECTORY = Path("target/examples/15_servo_angles")
-RIGS = ["crank-servo", "crank-hobby20", "crank-hobby25", "crank-stepper115", "crank-person"]
+RIGS = ["crank-servo", "crank-hobby20", "crank-hobby25", "crank-stepper50", "crank-person"]
 
 
 def rotations(roll, pitch, yaw):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import ROOT, gentle
 
-RIGS = ["crank-servo", "crank-hobby20", "crank-hobby25", "crank-stepper115", "crank-person"]
+RIGS = ["crank-servo", "crank-hobby20", "crank-hobby25", "crank-stepper50", "crank-person"]
 
 
 @pytest.fixture

@@ -11,5 +11,5 @@ macro_rules! rigs {
 /// by stroke, then cranks.
 pub const SHIPPED_RIGS: [(&str, &str); 17] = rigs! {
     "hobby100" "hobby150" "hobby200" "diy283" "compact" "dim330" "moog-like450" "narrow" "default" "flight091" "flight125"
-    "long-stroke" "crank-servo" "crank-person" "crank-hobby20" "crank-hobby25" "crank-stepper115"
+    "long-stroke" "crank-servo" "crank-person" "crank-hobby20" "crank-hobby25" "crank-stepper50"
 };

@@ -59,7 +59,7 @@ fn cranks_are_read_in_degrees_and_rates_of_their_arms() {
         // 0.79 and 4.66 inches.
         ("crank-hobby20", 0.020_066, 0.118_364, [90.0, -90.0, -30.0, 150.0, -150.0, 30.0], 80.0),
         ("crank-hobby25", 0.025, 0.155, [-60.0, 120.0, 180.0, 0.0, 60.0, -120.0], 40.0),
-        ("crank-stepper115", 0.115, 0.3683, [-90.0, 90.0, 30.0, -150.0, 150.0, -30.0], 35.0),
+        ("crank-stepper50", 0.05, 0.1675, [-90.0, 90.0, 30.0, -150.0, 150.0, -30.0], 45.0),
     ] {
         let file = load_rig(&example(&format!("{name}.toml"))).unwrap();
         assert_eq!(file.check(), Ok(()), "{name}");

@@ -42,16 +42,24 @@ pub struct Clearance {
     is_given: bool,
     /// True if the joints of the base and the platform are numbered in opposite directions.
     is_opposite: bool,
+    /// True for the rods of cranks.
+    has_cranks: bool,
 }
 
 impl Clearance {
-    /// Clearance of a rig with legs of this diameter \[m\].
+    /// Clearance of a rig with legs, or rods of cranks, of this diameter \[m\].
     pub fn of(rig: &Rig, diameter: Option<f64>) -> Self {
-        // Diameter of a leg of which none is given [m]: thinner than actuators of this size are.
+        // Diameter of a leg of which none is given [m]: thinner than actuators of this size are. Of
+        // a rod as a part of its length.
         const ASSUMED_DIAMETER: f64 = 0.05;
+        const ASSUMED_ROD_PART: f64 = 0.03;
+        let has_cranks = rig.has_cranks();
+        let assumed =
+            if has_cranks { ASSUMED_DIAMETER.min(ASSUMED_ROD_PART * rig.crank_rod) } else { ASSUMED_DIAMETER };
         let is_given = diameter.is_some();
-        let diameter = diameter.unwrap_or(ASSUMED_DIAMETER);
-        Clearance { approaches: approaches(rig, diameter), diameter, is_given, is_opposite: is_opposite(rig) }
+        let diameter = diameter.unwrap_or(assumed);
+        let is_opposite = is_opposite(rig);
+        Clearance { approaches: approaches(rig, diameter), diameter, is_given, is_opposite, has_cranks }
     }
 
     /// True if legs whose axes are this close touch each other \[m\].
@@ -66,24 +74,33 @@ impl Clearance {
 
     /// Where the diameter comes from, as the end of a sentence.
     pub fn source(&self) -> &'static str {
-        if self.is_given { "" } else { " (assumed; actuator.diameter in the rig file gives it)" }
+        match (self.is_given, self.has_cranks) {
+            (true, _) => "",
+            (_, true) => " (assumed; crank.diameter in the rig file gives it)",
+            _ => " (assumed; actuator.diameter in the rig file gives it)",
+        }
     }
 }
 
 impl fmt::Display for Clearance {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let [kind, title, capital] = if self.has_cranks { ["rods", "Rods", "RODS"] } else { ["legs", "Legs", "LEGS"] };
         let line = |approach: &Approach| {
             let [first, second] = approach.legs.map(|leg| leg + 1);
-            format!("legs {first} and {second} come within {:.3} m of each other", approach.distance)
+            format!("{kind} {first} and {second} come within {:.3} m of each other", approach.distance)
         };
         let diameter = format!("taken as {:.3} m thick{}", self.diameter, self.source());
         if self.collisions().next().is_none() {
-            return writeln!(f, "no legs touch: {}, axis to axis\n  legs are {diameter}", line(&self.approaches[0]));
+            return writeln!(
+                f,
+                "no {kind} touch: {}, axis to axis\n  {kind} are {diameter}",
+                line(&self.approaches[0])
+            );
         }
-        writeln!(f, "LEGS COLLIDE within their stroke, axis to axis:")?;
+        writeln!(f, "{capital} COLLIDE within their stroke, axis to axis:")?;
         self.collisions().try_for_each(|approach| writeln!(f, "  {}", line(approach)))?;
-        writeln!(f, "  Legs are {diameter}.")?;
-        writeln!(f, "  Choose other joints: those of two legs may be exchanged, or too close together.")?;
+        writeln!(f, "  {title} are {diameter}.")?;
+        writeln!(f, "  Choose other joints: those of two {kind} may be exchanged, or too close together.")?;
         if self.is_opposite { writeln!(f, "  {ADVICE}.") } else { Ok(()) }
     }
 }

@@ -29,6 +29,20 @@ fn singular_rig(directory: &Path) -> String {
     file.display().to_string()
 }
 
+#[test]
+fn published_rigs_with_cranks_are_sound_and_rods_have_a_thickness_of_their_own() {
+    let directory = tempfile::tempdir().unwrap();
+    for rig in ["crank-servo", "crank-hobby20", "crank-hobby25", "crank-stepper50", "crank-person"] {
+        let output = moris(directory.path(), &["rig", "check", rig, "--samples", "1000"]);
+        assert!(output.status.success(), "{rig}: {}", text(&output.stdout));
+    }
+    // 3 % of a rod of 155 mm.
+    let file = fs::read_to_string(rigs().join("crank-hobby25.toml")).unwrap().replace("diameter = 0.004", "");
+    fs::write(directory.path().join("mine.toml"), file).unwrap();
+    let printed = text(&moris(directory.path(), &["rig", "check", "mine.toml", "--samples", "1000"]).stdout);
+    assert!(printed.contains("rods are taken as 0.005 m thick (assumed; crank.diameter"), "{printed}");
+}
+
 /// A ride of 4 s: accelerate gently, with some roll.
 fn recording() -> Vec<Input> {
     (0..=400)
