@@ -76,8 +76,8 @@ impl Arms {
         libm::atan2(self.sin[i], self.cos[i]) + self.beyond[i]
     }
 
-    /// The smallest squares of distances by which the joints are clear of where arms at these lowest
-    /// and highest angles, given by cosine and sine, would have them \[m2\].
+    /// The smallest squares of distances by which the joints are clear of where arms at these
+    /// lowest and highest angles, given by cosine and sine, would have them \[m2\].
     ///
     /// An arm at the angle B with its end b has |l - b|² - s² = g - f cos B - e sin B. That is
     /// negative for B between the arm's angle and that of the other branch.

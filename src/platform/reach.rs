@@ -79,6 +79,28 @@ pub fn neutral_lengths(geometry: &Geometry, neutral_height: f64) -> [f64; 2] {
     [f64::min, f64::max].map(|pick| lengths.iter().copied().fold(lengths[0], pick))
 }
 
+/// The ends of the stroke for what keeps away from them \[m\]. Those of cranks are no farther than
+/// the arcs at which a transmission comes to its limit while the platform heaves.
+pub(crate) fn clear_stroke(rig: &Rig) -> [f64; 2] {
+    let [start, end] = rig.stroke();
+    let geometry = Geometry::from(rig);
+    let Some(cranks) = &geometry.cranks else { return [start, end] };
+    let [lowest, highest] = [-1.0, 1.0].map(|sign| {
+        let pose = |heave: f64| displaced(rig, Axis::Heave, sign * heave);
+        let (mut within, mut without) = (0.0, 2.0 * cranks.arm);
+        for _ in 0..HEAVE_HALVINGS {
+            let middle = 0.5 * (within + without);
+            let keeps = cranks.transmission(&geometry, &pose(middle)) >= cranks.least_transmission;
+            if keeps { within = middle } else { without = middle }
+        }
+        leg_lengths(&geometry, &pose(within))
+    });
+    [lowest.into_iter().fold(end, f64::min).max(start), highest.into_iter().fold(start, f64::max).min(end)]
+}
+
+/// Halvings of two arms: to a ten-thousandth of an arm.
+const HEAVE_HALVINGS: u32 = 14;
+
 /// Reach of the platform along this axis alone, all other coordinates neutral, up to the pose at
 /// which the first leg is at an end of its stroke. Rotations end at a quarter turn.
 pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {

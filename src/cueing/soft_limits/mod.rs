@@ -34,7 +34,7 @@ use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::motion::square_root::square_root;
-use crate::platform::reach::{neutral_lengths, short_stroke};
+use crate::platform::reach::{clear_stroke, neutral_lengths, short_stroke};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
 
 /// The soft limits with their state.
@@ -191,7 +191,7 @@ impl SoftLimits {
         });
         let Rig { velocity_limit, acceleration_limit, .. } = *rig;
         let neutral = neutral_lengths(&geometry, rig.neutral_height);
-        let leg = Ends::new(rig.stroke(), neutral, velocity_limit, acceleration_limit, margin, pace);
+        let leg = Ends::new(clear_stroke(rig), neutral, velocity_limit, acceleration_limit, margin, pace);
         SoftLimits {
             geometry,
             neutral_height: rig.neutral_height,

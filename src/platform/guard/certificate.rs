@@ -63,7 +63,8 @@ impl Machine {
         self.sees_home_by_bounds(to, duration).then_some(duration)
     }
 
-    /// The same as [`Machine::certify_by_bounds`] with the actuators as levers; the transmission matters with cranks alone.
+    /// The same as [`Machine::certify_by_bounds`] with the actuators as levers; the transmission
+    /// matters with cranks alone.
     #[inline(always)]
     pub(super) fn certify_within<const CRANKS: bool>(
         &self,

@@ -4,8 +4,8 @@
 //! Let G1, G2, G3 be the bounds on the derivatives of the joints' vectors ([`JointBounds`]), a the
 //! arm and s the rod. An arc q with the rod's direction n, the arm's direction o and its tangent t
 //! has q' = n·V/k, and the rod's ends move apart at Q = V - t q'. Q is the projection of V along t
-//! onto the plane across n, so |Q| <= |V|/k, as |q'|. |n·o| and the part of t across n are at most
-//! c = sqrt(1 - k²). From n·Q = 0 it follows that
+//! onto the plane across n. Therefore |Q| is at most |V|/k, as |q'| is. Both |n·o| and the part of
+//! t across n are at most c = sqrt(1 - k²). From n·Q = 0 it follows that
 //!
 //! ```text
 //!     k q''  = n·V' + (n·o) q'²/a + |Q|²/s
@@ -104,9 +104,9 @@ impl Cranks {
         (ends - lost >= transmission && turns <= LARGEST_TURN).then(|| self.arc_jerk(bounds, transmission) * half)
     }
 
-    /// Bound on the second derivative of any transmission's square on a way on which joints move
-    /// by at most `joint`, with second derivatives of at most `bend`, up to `farthest` from their
-    /// axles. g is nowhere smaller than `least_g`.
+    /// Bound on the second derivative of any transmission's square on a way. The joints' vectors
+    /// have derivatives of at most `joint` and `bend`, and lengths of at most `farthest`. Their g
+    /// is nowhere smaller than `least_g`.
     ///
     /// The square is (e² + f² - g²)/(2 a s)². e and f are linear in the joint's vector l, and
     /// g'' = 2 |l'|² + 2 l·l''. The square of g' makes the second derivative only smaller, and so
@@ -124,7 +124,8 @@ impl Cranks {
 pub(super) struct Way {
     /// Bound on the second derivative of any transmission's square.
     pub(super) square_bend: f64,
-    /// Bounds on the first and second derivatives of the joints' vectors, and on those vectors \[m\].
+    /// Bounds on the first and second derivatives of the joints' vectors, and on those vectors
+    /// \[m\].
     joint: f64,
     bend: f64,
     farthest: f64,
@@ -194,9 +195,10 @@ impl Machine {
         self.arms_see_home_by_bounds(cranks, &arms, &self.lever_of(cranks, arms.least_transmission()), to, duration)
     }
 
-    /// The same, where the arms are known. An angle is inside its range all the way if the joint's
-    /// distance from the end of an arm at the range's end is: there arms are legs of the rod's
-    /// length, whose squares have the second derivatives that `home.rs` has.
+    /// The same, where the arms are known. An angle stays inside its range while the joint
+    /// keeps its side of a sphere: about the end of an arm at the range's end, with the rod
+    /// as radius. Such distances are lengths of legs, whose squares have the second
+    /// derivatives that `home.rs` has.
     #[inline(always)]
     fn arms_see_home_by_bounds(
         &self,
@@ -233,8 +235,8 @@ impl Machine {
 
     /// Bounds on the way home over this distance, from within `travel` of where the arms are.
     ///
-    /// A joint's way is its chord but for its second derivative b: there, g is no more than
-    /// (|l'|² + |l| b)/4 below its values at the ends, and |l'| no more than b/2 above the chord.
+    /// A joint's way is its chord but for its second derivative b. So |l'| is no more than b/2
+    /// above the chord. There, g is no more than (|l'|² + |l| b)/4 below its values at the ends.
     pub(super) fn way(&self, cranks: &Cranks, arms: &Arms, distance: Distance, travel: f64) -> Way {
         let bend = distance.angular * distance.angular * self.radius;
         let [nearest, farthest] = self.home.joints;
@@ -247,9 +249,9 @@ impl Machine {
         Way { square_bend: cranks.square_bend(joint, bend, farthest, least_g), joint, bend, farthest }
     }
 
-    /// True if rates of the arms at both ends of a transition show that their accelerations keep
-    /// the limit within it, where the joints keep these bounds and the rates of both ends are off by
-    /// at most `gap` times the step \[m/s2\].
+    /// True if the rates of the arms at both ends show that accelerations keep their limit within a
+    /// transition. The joints keep the bounds, and the rates of both ends are off by at most `gap`
+    /// times the step \[m/s2\].
     ///
     /// The mean of an acceleration is the change of the rate over the step, and somewhere in it the
     /// acceleration is that mean.
