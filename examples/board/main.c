@@ -1,4 +1,5 @@
-/* Telemetry in, servo pulses out: a platform of six linear servos beside a vehicle or a game.
+/* Telemetry in, servo pulses out: a platform of six linear servos, or of six servos with cranks,
+ * beside a vehicle or a game. The rig in moris_parameters.h says which.
  *
  * A line of telemetry is the specific force [m/s2] and the angular velocity [rad/s], as six decimals
  * separated by commas: "0.1,-0.2,9.8,0.01,0,0.3". At 50 Hz a frame answers with six pulses [us]:
@@ -13,14 +14,21 @@
 #define LINE_TIMEOUT 200u       /* time without a line after which the platform returns [ms] */
 #define PULSE_SHORTEST 1000.0   /* pulse at the shortest and at the longest leg [us] */
 #define PULSE_LONGEST 2000.0
+#define PULSE_PER_RADIAN 636.62 /* of a servo that turns by 180 degrees from 500 to 2500 us */
 #define LIFT_TIME 6.0           /* time from the lowest pose to neutral [s] */
-#define REST_SPEED 1e-4         /* leg speed below which the platform is at rest [m/s] ... */
+#define REST_SPEED 1e-4         /* speed of an actuator below which it is at rest [m/s] ... */
 #define REST_STEPS 1000         /* ... if it lasts for so many steps */
 
 #ifndef BUFFER_SIZE
 #define BUFFER_SIZE (24 * 1024) /* at least moris_buffer_size() [bytes] */
 #endif
 static double buffer[BUFFER_SIZE / sizeof(double)];
+
+/* Servos with cranks: pulse at which the arm is level [us], as trimmed on the platform, and 1 where a
+ * longer pulse raises the arm, -1 where the servo is mounted the other way round. */
+static const struct {
+    double level, direction;
+} servos[6] = {{1500.0, 1.0}, {1500.0, -1.0}, {1500.0, 1.0}, {1500.0, -1.0}, {1500.0, 1.0}, {1500.0, -1.0}};
 
 /* Reads a decimal number; returns NULL where there is none. */
 static const char *read_number(const char *text, double *number)
@@ -59,15 +67,26 @@ static int read_line(const char *text, double *input)
     return 1;
 }
 
-static void send_frame(const double *length, double lift)
+/* The pulse of an actuator, `lift` of the way from its lowest position to that of the output [us]. */
+static double pulse_of(int actuator, const double *output, double lift)
 {
+    if (moris_parameters[MORIS_crank_arm] > 0.0) {
+        const double lowest = moris_parameters[MORIS_crank_minAngle];
+        double angle = lowest + lift * (output[MORIS_actuator_1_angle + actuator] - lowest);
+        return servos[actuator].level + servos[actuator].direction * PULSE_PER_RADIAN * angle;
+    }
     const double shortest = moris_parameters[MORIS_actuator_minLength];
     const double stroke = moris_parameters[MORIS_actuator_maxLength] - shortest;
+    double fraction = lift * (output[MORIS_actuator_1_length + actuator] - shortest) / stroke;
+    return PULSE_SHORTEST + fraction * (PULSE_LONGEST - PULSE_SHORTEST);
+}
+
+static void send_frame(const double *output, double lift)
+{
     char text[64], *end = text;
     *end++ = 'P';
-    for (int leg = 0; leg < 6; leg++) {
-        double fraction = lift * (length[leg] - shortest) / stroke;
-        int pulse = (int)(PULSE_SHORTEST + fraction * (PULSE_LONGEST - PULSE_SHORTEST) + 0.5);
+    for (int actuator = 0; actuator < 6; actuator++) {
+        int pulse = (int)(pulse_of(actuator, output, lift) + 0.5);
         *end++ = ' ';
         for (int unit = 1000; unit > 0; unit /= 10)
             *end++ = (char)('0' + pulse / unit % 10);
@@ -124,6 +143,6 @@ int main(void)
             raised -= STEP / LIFT_TIME;
         raised = raised > 1.0 ? 1.0 : raised < 0.0 ? 0.0 : raised;
         if (++steps % STEPS_PER_FRAME == 0)
-            send_frame(&output[MORIS_actuator_1_length], raised * raised * (3.0 - 2.0 * raised));
+            send_frame(output, raised * raised * (3.0 - 2.0 * raised));
     }
 }
