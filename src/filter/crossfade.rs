@@ -19,6 +19,8 @@ pub struct FadedChains {
     before: Chains,
     /// Correction to the input, after which the chains' high-pass is what it was before the change.
     offset: FadingOffset,
+    /// What is left of the same correction of the chains before.
+    offset_before: FadingOffset,
     /// The input at the end of the last step.
     input: Vector3<f64>,
     /// Fraction of the fade that has passed; 1 without one.
@@ -41,6 +43,7 @@ impl FadedChains {
             chains,
             before: chains,
             offset: FadingOffset::default(),
+            offset_before: FadingOffset::default(),
             input: Vector3::zeros(),
             fraction: 1.0,
             next: None,
@@ -57,6 +60,7 @@ impl FadedChains {
             self.chains.retune(denominators, self.kept);
             if !self.chains.is_at_rest() {
                 self.fraction = 0.0;
+                self.offset_before = self.offset;
                 self.offset.add(self.before.high_pass(self.input) - self.chains.high_pass(self.input));
             }
         }
@@ -77,7 +81,8 @@ impl FadedChains {
     fn advance_fade(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
         let (offset_start, offset_end) = self.offset.advance(step);
         self.chains.advance(start + offset_start, end + offset_end, step);
-        self.before.advance(start, end, step);
+        let (offset_start, offset_end) = self.offset_before.advance(step);
+        self.before.advance(start + offset_start, end + offset_end, step);
         self.fraction = min(self.fraction + step / FADE_TIME, 1.0);
         if self.fraction == 1.0
             && let Some(next) = self.next.take()
@@ -95,7 +100,11 @@ impl FadedChains {
             acceleration: chains.high_pass(input),
         };
         let motion = of(&self.chains, self.corrected_input());
-        if self.fraction >= 1.0 { motion } else { self.faded(&of(&self.before, self.input), &motion) }
+        if self.fraction >= 1.0 {
+            motion
+        } else {
+            self.faded(&of(&self.before, self.input + self.offset_before.value()), &motion)
+        }
     }
 
     /// The first integral of the high-pass, and the high-pass itself.
@@ -108,7 +117,7 @@ impl FadedChains {
         };
         let mut motion = of(&self.chains, self.corrected_input());
         if self.fraction < 1.0 {
-            motion = self.faded(&of(&self.before, self.input), &motion);
+            motion = self.faded(&of(&self.before, self.input + self.offset_before.value()), &motion);
         }
         (motion.position, motion.velocity)
     }

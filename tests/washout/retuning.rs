@@ -429,6 +429,37 @@ fn a_tilt_limit_written_on_and_on_is_no_blow() {
     }
 }
 
+/// Each tunable parameter, written anew every 40 ms with a value anywhere in its usual range. A
+/// fade that began before the last one's correction was over was felt as 12 m/s2.
+#[test]
+fn no_parameter_written_on_and_on_is_a_blow() {
+    const BOUND: f64 = 0.5;
+    // The tilt brakes for its limits, and the adaptive filter starts anew.
+    const WIDER: [&str; 3] = ["tilt.rateLimit", "tilt.angleLimit", "adaptive.omega"];
+    const WIDER_BOUND: f64 = 1.0;
+    let identity = Washout::IDENTITY;
+    let mut failed = Vec::new();
+    for (slot, _) in changes() {
+        let name = identity.variable_name(slot);
+        let ends = ends(slot);
+        let [low, high] = [ends[0], ends[ends.len() - 1]];
+        if name.starts_with("safety.") || ends.len() < 2 {
+            continue;
+        }
+        let bound = if WIDER.contains(&name.as_str()) { WIDER_BOUND } else { BOUND };
+        for strategy in (0..5).skip(crate::cases::cases(0, slot % 5)).take(crate::cases::cases(5, 1)) {
+            let write = |slots: &mut Vec<f64>, t: f64| {
+                slots[slot] = 0.5 * (low + high) + 0.5 * (high - low) * (1e4 * (t + strategy as f64)).sin();
+            };
+            let jolt = jolt_with_writes(strategy, write);
+            if jolt > bound {
+                failed.push(format!("{name} from {low} to {high}, strategy {strategy}: {jolt:.2}"));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "m/s2 within 20 ms:\n{}", failed.join("\n"));
+}
+
 /// Two sets, as for the ground and the air, blended by a signal over 2 s, there and back.
 #[test]
 fn two_sets_blended_by_a_signal_are_felt_smoothly() {
