@@ -538,8 +538,7 @@ fn node_weight(
     if last { running + regulator.cost.fixed_view::<4, 4>(0, 0) } else { running }
 }
 
-/// What the rows of a plan have beside the program: their bounds, and the legs near the plan
-/// before, in halves of the stroke.
+/// Bounds of a plan's rows, and the legs near the plan before, in halves of the stroke.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanLimits {
     pub lower: SVector<f64, ROWS>,

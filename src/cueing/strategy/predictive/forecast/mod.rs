@@ -166,8 +166,8 @@ pub struct Tables {
     trend: Targets,
     /// Prior of each target's recursive least-squares fit; old data decay towards it.
     priors: [Regression; TARGETS],
-    /// Fractions of the squared errors beside a preview that are kept over a sample, while they rise
-    /// and while they fall.
+    /// Fractions of the squared errors beside a preview that are kept over a sample, while they
+    /// rise and while they fall.
     preview_keep: [f64; 2],
 }
 
