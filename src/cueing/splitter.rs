@@ -20,8 +20,8 @@ pub struct LowPass {
 }
 
 impl LowPass {
-    /// Filters at rest, ready for steps of `usual_step` seconds. `order` is that of the high-pass to
-    /// which a complementary low-pass belongs.
+    /// Filters at rest, ready for steps of `usual_step` seconds. `order` is that of the high-pass
+    /// to which a complementary low-pass belongs.
     pub fn new(parameters: &SplitterParameters, order: i32, kind: LowPassKind, usual_step: f64) -> Self {
         let complementary = kind == LowPassKind::Complementary;
         let denominators = denominators(parameters, order, complementary);

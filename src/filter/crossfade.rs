@@ -19,7 +19,7 @@ pub struct FadedChains {
     before: Chains,
     /// Correction to the input, after which the chains' high-pass is what it was before the change.
     offset: FadingOffset,
-    /// What is left of the same correction of the chains before.
+    /// Rest of the same correction of the chains before.
     offset_before: FadingOffset,
     /// The input at the end of the last step.
     input: Vector3<f64>,

@@ -9,7 +9,7 @@ use crate::motion::square_root::square_root;
 /// angular velocity x, y, z \[rad/s\], in the base frame.
 pub type Jacobian = Matrix6<f64>;
 
-/// The Jacobian in a pose: row i is (n_i, R a_i x n_i), with n_i the direction of leg i. With
+/// The Jacobian in a pose. Row i is (n_i, R a_i x n_i), with n_i the direction of leg i. With
 /// cranks, n_i is the direction of the rod, and the row is divided by the transmission.
 ///
 /// ```

@@ -1,4 +1,4 @@
-//! Place of the legs at a start: the controller's report, and a controller that has none.
+//! Place of the legs at a start. A controller reports it, or has no report.
 
 use std::net::UdpSocket;
 use std::thread;
@@ -188,8 +188,8 @@ fn a_session_that_was_killed_is_not_followed_by_a_settled_one_unless_a_person_sa
     live.end();
 }
 
-/// Pulses of servos that stand at -20 degrees and are reported so: up from there, down to the
-/// lowest arms, and silence once the plug is pulled.
+/// Servos report that they stand at -20 degrees. Their pulses go up from there, then down to the
+/// lowest arms. No pulse follows a plug that is pulled.
 #[test]
 fn cranks_glide_from_reported_angles_park_and_are_silent_after_a_pulled_plug() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Times of samples: bursts, a loop that was stopped, clocks of other rates, the delay, spikes.
+//! Times of samples. Bursts, a stopped loop, clocks of other rates, the delay and spikes are tried.
 
 use moris_live::{Motion, STEP, Sample, Session, Settings, State};
 use moris_washout::Parameters;
@@ -171,8 +171,8 @@ fn spikes_that_no_vehicle_causes_are_left_out() {
     }
 }
 
-/// Spikes so large that a vehicle could just make one, so often that many stand side by side, and
-/// an attitude that swings by less than a teleport.
+/// Spikes that a vehicle could just make, many of them side by side. An attitude swings by
+/// less than a teleport.
 #[test]
 fn what_no_vehicle_does_over_a_window_is_not_felt() {
     type Fault = fn(&mut Sample, u64, f64);

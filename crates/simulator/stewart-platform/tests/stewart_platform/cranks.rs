@@ -1,4 +1,4 @@
-//! Cranks: the drives respond in angle, and the forces carry the body through arms and rods.
+//! Cranks. The drives respond in angle. The forces carry the body through arms and rods.
 
 use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 use moris_washout::Rig;
