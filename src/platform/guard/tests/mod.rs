@@ -255,7 +255,8 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
 /// all points of both.
 #[test]
 fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
-    let cases = (-1.0..0.7_f64, 0.3..1.4_f64, 0.05..0.8_f64, -2.3..-0.7_f64, -2.0..-0.3_f64);
+    // At neutral the transmission is 0.774: a machine that must keep more is refused.
+    let cases = (-1.0..0.7_f64, 0.3..1.4_f64, 0.05..0.77_f64, -2.3..-0.7_f64, -2.0..-0.3_f64);
     let states = cases.prop_flat_map(|(fastest, range, least, far, size)| {
         let [far, size] = [far, size].map(|exponent| 10.0_f64.powf(exponent));
         let acceleration_limit = 10.0_f64.powf(fastest + 0.7);

@@ -10,7 +10,7 @@
 //! | `leg1:hi`, `leg1:lo` | the high and the low byte of `leg1:u16` |
 //! | `leg1:i16` | the same as a signed number, spread over all of its range without `range`: i8 to i32 |
 //! | `leg1:dec` | the same in decimal digits |
-//! | `length1:6`, `x:1*1000` | a quantity, times a factor, with so many decimals: see [`QUANTITIES`] |
+//! | `length1:6`, `x:1*1000` | a quantity, times a factor, with so many decimals: see [`FRAME_QUANTITIES`] |
 //! | `degrees1:2`, `radians1`, `pulse1`, `steps1` | the angle of a crank's motor as a quantity: see [`Frames::zero_degrees`] |
 //! | `x:i16*1000` | a quantity times a factor as a whole number, signed or not; the nearest one at its ends |
 //! | `count:u8` | the number of the frame, which begins at 0 again |

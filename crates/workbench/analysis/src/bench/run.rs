@@ -54,7 +54,7 @@ pub struct Row {
     pub washout: String,
     /// Scale of force and rates.
     pub scale: Scale,
-    /// The measures, of [`COLUMNS`].
+    /// The measures, of [`BENCH_COLUMNS`].
     pub values: Vec<Option<f64>>,
     /// The least RMS errors of all rows of the drive on the rig \[m/s2\].
     pub best: [Option<f64>; 3],
