@@ -79,10 +79,11 @@ impl FadedChains {
 
     #[cold]
     fn advance_fade(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
-        let (offset_start, offset_end) = self.offset.advance(step);
-        self.chains.advance(start + offset_start, end + offset_end, step);
-        let (offset_start, offset_end) = self.offset_before.advance(step);
-        self.before.advance(start + offset_start, end + offset_end, step);
+        let both = [(&mut self.chains, &mut self.offset), (&mut self.before, &mut self.offset_before)];
+        for (chains, offset) in both {
+            let (offset_start, offset_end) = offset.advance(step);
+            chains.advance(start + offset_start, end + offset_end, step);
+        }
         self.fraction = min(self.fraction + step / FADE_TIME, 1.0);
         if self.fraction == 1.0
             && let Some(next) = self.next.take()
