@@ -12,15 +12,51 @@ use super::chain::{Chains, Denominator};
 use crate::motion::Motion;
 use crate::motion::min_max::min;
 
+/// Chains with a correction to their input, after which their high-pass is what it was before they
+/// were changed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct CorrectedChains {
+    chains: Chains,
+    offset: FadingOffset,
+}
+
+impl CorrectedChains {
+    fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
+        let (offset_start, offset_end) = self.offset.advance(step);
+        self.chains.advance(start + offset_start, end + offset_end, step);
+    }
+
+    #[inline(always)]
+    fn corrected(&self, input: Vector3<f64>) -> Vector3<f64> {
+        if self.offset.is_over() { input } else { input + self.offset.value() }
+    }
+
+    /// The second and the first integral of the high-pass, and the high-pass itself.
+    #[inline(always)]
+    fn motion(&self, input: Vector3<f64>) -> Motion<Vector3<f64>> {
+        Motion {
+            position: self.chains.second_integral(),
+            velocity: self.chains.first_integral(),
+            acceleration: self.chains.high_pass(self.corrected(input)),
+        }
+    }
+
+    /// The first integral of the high-pass, and the high-pass itself, as position and velocity.
+    #[inline(always)]
+    fn angle_and_rate(&self, input: Vector3<f64>) -> Motion<Vector3<f64>> {
+        Motion {
+            position: self.chains.first_integral(),
+            velocity: self.chains.high_pass(self.corrected(input)),
+            acceleration: Vector3::zeros(),
+        }
+    }
+}
+
 /// Chains, and those before the last change while they fade.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FadedChains {
-    chains: Chains,
-    before: Chains,
-    /// Correction to the input, after which the chains' high-pass is what it was before the change.
-    offset: FadingOffset,
-    /// Rest of the same correction of the chains before.
-    offset_before: FadingOffset,
+    now: CorrectedChains,
+    before: CorrectedChains,
     /// The input at the end of the last step.
     input: Vector3<f64>,
     /// Fraction of the fade that has passed; 1 without one.
@@ -38,30 +74,21 @@ impl FadedChains {
     /// Chains at rest, of which the first `kept` states make up the motion, ready for steps of
     /// `usual_step` seconds.
     pub fn new(denominators: [Denominator; 3], kept: usize, usual_step: f64) -> Self {
-        let chains = Chains::new(denominators, usual_step);
-        FadedChains {
-            chains,
-            before: chains,
-            offset: FadingOffset::default(),
-            offset_before: FadingOffset::default(),
-            input: Vector3::zeros(),
-            fraction: 1.0,
-            next: None,
-            kept,
-        }
+        let now = CorrectedChains { chains: Chains::new(denominators, usual_step), offset: FadingOffset::default() };
+        FadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept }
     }
 
     /// Changes the coefficients. A change during a fade waits for its end.
     pub fn retune(&mut self, denominators: [Denominator; 3]) {
         if self.fraction < 1.0 {
             self.next = Some(denominators);
-        } else if self.chains.denominators() != &denominators {
-            self.before = self.chains;
-            self.chains.retune(denominators, self.kept);
-            if !self.chains.is_at_rest() {
+        } else if self.now.chains.denominators() != &denominators {
+            self.before = self.now;
+            let CorrectedChains { chains, offset } = &mut self.now;
+            chains.retune(denominators, self.kept);
+            if !chains.is_at_rest() {
                 self.fraction = 0.0;
-                self.offset_before = self.offset;
-                self.offset.add(self.before.high_pass(self.input) - self.chains.high_pass(self.input));
+                offset.add(self.before.chains.high_pass(self.input) - chains.high_pass(self.input));
             }
         }
     }
@@ -70,8 +97,8 @@ impl FadedChains {
     #[inline(always)]
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
         self.input = end;
-        if self.fraction >= 1.0 && self.offset.is_over() {
-            self.chains.advance(start, end, step);
+        if self.fraction >= 1.0 && self.now.offset.is_over() {
+            self.now.chains.advance(start, end, step);
         } else {
             self.advance_fade(start, end, step);
         }
@@ -79,10 +106,8 @@ impl FadedChains {
 
     #[cold]
     fn advance_fade(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
-        let both = [(&mut self.chains, &mut self.offset), (&mut self.before, &mut self.offset_before)];
-        for (chains, offset) in both {
-            let (offset_start, offset_end) = offset.advance(step);
-            chains.advance(start + offset_start, end + offset_end, step);
+        for corrected in [&mut self.now, &mut self.before] {
+            corrected.advance(start, end, step);
         }
         self.fraction = min(self.fraction + step / FADE_TIME, 1.0);
         if self.fraction == 1.0
@@ -95,42 +120,28 @@ impl FadedChains {
     /// The second and the first integral of the high-pass, and the high-pass itself.
     #[inline(always)]
     pub fn motion(&self) -> Motion<Vector3<f64>> {
-        let of = |chains: &Chains, input: Vector3<f64>| Motion {
-            position: chains.second_integral(),
-            velocity: chains.first_integral(),
-            acceleration: chains.high_pass(input),
-        };
-        let motion = of(&self.chains, self.corrected_input());
-        if self.fraction >= 1.0 {
-            motion
-        } else {
-            self.faded(&of(&self.before, self.input + self.offset_before.value()), &motion)
-        }
+        let motion = self.now.motion(self.input);
+        if self.fraction >= 1.0 { motion } else { self.faded(CorrectedChains::motion, &motion) }
     }
 
     /// The first integral of the high-pass, and the high-pass itself.
     #[inline(always)]
     pub fn angle_and_rate(&self) -> (Vector3<f64>, Vector3<f64>) {
-        let of = |chains: &Chains, input: Vector3<f64>| Motion {
-            position: chains.first_integral(),
-            velocity: chains.high_pass(input),
-            acceleration: Vector3::zeros(),
-        };
-        let mut motion = of(&self.chains, self.corrected_input());
+        let mut motion = self.now.angle_and_rate(self.input);
         if self.fraction < 1.0 {
-            motion = self.faded(&of(&self.before, self.input + self.offset_before.value()), &motion);
+            motion = self.faded(CorrectedChains::angle_and_rate, &motion);
         }
         (motion.position, motion.velocity)
     }
 
-    #[inline(always)]
-    fn corrected_input(&self) -> Vector3<f64> {
-        if self.offset.is_over() { self.input } else { self.input + self.offset.value() }
-    }
-
-    /// The motion at this fraction of the way from one to the other.
+    /// The motion at this fraction of the way from that `of` the chains before to the one after.
     #[cold]
-    fn faded(&self, before: &Motion<Vector3<f64>>, after: &Motion<Vector3<f64>>) -> Motion<Vector3<f64>> {
+    fn faded(
+        &self,
+        of: fn(&CorrectedChains, Vector3<f64>) -> Motion<Vector3<f64>>,
+        after: &Motion<Vector3<f64>>,
+    ) -> Motion<Vector3<f64>> {
+        let before = of(&self.before, self.input);
         let t = self.fraction;
         // The smoothest step from 0 to 1 of fifth order, with its derivatives.
         let weight = t * t * t * (10.0 + t * (6.0 * t - 15.0));
@@ -150,10 +161,10 @@ impl FadedChains {
     /// [`FadedChains::motion`] has them.
     pub fn set_motion(&mut self, position: &Vector3<f64>, velocity: &Vector3<f64>) {
         if self.fraction >= 1.0 {
-            return self.chains.set_integrals(velocity, position);
+            return self.now.chains.set_integrals(velocity, position);
         }
         let demanded = self.motion();
-        for chains in [&mut self.chains, &mut self.before] {
+        for CorrectedChains { chains, .. } in [&mut self.now, &mut self.before] {
             let velocity = chains.first_integral() + velocity - demanded.velocity;
             let position = chains.second_integral() + position - demanded.position;
             chains.set_integrals(&velocity, &position);
@@ -168,10 +179,10 @@ impl FadedChains {
     /// Continues from an angle that is not the one demanded.
     pub fn set_angle(&mut self, angle: &Vector3<f64>) {
         if self.fraction >= 1.0 {
-            return self.chains.set_first_integral(angle);
+            return self.now.chains.set_first_integral(angle);
         }
         let (demanded, _) = self.angle_and_rate();
-        for chains in [&mut self.chains, &mut self.before] {
+        for CorrectedChains { chains, .. } in [&mut self.now, &mut self.before] {
             let angle = chains.first_integral() + angle - demanded;
             chains.set_first_integral(&angle);
         }
