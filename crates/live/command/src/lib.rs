@@ -60,7 +60,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail, ensure};
 use moris_analysis::host::check_predictive;
 use moris_laps::Laps;
-use moris_live::frame::{Encoder, Frames as FrameTemplate, Values};
+use moris_live::frame::{Encoder, Values};
 use moris_live::{STEP, Session, Settings, log, moog};
 use moris_setup::Setup;
 use moris_washout::interface::AutomaticScale;
@@ -295,7 +295,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         if encoder.asks() {
             sink.listen_if_it_can()?;
         }
-        let interval = line_interval(&sink, &encoder, &template)?;
+        let interval = line_interval(&sink, &encoder, template.interval, options.time_out.or(template.time_out))?;
         (Device::of_template(encoder), interval, template.time_out, place)
     };
     let doubts = options.settled && was_left && !place.starts_settled();
@@ -440,15 +440,14 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(part) = Part::ALL.into_iter().find(|part| shared.failed.has(*part)) {
         bail!("the thread that {} has failed by an error of this program", part.name());
     }
+    if let (Some(Some(file)), Some(road)) = (&options.learn, session.road()) {
+        learned_road::save(file, road.laps())?;
+    }
     if let Some(file) = &options.learn_scale
         && session.washout().parameters().automatic_scale.automatic == AutomaticScale::On
     {
         let text = format!("automaticScale.start = {:.3}\n", session.washout().output().scale_factor);
-        learned_road::replace_file(file, &text)
-            .with_context(|| format!("cannot keep the scale in {}", file.display()))?;
-    }
-    if let (Some(Some(file)), Some(road)) = (&options.learn, session.road()) {
-        learned_road::save(file, road.laps())?;
+        learned_road::keep("scale", file, &text)?;
     }
     if let Some(loss) = summary.loss {
         bail!("the session was in a fault: {loss}");
@@ -461,40 +460,41 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 /// The options for rig and parameters, with the scale that the last session has found.
 fn with_learned_scale(options: &Options) -> Result<SetupOptions> {
     let mut setup = options.setup.clone();
-    if let Some(file) = &options.learn_scale
-        && file.try_exists().with_context(|| file.display().to_string())?
-    {
-        setup.parameters.push(file.to_str().context("--learn-scale: the file's name is no UTF-8")?.to_owned());
+    if let Some(file) = &options.learn_scale {
+        learned_road::check_can_keep("scale", file)?;
+        if file.try_exists().with_context(|| file.display().to_string())? {
+            setup.parameters.push(file.to_str().context("--learn-scale: the file's name is no UTF-8")?.to_owned());
+        }
     }
     Ok(setup)
 }
 
-/// Time between frames \[s\]: the template's, or what a slower serial line takes
-/// for one, which is said.
+/// Time between frames \[s\]: the template's `interval`, or a longer one with a message where a
+/// serial line takes longer for a frame.
 ///
 /// # Errors
-/// The controller gives up before the line has carried a frame.
-fn line_interval(sink: &Sink, encoder: &Encoder, template: &FrameTemplate) -> Result<f64> {
+/// The controller's time-out ends before the line has carried a frame.
+fn line_interval(sink: &Sink, encoder: &Encoder, interval: f64, time_out: Option<f64>) -> Result<f64> {
     // With as many digits as numbers of a frame have.
     let values = Values { time: 1000.0, length: [1.234567; 6], pose: [-0.123456; 6], ..Values::default() };
     let mut frame = Vec::new();
     encoder.frame(&values, &mut frame);
     let line_time = sink.line_time(frame.len());
-    if line_time <= template.interval {
-        return Ok(template.interval);
+    if line_time <= interval {
+        return Ok(interval);
     }
     let line = format!("the serial line takes {:.0} ms for a frame of {} bytes", 1e3 * line_time, frame.len());
-    if template.time_out.is_some_and(|time_out| line_time >= time_out) {
+    if time_out.is_some_and(|time_out| line_time >= time_out) {
         bail!("{line}, and the controller stops sooner without one: use a higher rate of the line, or shorter frames");
     }
     // A tenth of the line stays free, so that no frame waits behind others.
-    let interval = frames::whole_steps(1.1 * line_time);
+    let longer = frames::whole_steps(1.1 * line_time);
     console::line(&format!(
         "{line}: one is sent every {:.0} ms instead of every {:.0} ms; a higher rate of the line is better",
-        1e3 * interval,
-        1e3 * template.interval
+        1e3 * longer,
+        1e3 * interval
     ));
-    Ok(interval)
+    Ok(longer)
 }
 
 /// The laps of the road that are known at first.

@@ -167,9 +167,9 @@ mod tests {
         }
     }
 
-    /// Numbers that nobody has chosen, from 0 to 1.
+    /// Pseudo-random numbers from 0 to 1.
     fn random(k: usize) -> f64 {
-        (k as f64 * 12.9898).sin().mul_add(43_758.545, 0.0).rem_euclid(1.0)
+        ((k as f64 * 12.9898).sin() * 43_758.545).rem_euclid(1.0)
     }
 
     #[test]

@@ -54,11 +54,7 @@ impl<'a> Kept<'a> {
 pub fn load(file: &Path) -> Result<Laps> {
     // Largest file [bytes]. A full memory has less than 4 MB.
     const MAX_FILE_SIZE: u64 = 16_000_000;
-    if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
-    }
-    let part = temporary_file(file);
-    write_whole(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(file))?;
+    check_can_keep("road", file)?;
     match moris_fmu_host::files::text(file, MAX_FILE_SIZE) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
@@ -68,31 +64,47 @@ pub fn load(file: &Path) -> Result<Laps> {
     }
 }
 
-/// Writes the road to the file, whole or not at all.
+/// Checks that the file's folder is there and takes files: what is learned would be lost at the end
+/// of a ride.
 ///
 /// # Errors
-/// It cannot be written. The file is as before then.
-pub fn save(file: &Path, laps: &Laps) -> Result<()> {
-    replace_file(file, &laps.text()).about(|| cannot_keep(file))
+/// It is not, or takes none. `learned` names what is to be kept.
+pub fn check_can_keep(learned: &str, file: &Path) -> Result<()> {
+    if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
+    }
+    let part = temporary_file(file);
+    write_whole(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(learned, file))
 }
 
-/// Writes a text to a file, whole or not at all.
+/// Writes the road to the file, as [`keep`].
+///
+/// # Errors
+/// As [`keep`].
+pub fn save(file: &Path, laps: &Laps) -> Result<()> {
+    keep("road", file, &laps.text())
+}
+
+/// Writes a text with what was learned to the file, whole or not at all.
 ///
 /// # Errors
 /// It cannot be written. The file is as before then.
-pub fn replace_file(file: &Path, text: &str) -> io::Result<()> {
+pub fn keep(learned: &str, file: &Path, text: &str) -> Result<()> {
     // What a link points to is replaced, not the link.
     let target = file.canonicalize();
     let file = target.as_deref().unwrap_or(file);
     let part = temporary_file(file);
-    write_whole(&part, text.as_bytes()).and_then(|()| rename(&part, file)).inspect_err(|_| {
-        // Half of a text is of no use; if it cannot be removed, it stays beside the old one.
-        let _ = remove_file(&part);
-    })
+    let written = write_whole(&part, text.as_bytes()).and_then(|()| rename(&part, file));
+    written
+        .inspect_err(|_| {
+            // Half of a text is of no use; if it cannot be removed, it stays beside the old one.
+            let _ = remove_file(&part);
+        })
+        .about(|| cannot_keep(learned, file))
 }
 
-fn cannot_keep(file: &Path) -> String {
-    format!("cannot keep the road in {}", file.display())
+fn cannot_keep(learned: &str, file: &Path) -> String {
+    format!("cannot keep the {learned} in {}", file.display())
 }
 
 /// A file in the same folder, so that it can take the other's place.

@@ -21,7 +21,7 @@ const DRIVE: [&str; 8] =
     ["--from", "road.csv", "--strategy", "predictive", "--dry", "--engage", "--ignore-signs", "--for"];
 
 /// Start value of `automaticScale.start`.
-const START: f64 = 0.55;
+const START_SCALE: f64 = 0.55;
 
 #[test]
 fn a_road_is_kept_in_its_file_and_known_by_the_next_session() {
@@ -31,7 +31,7 @@ fn a_road_is_kept_in_its_file_and_known_by_the_next_session() {
     let first = drive(&["20", "--learn=kart.laps", "--learn-scale", "kart.toml", "--record", "first.txt"]);
     let scale = std::fs::read_to_string(directory.path().join("kart.toml")).unwrap();
     let start: f64 = scale.trim().strip_prefix("automaticScale.start = ").unwrap().parse().unwrap();
-    assert!(start > 0.1 && start != START, "{scale}");
+    assert!(start > 0.1 && start != START_SCALE, "{scale}");
     assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
     let points = || {
         let text = std::fs::read_to_string(directory.path().join("kart.laps")).unwrap();
@@ -43,7 +43,7 @@ fn a_road_is_kept_in_its_file_and_known_by_the_next_session() {
     let again = drive(&["20", "--learn=kart.laps", "--learn-scale", "kart.toml", "--record", "second.txt"]);
     assert!(again.status.success() && points() > before + 80);
     // Both sessions are repeated to the bit; the second one has the road and the scale of the first.
-    for (record, known, start) in [("first.txt", 2, START), ("second.txt", before, start)] {
+    for (record, known, start) in [("first.txt", 2, START_SCALE), ("second.txt", before, start)] {
         let text = std::fs::read_to_string(directory.path().join(record)).unwrap();
         assert!(text.contains(&format!("parameter,automaticScale.start,{start:?}\n")), "{text:.4000}");
         assert_eq!(text.lines().filter(|line| line.starts_with("road,")).count(), known);
@@ -87,6 +87,7 @@ fn what_cannot_be_learned_is_refused_before_anything_moves() {
     let x_plane = ["--from", "udp:4443", "--format", "x-plane", "--strategy", "predictive", "--learn"];
     refused(&x_plane, "--learn needs the vehicle's position");
     refused(&[&predictive[..], &["--learn=none/kart.laps"]].concat(), "there is no folder none");
+    refused(&[&predictive[..], &["--learn-scale", "none/kart.toml"]].concat(), "there is no folder none");
     std::fs::write(directory.path().join("other.csv"), "a,b\n1,2\n").unwrap();
     refused(&[&predictive[..], &["--learn=other.csv"]].concat(), "line 1 is none of a road that moris has learned");
     if Path::new("/dev/zero").exists() {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use moris_washout::Rig;
 use nalgebra::Vector3;
 
-use super::motors::{Motors, UNITS};
+use super::motors::{MOTOR_UNITS, Motors};
 use super::report::report;
 use super::{Frames, FramesError};
 use crate::session::Commands;
@@ -421,7 +421,7 @@ fn token(word: &str) -> Option<Token> {
 
 /// The place of a quantity, or of a motor's angle.
 fn place_of(name: &str) -> Option<usize> {
-    let angles = UNITS.iter().zip((FIRST_ANGLE_PLACE..).step_by(6));
+    let angles = MOTOR_UNITS.iter().zip((FIRST_ANGLE_PLACE..).step_by(6));
     let angle = angles.filter_map(|(unit, first)| {
         let crank = name.strip_prefix(unit)?.parse::<usize>().ok().filter(|crank| (1..=6).contains(crank))?;
         Some(first + crank - 1)

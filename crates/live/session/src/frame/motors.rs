@@ -7,7 +7,7 @@ use moris_washout::Rig;
 use super::{Frames, FramesError};
 
 /// Names of the units, each with a number from 1 for the crank.
-pub const UNITS: [&str; 4] = ["radians", "degrees", "pulse", "steps"];
+pub const MOTOR_UNITS: [&str; 4] = ["radians", "degrees", "pulse", "steps"];
 
 /// Arcs of the arms to numbers of their motors, and back.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Motors {
     zero: [f64; 6],
     /// Motors that turn against their arms.
     reversed: [bool; 6],
-    /// Number per radian, and at an angle of 0, for each of [`UNITS`].
+    /// Number per radian, and at an angle of 0, for each of [`MOTOR_UNITS`].
     scale: [[f64; 2]; 4],
 }
 
@@ -35,12 +35,12 @@ impl Motors {
         }
     }
 
-    /// Checks that the frames say how large a unit of [`UNITS`] is.
+    /// Checks that the frames say how large a unit of [`MOTOR_UNITS`] is.
     ///
     /// # Errors
     /// It is missing.
     pub fn check(&self, unit: usize) -> Result<(), FramesError> {
-        match (UNITS[unit], self.scale[unit][0]) {
+        match (MOTOR_UNITS[unit], self.scale[unit][0]) {
             ("pulse", 0.0) => {
                 Err(FramesError::Range("pulse1 needs pulse-per-degree, the servo's change in us per degree"))
             }
@@ -51,7 +51,7 @@ impl Motors {
         }
     }
 
-    /// The number of a motor in one of [`UNITS`] for its arm's arc \[m\].
+    /// The number of a motor in one of [`MOTOR_UNITS`] for its arm's arc \[m\].
     pub fn number(&self, unit: usize, crank: usize, arc: f64) -> f64 {
         let [per_radian, at_zero] = self.scale[unit];
         let angle = arc / self.arm;

@@ -2,16 +2,16 @@
 
 use serde_json::Value;
 
-use super::motors::UNITS;
+use super::motors::MOTOR_UNITS;
 
-/// Six numbers of a report, and their place in [`UNITS`]; none for lengths \[m\].
+/// Six numbers of a report, and their place in [`MOTOR_UNITS`]; none for lengths \[m\].
 pub type Report = (Option<usize>, [f64; 6]);
 
-/// The numbers in the answer of a controller: the word `legs` or one of [`UNITS`] and six numbers
-/// between commas, or an object with a list of that name. None in other packets.
+/// The numbers in the answer of a controller: the word `legs` or one of [`MOTOR_UNITS`] and six
+/// numbers between commas, or an object with a list of that name. None in other packets.
 pub fn report(answer: &[u8]) -> Option<Report> {
     let text = str::from_utf8(answer).ok()?.trim();
-    let names = std::iter::once((None, "legs")).chain((0..).map(Some).zip(UNITS));
+    let names = std::iter::once((None, "legs")).chain((0..).map(Some).zip(MOTOR_UNITS));
     let object: Option<Value> = serde_json::from_str(text).ok();
     for (unit, name) in names {
         let numbers = match &object {

@@ -190,7 +190,7 @@ fn what_no_vehicle_does_over_a_window_is_not_felt() {
             let mut sample = sample(t, Some(t));
             let k = (t * 100.0).round() as u64;
             if t > 15.0 {
-                fault(&mut sample, k, (k as f64 * 12.9898).sin().mul_add(43_758.545, 0.0).rem_euclid(1.0));
+                fault(&mut sample, k, ((k as f64 * 12.9898).sin() * 43_758.545).rem_euclid(1.0));
             }
             Some(Packet { arrival: t, sample })
         });
