@@ -46,6 +46,8 @@ DRAWN = {
 }
 SEARCHES = ("docs/response.md", "docs/tuning-by-search.md", "docs/worst-case.md")
 """Pages whose commands simulate hundreds of rides. The tests in Rust run the same commands in a short form."""
+PICTURES_OF_SEARCHES = ("05_tune.svg",)
+"""The last bit of a simulation may lead a search elsewhere: of its picture, the words are compared, not the curves."""
 FMUS = "target/fmu"
 COPIED = ("docs", "examples", FMUS)
 LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "presets", "src", "tests")
@@ -136,6 +138,10 @@ def pictures(page):
 def assert_same_picture(expected, drawn):
     """The same words at all times, and the same curves if the same version of the plotting library has drawn them."""
     texts = [re.findall(r"<text[^>]*>([^<]*)", file.read_text()) for file in (expected, drawn)]
+    if expected.name in PICTURES_OF_SEARCHES:
+        words = [[text for text in found if re.search("[a-z]", text)] for found in texts]
+        assert len(words[0]) > 5 and words[0] == words[1], f"{name(expected)} is stale"
+        return
     assert texts[0] == texts[1], f"{name(expected)} is stale: run tests/python/test_docs.py --update"
     versions = [re.findall(r"Matplotlib v[\d.]+", file.read_text()) for file in (expected, drawn)]
     if versions[0] == versions[1]:
