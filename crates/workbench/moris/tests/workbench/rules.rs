@@ -146,6 +146,36 @@ fn in_unit(k: usize, unit: f64) -> Sample {
     Sample { force: (flat(k).force - GRAVITY * Vector3::z()) / unit, ..flat(k) }
 }
 
+/// A vehicle on the level road that rolls by an angle of its yaw rate and speed.
+fn rolling(k: usize, roll: impl Fn(&Sample) -> f64) -> Sample {
+    let [sample, next] = [flat(k), flat(k + 1)];
+    let (angle, turn) = (roll(&sample), sample.rate.z);
+    let rate = Vector3::new((roll(&next) - angle) / 0.02, turn * angle.sin(), turn * angle.cos());
+    let lateral = sample.speed * turn;
+    let along_y = lateral * angle.cos() + GRAVITY * angle.sin();
+    let along_z = GRAVITY * angle.cos() - lateral * angle.sin();
+    let angle = Vector3::new(angle, 0.0, sample.angle.z);
+    Sample { force: Vector3::new(sample.force.x, along_y, along_z), rate, angle, ..sample }
+}
+
+/// A motorcycle in balanced bends, whose roll and its rate are given with a sign (-1 is right),
+/// with so much gravity taken out of its forces.
+fn leaning(k: usize, sign: f64, removed: f64) -> Sample {
+    let mut sample = rolling(k, |sample| -(sample.speed * sample.rate.z / GRAVITY).atan());
+    let roll = sample.angle.x;
+    sample.force -= removed * Vector3::new(0.0, roll.sin(), roll.cos());
+    sample.angle.x *= -sign;
+    sample.rate.x *= -sign;
+    sample
+}
+
+/// A car that rolls to the outside of bends by 5 degrees a g, whose speed is so many times as large.
+fn car(k: usize, times: f64) -> Sample {
+    let mut sample = rolling(k, |sample| 0.087 * sample.speed * sample.rate.z / GRAVITY);
+    sample.speed *= times;
+    sample
+}
+
 /// The rotation `other` in place of the one that a row changes.
 fn with_quaternion(sample: Sample, other: fn([f64; 4]) -> [f64; 4]) -> Sample {
     Sample { quaternion: other(sample.quaternion), ..sample }
@@ -217,6 +247,21 @@ const ROWS: &[Row] = rows! {
         => ["the pitch has the wrong sign"], "columns = { pitch = '-pitch', wy = '-wy' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.y = -s.angle.y; s }
         => ["Use --columns pitch=-pitch."], "columns = { pitch = '-pitch' }";
+    ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.x = -s.angle.x; s.rate.x = -s.rate.x; s }
+        => ["the roll has the wrong sign", "Use --columns roll=-roll,wx=-wx."],
+        "columns = { roll = '-roll', wx = '-wx' }";
+    ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.x = -s.angle.x; s }
+        => ["Use --columns roll=-roll."], "columns = { roll = '-roll' }";
+    // A motorcycle leans to the inside of bends; a car rolls a little to their outside.
+    ANGLES, "", |k, _| leaning(k, -1.0, 0.0) => [], "";
+    ANGLES, "", |k, _| leaning(k, 1.0, 0.0)
+        => ["the roll has the wrong sign", "Use --columns roll=-roll,wx=-wx."],
+        "columns = { roll = '-roll', wx = '-wx' }";
+    ANGLES, "gravity = 'removed'", |k, _| leaning(k, -1.0, GRAVITY) => [], "";
+    ANGLES, "gravity = 'removed'", |k, _| leaning(k, 1.0, GRAVITY)
+        => ["the roll has the wrong sign"], "columns = { roll = '-roll', wx = '-wx' }";
+    ANGLES, "", |k, _| car(k, 1.0) => [], "";
+    ANGLES, "", |k, _| car(k, 1.2) => [], "";
     ANGLES, "", |k, ride| Sample { force: ride[k].rotation() * ride[k].force, ..ride[k] }
         => ["Use --force-frame world."], "force-frame = 'world'";
     ANGLES, "gravity = 'removed'",

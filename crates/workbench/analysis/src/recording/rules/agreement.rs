@@ -16,7 +16,7 @@ use moris_washout::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::channels::{BEND_SPEED, Channels, MIN_BEND_FORCE, MIN_SPEED_CHANGE};
 use super::text::text;
-use crate::message::Message;
+use crate::message::{Message, Remedy};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{
     Axes, Conventions, Dimension, ForceUnit, Frame, Gravity, Quantity, SpeedUnit, Unit,
@@ -217,6 +217,14 @@ impl Channels<'_> {
         let (derivative, rate) = self.derivative_and_rate(axis, TAU);
         signal_ratio(&derivative, &rate, MIN_RATE)
     }
+
+    /// The columns that turn an angle, and the rate about its axis where that goes with it.
+    fn turned_angle(&self, axis: usize) -> Remedy {
+        let quantities = [Quantity::Angle(axis), Quantity::Rate(axis)];
+        let [angle, rate] = quantities.map(|quantity| format!("-{}", quantity.key()));
+        let count = if self.rate_ratio(axis).is_none_or(|ratio| ratio > 0.0) { 2 } else { 1 };
+        self.conventions.columns_of(&[angle.as_str(), rate.as_str()][..count], &quantities[..count])
+    }
 }
 
 /// A speed that goes with the force along y.
@@ -353,10 +361,39 @@ pub fn sign_of_pitch(channels: &Channels, _: Quantity) -> Option<Message> {
     if opposite > CLEAR_FRACTION || opposite > CLEAR_FRACTION * level.min(right) {
         return None;
     }
-    let with_rate = channels.rate_ratio(1).is_none_or(|ratio| ratio > 0.0);
-    let (keys, quantities) = (["-pitch", "-wy"], [Quantity::Angle(1), Quantity::Rate(1)]);
-    let count = if with_rate { 2 } else { 1 };
-    Some(text!["pitch-opposite", columns = conventions.columns_of(&keys[..count], &quantities[..count])])
+    Some(text!["pitch-opposite", columns = channels.turned_angle(1)])
+}
+
+/// A roll with the wrong sign, as gravity in bends and on banks tells, or a lean to the outside of
+/// bends. The few degrees by which a car rolls in bends tell nothing: another scale of the speed
+/// has the same effect.
+pub fn sign_of_roll(channels: &Channels, _: Quantity) -> Option<Message> {
+    // Least lateral force that is left without speed times yaw rate, as a root mean square [m/s2].
+    const MIN_BANK_FORCE: f64 = 0.1;
+    let Channels { conventions, .. } = channels;
+    if !channels.is_measured(Quantity::Angle(0)) || conventions.mounting.is_some() {
+        return None;
+    }
+    // Roll is positive with the right side down, where gravity's reaction is along y.
+    let gravity_of = |input: &Input| STANDARD_GRAVITY * input.orientation.roll.sin() * input.orientation.pitch.cos();
+    let gravity = channels.smoothed(|(input, _)| gravity_of(input));
+    let turning = channels.turning();
+    if relation(&turning, &gravity).slope().is_some_and(|slope| slope.abs() < 1.0 / EQUAL_RATIO) {
+        return None;
+    }
+    let is_opposite = if conventions.gravity == Gravity::Removed {
+        // Conversion has added gravity by this roll, and bends alone tell the rest.
+        let kinematic = channels.smoothed(|(input, _)| input.specific_force.y - gravity_of(input));
+        [kinematic, gravity]
+            .iter()
+            .all(|force| relation(&turning, force).slope_above(MIN_BEND_FORCE).is_some_and(is_equal))
+    } else {
+        let measured = channels.smoothed(|(input, speed)| input.specific_force.y - speed * input.angular_velocity.z);
+        let turned: Vec<f64> = gravity.iter().map(|force| -force).collect();
+        let (level, right) = (root_mean_square(&measured), rms_difference(&measured, &gravity));
+        level >= MIN_BANK_FORCE && rms_difference(&measured, &turned) < CLEAR_FRACTION * level.min(right)
+    };
+    is_opposite.then(|| text!["roll-opposite", columns = channels.turned_angle(0)])
 }
 
 /// Two axes with the same values, of either sign. Those of a mounted sensor may be equal.

@@ -84,6 +84,8 @@ const RECORDING_RULES: &[Rule] = rules! {
         supersedes ["no yaw rate", "no lateral force"];
     "sign of pitch" warn [Speed, Angle(1)], TESTED_ONCE, agreement::sign_of_pitch,
         supersedes ["no force", "speed and force", "delayed speed"];
+    "sign of roll" warn [Speed, Angle(0)], TESTED_ONCE, agreement::sign_of_roll,
+        supersedes ["no lateral force", "sign of bends", "rates of bends", "unit of bends"];
     "same forces" warn [], &[Force(0), Force(1), Force(2)], agreement::same_values;
     "same rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::same_values;
     "no force" warn [Speed], TESTED_ONCE, agreement::missing_force;
