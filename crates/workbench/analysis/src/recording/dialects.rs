@@ -19,6 +19,8 @@ pub struct Dialects {
     pub vbox: BTreeMap<String, Channel>,
     /// Files that are no text, by their first bytes.
     pub binary: Vec<Foreign>,
+    /// Files of text that are no tables, by the first letters behind blanks.
+    pub text: Vec<Foreign>,
     /// Archives, by a name in them.
     pub archive: Vec<Foreign>,
 }

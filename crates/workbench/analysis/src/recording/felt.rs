@@ -17,7 +17,8 @@ use crate::message::Message;
 pub struct Names<const N: usize> {
     /// The argument that gives the quantity.
     pub argument: &'static str,
-    sets: &'static [[&'static str; N]],
+    /// Names with blanks between them, N of each.
+    sets: &'static [&'static str],
     dimensions: [Kind; N],
     of: fn(&ForeignMotion) -> &Series<N>,
 }
@@ -55,18 +56,14 @@ impl Kind {
 /// Felt specific force.
 pub const FELT_FORCE: Names<3> = Names {
     argument: "felt_force",
-    sets: &[
-        ["rider.specificForce.x", "rider.specificForce.y", "rider.specificForce.z"],
-        ["ax", "ay", "az"],
-        ["fx", "fy", "fz"],
-    ],
+    sets: &["rider.specificForce.x rider.specificForce.y rider.specificForce.z", "ax ay az", "fx fy fz"],
     dimensions: [Kind::Of(Dimension::Force); 3],
     of: |motion| &motion.force,
 };
 /// Felt angular velocity.
 pub const FELT_RATE: Names<3> = Names {
     argument: "felt_rate",
-    sets: &[["rider.angularVelocity.x", "rider.angularVelocity.y", "rider.angularVelocity.z"], ["wx", "wy", "wz"]],
+    sets: &["rider.angularVelocity.x rider.angularVelocity.y rider.angularVelocity.z", "wx wy wz"],
     dimensions: [Kind::Of(Dimension::Rate); 3],
     of: |motion| &motion.rate,
 };
@@ -74,15 +71,9 @@ pub const FELT_RATE: Names<3> = Names {
 pub const PLATFORM_POSE: Names<6> = Names {
     argument: "pose",
     sets: &[
-        [
-            "platform.position.x",
-            "platform.position.y",
-            "platform.position.z",
-            "platform.orientation.roll",
-            "platform.orientation.pitch",
-            "platform.orientation.yaw",
-        ],
-        ["x", "y", "z", "roll", "pitch", "yaw"],
+        "platform.position.x platform.position.y platform.position.z platform.orientation.roll \
+         platform.orientation.pitch platform.orientation.yaw",
+        "x y z roll pitch yaw",
     ],
     dimensions: {
         let (length, angle) = (Kind::Length, Kind::Of(Dimension::Angle));
@@ -94,15 +85,9 @@ pub const PLATFORM_POSE: Names<6> = Names {
 pub const LEG_LENGTHS: Names<6> = Names {
     argument: "legs",
     sets: &[
-        [
-            "actuator[1].length",
-            "actuator[2].length",
-            "actuator[3].length",
-            "actuator[4].length",
-            "actuator[5].length",
-            "actuator[6].length",
-        ],
-        ["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"],
+        "actuator[1].length actuator[2].length actuator[3].length actuator[4].length actuator[5].length \
+         actuator[6].length",
+        "leg1 leg2 leg3 leg4 leg5 leg6",
     ],
     dimensions: [Kind::Length; 6],
     of: |motion| &motion.legs,
@@ -236,13 +221,12 @@ impl FeltTable {
         recording: &Recording,
         notes: &mut Vec<String>,
     ) -> Result<Vec<[f64; N]>, String> {
-        let outputs = &names.sets[0];
+        let outputs = names.sets[0];
         let is_there = |name: &str| self.titles.iter().any(|title| title.split([' ', '[']).next() == Some(name));
-        if outputs.iter().all(|name| is_there(name)) {
+        if outputs.split(' ').all(is_there) {
             return self.part(names, recording, notes);
         }
-        let titles = self.titles.join(", ");
-        Err(format!("there are no columns {} to {}; there are {titles}", outputs[0], outputs[N - 1]))
+        Err(format!("there are no columns {}; there are {}", first_to_last(outputs), self.titles.join(", ")))
     }
 
     fn placed<const N: usize>(
@@ -275,10 +259,8 @@ impl<const N: usize> Names<N> {
     /// The places of the columns, of the first names that are all there.
     fn places(&self, header: &Header) -> Option<[usize; N]> {
         let place = |name: &str| header.place(name).ok().flatten();
-        self.sets.iter().find_map(|names| {
-            let found: Vec<usize> = names.iter().filter_map(|name| place(name)).collect();
-            <[usize; N]>::try_from(found).ok()
-        })
+        let places = |names: &&str| names.split(' ').filter_map(place).collect::<Vec<usize>>();
+        self.sets.iter().map(places).find_map(|found| found.try_into().ok())
     }
 
     fn rows(&self, header: &Header, column: impl Fn(usize) -> Vec<f64>) -> Result<Option<Vec<[f64; N]>>, String> {
@@ -298,9 +280,14 @@ impl<const N: usize> Names<N> {
 
     /// The names, as messages list them.
     fn shown(&self) -> String {
-        let sets = self.sets.iter().map(|names| format!("{} to {}", names[0], names[N - 1]));
-        sets.collect::<Vec<_>>().join(" or ")
+        self.sets.iter().map(|names| first_to_last(names)).collect::<Vec<_>>().join(" or ")
     }
+}
+
+/// The first and the last of names between blanks.
+fn first_to_last(names: &str) -> String {
+    let ends = [names.split(' ').next(), names.split(' ').next_back()];
+    ends.map(Option::unwrap_or_default).join(" to ")
 }
 
 /// The factor of a column to SI, by the unit in its title.

@@ -22,14 +22,9 @@ pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
         Some(
             "is a log of CAN frames, which hold no signals by name; export the signals as CSV, in Python with cantools",
         )
-    } else if text.starts_with(b"$GP") || text.starts_with(b"$GN") {
-        Some("is a log of NMEA sentences, which have no accelerations; export the accelerometer's samples as CSV")
-    } else if text.starts_with(b"<") {
-        Some("is XML or HTML; export the recording as CSV")
-    } else if text.starts_with(b"{") || text.starts_with(b"[{") {
-        Some("is JSON; export the recording as CSV")
     } else {
-        None
+        let is_of = |file: &&Foreign| file.is_marked(|first| text.starts_with(first));
+        DIALECTS.text.iter().find(is_of).map(|file| file.remedy.as_str())
     }
 }
 
