@@ -7,8 +7,10 @@ use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
 
 use crate::error::Result;
-use crate::message::{Message, given, message, named};
+use crate::message::{Message, named};
 use crate::recording::Recording;
+use crate::texts::text;
+
 use moris_simulation::Simulation;
 
 /// Input within a step, as given by the host.
@@ -43,8 +45,7 @@ pub fn check_predictive(option: &'static str, strategy: StrategyKind) -> Result<
     if strategy == StrategyKind::Predictive {
         return Ok(());
     }
-    let remedy = given("strategy", StrategyKind::Predictive.name());
-    Err(message![named(option), " is for the predictive strategy alone; add ", remedy])
+    Err(text!["predictive-alone", option = named(option)])
 }
 
 impl Host {
@@ -64,11 +65,8 @@ impl Host {
         let sample = recording.step();
         let step = self.step.unwrap_or(sample);
         let replay = Replay::in_steps(&recording.manoeuvre, step, self.inputs == Inputs::Slopes).ok_or_else(|| {
-            let name = &recording.name;
-            message![
-                named("step"),
-                " is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other"
-            ]
+            let (name, step, sample) = (&recording.name, step.to_string(), sample.to_string());
+            text!["step-of-host", step, name, sample]
         })?;
         let previewer = learned.or_else(|| Previewer::of(&recording.manoeuvre, self.preview));
         Ok(Simulation::previewed(&replay, parameters, previewer, || ())?)

@@ -36,5 +36,6 @@ pub mod random;
 pub mod recording;
 pub mod rig;
 pub mod text_table;
+mod texts;
 pub mod tune;
 pub mod washout_fmu;

@@ -89,33 +89,18 @@ pub fn given(option: &'static str, value: impl Display) -> Remedy {
     Remedy { option, value: Some(value.to_string()) }
 }
 
-/// A message of parts: a literal is formatted, anything else is text, a remedy or a message.
-macro_rules! message {
-    (@push $message:ident) => {};
-    (@push $message:ident $text:literal $(, $($rest:tt)*)?) => {
-        $message.push(format!($text));
-        $( $crate::message::message!(@push $message $($rest)*); )?
-    };
-    (@push $message:ident $part:expr $(, $($rest:tt)*)?) => {
-        $message.push($part);
-        $( $crate::message::message!(@push $message $($rest)*); )?
-    };
-    ($($parts:tt)*) => {{
-        let mut message = $crate::message::Message::default();
-        $crate::message::message!(@push message $($parts)*);
-        message
-    }};
-}
-pub(crate) use message;
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_message_keeps_its_remedies_as_data() {
-        let (count, inner) = (2, message!["use ", given("lap", 1)]);
-        let message = message!["there are {count} laps; ", inner, ", or ", named("columns"), format!(" {}", "alone")];
+        let mut message = Message::from("there are 2 laps; ");
+        message.push("use ");
+        message.push(given("lap", 1));
+        message.push(", or ");
+        message.push(named("columns"));
+        message.push(" alone".to_owned());
         assert_eq!(message.to_string(), "there are 2 laps; use lap 1, or columns alone");
         assert_eq!(
             message.worded(|remedy| format!("[{}]", remedy.option)),

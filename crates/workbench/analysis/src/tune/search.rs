@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::cost::{Cost, Objective};
 use super::error::TuneError;
 use super::space::Space;
-use crate::message::{given, message, named};
+use crate::texts::text;
 
 /// Length and start of a search.
 #[derive(Clone, Copy, Debug)]
@@ -73,13 +73,7 @@ pub fn search(
     // The search ends when a generation's costs differ by less than this.
     const COST_TOLERANCE: f64 = 1e-5;
     if space.dimension() == 0 {
-        return Err(TuneError::NothingToTune(message![
-            "the groups given with ",
-            named("tune"),
-            " have no continuous parameter: the classical strategy has none of its own, and orders are searched only beside \
-             others; add a group, such as ",
-            given("tune", "splitter,order")
-        ]));
+        return Err(TuneError::NothingToTune(text!["nothing-to-tune"]));
     }
     let recordings = &Recordings::new(objectives, evaluate, space)?;
     let mut continues = true;

@@ -11,7 +11,7 @@ use super::cost::{Cost, Objective};
 use super::error::TuneError;
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
-use crate::message::{given, message, named};
+use crate::texts::text;
 use moris_simulation::Simulation;
 
 /// Tunes on sets of recordings.
@@ -121,19 +121,7 @@ impl Tuner<'_> {
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         let violating = self.violating_recordings(objectives, &nearest)?;
-        Err(TuneError::Infeasible(message![
-            "no parameters were found with which every recording stays clear of the safety units and the actuators' limits, and within the \
-             bounds of ",
-            named("comfort"),
-            "{violating}; omit the most demanding recording, or try more ",
-            named("evaluations"),
-            ", less ",
-            named("stroke-reserve"),
-            ", lower scales to start from, larger bounds of ",
-            named("comfort"),
-            ", or, for vibration, ",
-            given("tune", "splitter,angular,scale,cutoff")
-        ]))
+        Err(TuneError::Infeasible(text!["infeasible", violating]))
     }
 
     /// Candidates to verify in the final step size, in this order:

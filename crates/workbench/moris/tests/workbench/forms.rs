@@ -173,7 +173,7 @@ fn units_in_names_and_words_are_read() {
         _ => format!("{:.5}", 3.6 * value),
     };
     let columns_of = |names: [&str; 8]| {
-        let keys = Quantity::ALL.into_iter().filter(|key| HEADER.contains(&key.key())).zip(names);
+        let keys = Quantity::all().filter(|key| HEADER.contains(&key.key())).zip(names);
         columns(&keys.collect::<Vec<_>>())
     };
     for names in [

@@ -7,10 +7,11 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::message::{Message, given, message};
+use crate::message::Message;
 use crate::recording::conventions::{Conventions, Frame, Gravity, Mounting, Quantity};
 use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
+use crate::texts::text;
 
 /// The washout's input at each sample, with a warning where the mounting was found.
 ///
@@ -19,8 +20,7 @@ use crate::recording::table::Table;
 pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Option<Message>), RecordingError> {
     let has_angles = Quantity::ANGLES.iter().all(|angle| table.columns.contains_key(angle));
     if conventions.force_frame == Frame::World && !has_angles {
-        let frame = given("force-frame", "world");
-        return Err(table.refused(message![frame, " needs roll, pitch and yaw, or a quaternion, which are missing"]));
+        return Err(table.refused(text!["world-forces-without-angles"]));
     }
     let (mounting, warning) = match conventions.mounting {
         None => (None, None),
@@ -49,8 +49,7 @@ fn sensor_vector(
 
 fn find_mounting(table: &Table, conventions: &Conventions) -> Result<(Matrix3<f64>, Message), Message> {
     if conventions.gravity == Gravity::Removed {
-        let [auto, angles] = Mounting::options();
-        return Err(message![auto, " needs gravity in the accelerations; give ", angles]);
+        return Err(text!["mounting-without-gravity"]);
     }
     let vectors = |quantity| -> Vec<Vector3<f64>> {
         (0..table.time.len()).map(|sample| sensor_vector(table, conventions, sample, quantity)).collect()

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 
 use super::units::{AngleUnit, TimeUnit, Unit};
 use super::{Header, Quantity, Term};
-use crate::message::{Message, message, named};
+use crate::message::Message;
 use crate::recording::conventions::Conventions;
+use crate::texts::text;
 
 /// The source of a column's unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +86,7 @@ impl Header {
             Quantity::Geographic(_) => is_geographic,
             _ => conventions.needs(*quantity) || !conventions.column(*quantity).is_empty(),
         };
-        for quantity in Quantity::ALL.into_iter().filter(is_read) {
+        for quantity in Quantity::all().filter(is_read) {
             match self.terms(conventions.column(quantity)) {
                 Ok(Some(terms)) => chosen.push((quantity, terms)),
                 Ok(None) if conventions.expects(quantity) => missing.push(quantity),
@@ -117,10 +118,7 @@ impl Header {
             for term in terms {
                 if let Some(other) = used.insert(term.place, *quantity) {
                     let (title, one, other) = (self.shown(term.place), other.key(), quantity.key());
-                    return Err(message![
-                        "column {title} is given for both {one} and {other}; give each a column of its own with ",
-                        named("columns")
-                    ]);
+                    return Err(text!["column-given-twice", title, one, other]);
                 }
             }
         }

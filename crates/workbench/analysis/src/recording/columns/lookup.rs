@@ -1,8 +1,9 @@
 //! The column of a name, and the columns of a sum of names.
 
 use super::Header;
-use crate::message::{Message, message, named};
+use crate::message::Message;
 use crate::recording::message::quoted;
+use crate::texts::text;
 
 /// A column of the file, and the factor with which it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,14 +52,14 @@ impl Header {
     fn ambiguous(&self, name: &str, first: usize, second: usize) -> Message {
         let (one, other) = (self.shown(first), self.shown(second));
         let remedy = if self.titles[first].file != self.titles[second].file {
-            message!["give the file's name with it in ", named("columns")]
+            text!["name-the-file"]
         } else if self.titles[first].full == self.titles[second].full {
-            message!["remove or rename one of them, or give its number with ", named("columns")]
+            text!["number-the-column"]
         } else {
-            message!["give the whole name of one of them with ", named("columns"), ", or rename one"]
+            text!["give-the-whole-name"]
         };
         let (name, first, second) = (quoted(name), self.number(first), self.number(second));
-        message!["two columns are called {name}: {one}{first} and {other}{second}; ", remedy]
+        text!["two-columns", name, one, first, other, second, remedy]
     }
 
     /// The column's place in its file, for messages: empty where there are several files.

@@ -3,9 +3,10 @@
 use moris_setup::nearest;
 
 use super::{Header, Quantity, Term};
-use crate::message::{Message, given, message, named};
+use crate::message::{Message, given};
 use crate::recording::conventions::{Conventions, Format, Missing};
 use crate::recording::message::quoted;
+use crate::texts::text;
 
 impl Header {
     /// True if all required columns exist.
@@ -30,7 +31,7 @@ impl Header {
         conventions: &Conventions,
     ) -> impl Iterator<Item = (Quantity, Result<Option<Vec<Term>>, Message>)> {
         let is_geographic = self.is_geographic(conventions);
-        let needed = Quantity::ALL.into_iter().filter(move |&quantity| {
+        let needed = Quantity::all().filter(move |&quantity| {
             conventions.needs(quantity) && !(is_geographic && matches!(quantity, Quantity::Position(_)))
         });
         needed.map(|quantity| (quantity, self.terms(conventions.column(quantity))))
@@ -42,7 +43,7 @@ impl Header {
         if let Some(&format) = Format::ALL.iter().find(|&&format| self.is_of(format)) {
             let names = names.into_iter().map(quoted).collect::<Vec<_>>().join(", ");
             let (title, remedy) = (format.title(), given("format", format.word()));
-            return message!["this looks like a recording of {title}; use ", remedy, " (there is no column {names})"];
+            return text!["other-format", title, remedy, names];
         }
         // Formats have optional channels: others may have measured the same.
         let likely = |quantity: &Quantity| {
@@ -60,33 +61,22 @@ impl Header {
         let is_long = has(|name| ["name", "sensor", "signal"].iter().any(|end| name.ends_with(end)))
             && has(|name| name == "x" || name.ends_with("value"));
         if is_long && missing.len() >= 6 {
-            return format!(
-                "there are {}: this looks like a line for each value of a channel, which is not read; make a column of each \
-                 channel, in Python: pandas.DataFrame.pivot",
-                self.listed()
-            )
-            .into();
+            return text!["line-for-each-value", listed = self.listed()];
         }
         let may_rest = |quantity: &Quantity| matches!(quantity, Quantity::Force(1..) | Quantity::Rate(_));
         let no = if names.len() == 1 { "is no column" } else { "are no columns" };
         let (names, listed) = (self.with_nearest(&names), self.listed());
-        message![
-            "there {no} {names}; there are {listed}; name what is called otherwise with ",
-            given("columns", keys.join(",")),
-            if missing == [Quantity::Time] {
-                message![", or use ", given("rate", "HERTZ"), " if its samples come at equal steps"]
-            } else if conventions.missing == Missing::Rest {
-                message![
-                    "; those of a turned sensor are not known: leave out ",
-                    named("mounting"),
-                    " if it is not turned"
-                ]
-            } else if missing.iter().all(may_rest) || keys.len() < missing.len() {
-                message![", or use ", given("missing", "rest"), " if nothing measured them"]
-            } else {
-                Message::default()
-            }
-        ]
+        let columns = given("columns", keys.join(","));
+        let or_else = if missing == [Quantity::Time] {
+            text!["or-equal-steps"]
+        } else if conventions.missing == Missing::Rest {
+            text!["turned-is-not-known"]
+        } else if missing.iter().all(may_rest) || keys.len() < missing.len() {
+            text!["or-rest"]
+        } else {
+            Message::default()
+        };
+        text!["no-columns", no, names, listed, columns, or_else]
     }
 
     /// Names, each with the one that is nearest to it in the header.

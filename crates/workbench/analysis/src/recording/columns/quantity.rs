@@ -20,31 +20,14 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in the order of columns.
-    pub const ALL: [Quantity; 20] = {
-        use Quantity::{Angle, Force, Geographic, Lean, Position, Quaternion, Rate, Speed, Time};
-        [
-            Time,
-            Force(0),
-            Force(1),
-            Force(2),
-            Rate(0),
-            Rate(1),
-            Rate(2),
-            Angle(0),
-            Angle(1),
-            Angle(2),
-            Quaternion(0),
-            Quaternion(1),
-            Quaternion(2),
-            Quaternion(3),
-            Speed,
-            Lean,
-            Position(0),
-            Position(1),
-            Geographic(0),
-            Geographic(1),
-        ]
-    };
+    pub fn all() -> impl Iterator<Item = Quantity> {
+        let axes: [fn(usize) -> Quantity; 3] = [Quantity::Force, Quantity::Rate, Quantity::Angle];
+        let places: [fn(usize) -> Quantity; 2] = [Quantity::Position, Quantity::Geographic];
+        let of = |count: usize| move |quantity: fn(usize) -> Quantity| (0..count).map(quantity);
+        let alone = [Quantity::Speed, Quantity::Lean];
+        let measured = axes.into_iter().flat_map(of(3)).chain(Quantity::QUATERNION).chain(alone);
+        [Quantity::Time].into_iter().chain(measured).chain(places.into_iter().flat_map(of(2)))
+    }
 
     /// Roll, pitch and yaw.
     pub const ANGLES: [Quantity; 3] = [Quantity::Angle(0), Quantity::Angle(1), Quantity::Angle(2)];
@@ -95,8 +78,8 @@ impl Quantity {
     /// # Errors
     /// The key is unknown. The message lists the known ones.
     pub fn of_key(key: &str) -> Result<Self, String> {
-        let keys = || Self::ALL.map(Self::key).join(", ");
-        let found = Self::ALL.into_iter().find(|quantity| quantity.key() == key);
+        let keys = || Self::all().map(Self::key).collect::<Vec<_>>().join(", ");
+        let found = Self::all().find(|quantity| quantity.key() == key);
         found.ok_or_else(|| format!("there is no key {key}; there are {}", keys()))
     }
 }

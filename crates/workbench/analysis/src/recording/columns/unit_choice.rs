@@ -2,9 +2,10 @@
 
 use super::units::{Dimension, TimeUnit, Unit, any_spelled};
 use super::{Column, Header, Term, UnitSource};
-use crate::message::{Message, message, named};
+use crate::message::{Message, named};
 use crate::recording::conventions::Conventions;
 use crate::recording::message::quoted;
+use crate::texts::text;
 
 impl Header {
     /// The unit of columns that are added, which must be one.
@@ -20,10 +21,7 @@ impl Header {
             if other != unit {
                 let [one, two] = [&terms[0], term].map(|term| self.shown(term.place));
                 let (unit, other) = (unit.word, other.word);
-                return Err(format!(
-                    "columns {one} and {two} are added, but are in {unit} and {other}; convert one of them"
-                )
-                .into());
+                return Err(text!["added-in-two-units", one, two, unit, other]);
             }
         }
         Ok((unit, source))
@@ -68,33 +66,18 @@ impl Header {
         };
         let (title, option) = (self.shown(place), named(dimension.option()));
         match (dimension.spelled(text), given) {
-            (Some(unit), Some(given)) if unit != given => Err(message![
-                format!("column {title} is in {} by its header, but ", unit.word),
-                option.clone(),
-                format!(" gives {}; leave ", given.word),
-                option,
-                " out, or correct the header"
-            ]),
+            (Some(unit), Some(given)) if unit != given => {
+                Err(text!["header-against-option", title, unit = unit.word, option, given = given.word])
+            }
             (Some(unit), _) => Ok((unit, UnitSource::Header)),
-            (None, _) if any_spelled(text).is_some() => Err(message![
-                format!(
-                    "column {title} is in {} by its header, which is no unit of {}; is it another quantity? Name the right \
-                     column with ",
-                    quoted(text),
-                    dimension.name()
-                ),
-                named("columns")
-            ]),
+            (None, _) if any_spelled(text).is_some() => {
+                Err(text!["unit-of-another-quantity", title, unit = quoted(text), quantity = dimension.name()])
+            }
             (None, Some(given)) => Ok((given, UnitSource::Option)),
-            (None, None) => Err(message![
-                format!(
-                    "column {title} has the unit {}, which is not known; known are {}; convert the column, or give its unit \
-                     with ",
-                    quoted(text),
-                    dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", ")
-                ),
-                option
-            ]),
+            (None, None) => {
+                let known = dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", ");
+                Err(text!["unit-not-known", title, unit = quoted(text), known, option])
+            }
         }
     }
 
@@ -112,11 +95,7 @@ impl Header {
             if let Some(stated) = stated.filter(|_| !open.is_empty()) {
                 let (title, unit) = (self.shown(stated.terms[0].place), stated.unit.word);
                 let (verb, open) = (if open.len() == 1 { "is" } else { "are" }, open.join(", "));
-                return Err(format!(
-                    "column {title} is in {unit} by its header, but {open} {verb} without a unit; write the unit into \
-                     the header of each"
-                )
-                .into());
+                return Err(text!["unit-missing-beside", title, unit, open, verb]);
             }
         }
         Ok(())

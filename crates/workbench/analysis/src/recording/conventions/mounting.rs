@@ -5,7 +5,6 @@ use moris_washout::nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::message::{Remedy, given};
 use crate::option_values::numbers;
 
 /// The sensor's orientation in the vehicle.
@@ -49,11 +48,6 @@ impl Mounting {
             return Ok(Mounting::Auto);
         }
         Self::of_degrees(numbers(text).ok_or("write auto, or ROLL,PITCH,YAW in degrees, as in 0,90,0")?)
-    }
-
-    /// The options that find it and that give it, for messages.
-    pub fn options() -> [Remedy; 2] {
-        ["auto", "ROLL,PITCH,YAW"].map(|value| given("mounting", value))
     }
 
     fn of_degrees(degrees: [f64; 3]) -> Result<Self, String> {

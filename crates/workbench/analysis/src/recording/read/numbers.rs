@@ -1,7 +1,8 @@
 //! The numbers of a text file's fields.
 
-use crate::message::{Message, given, message};
+use crate::message::Message;
 use crate::recording::message::quoted;
+use crate::texts::text;
 
 /// Parses numbers that all have the same decimal mark, and the same sign between thousands.
 #[derive(Default)]
@@ -70,24 +71,16 @@ impl Numbers {
         if let (Some(mark), Ok(_)) = (mark, &number)
             && *self.mark.get_or_insert(mark) != mark
         {
-            return Err(format!(
-                "is {}, but numbers before it have a decimal {}; write all with the same",
-                quoted(text),
-                if mark == ',' { "point" } else { "comma" }
-            )
-            .into());
+            let other = if mark == ',' { "point" } else { "comma" };
+            return Err(text!["other-decimal-mark", text = quoted(text), other]);
         }
         match number {
             Ok(number) if number.abs() <= LARGEST => Ok(number),
-            Ok(number) if !number.is_nan() => {
-                Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)).into())
-            }
-            Ok(_) => Err(message![format!("is {}; ", quoted(text)), gap_remedy()]),
-            _ if text.is_empty() => Err(message!["is empty; ", gap_remedy()]),
-            _ if is_empty(Some(text)) => {
-                Err(message![format!("is \"{}\", which is no value; ", quoted(text)), gap_remedy()])
-            }
-            _ => Err(format!("is \"{}\", which is not a number", quoted(text)).into()),
+            Ok(number) if !number.is_nan() => Err(text!["measured-by-none", text = quoted(text)]),
+            Ok(_) => Err(text!["gap", value = quoted(text)]),
+            _ if text.is_empty() => Err(text!["gap", value = "empty"]),
+            _ if is_empty(Some(text)) => Err(text!["gap", value = text!["no-value", text = quoted(text)]]),
+            _ => Err(text!["not-a-number", text = quoted(text)]),
         }
     }
 
@@ -114,11 +107,6 @@ fn is_grouped(text: &str, mark: char) -> bool {
         && !first.starts_with('0')
         && all_digits(first)
         && parts.all(|part| part.len() == 3 && all_digits(part))
-}
-
-/// The remedy for a gap.
-fn gap_remedy() -> Message {
-    message!["cut this part off, fill the gap with plausible values, or use ", given("empty-fields", "interpolate")]
 }
 
 /// True for a field that holds nothing: empty, a word for a missing value, or signs such as - or ?.

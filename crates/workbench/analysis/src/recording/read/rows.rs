@@ -8,9 +8,10 @@ use super::numbers::{Numbers, is_empty};
 use super::preamble::reader;
 use super::sheet::{Sheet, is_blank};
 use super::time;
-use crate::message::{Message, given, message};
+use crate::message::Message;
 use crate::recording::conventions::{Conventions, EmptyFields};
 use crate::recording::message::{RecordingError, quoted};
+use crate::texts::text;
 
 /// Numbers, a line a sample.
 pub struct Samples {
@@ -82,7 +83,7 @@ impl Sheet {
                     if !is_cut || advance(&mut record)? {
                         return Err(error);
                     }
-                    samples.warnings.push(format!("The last line, {line}, is cut off and left out.").into());
+                    samples.warnings.push(text!["last-line-cut", line]);
                 }
             }
         }
@@ -161,7 +162,7 @@ impl Row<'_> {
         let header = &self.sheet.header;
         let refused = |column, reason: Message| RecordingError::line(&self.sheet.file, line, column, reason);
         if record.iter().skip(header.width()).any(|field| !field.trim().is_empty()) {
-            return Err(refused(None, too_many_fields(record.len(), header.width()).into()));
+            return Err(refused(None, text!["too-many-fields", fields = record.len(), columns = header.width()]));
         }
         let value = |&place: &usize| match record.get(place) {
             field if self.may_be_empty && is_empty(field) => Ok(f64::NAN),
@@ -181,15 +182,7 @@ fn line_of_record(position: &Position, text: &str) -> u64 {
 
 /// The reason for a time that is written in another way than those that are read.
 fn unread_time(field: &str) -> Message {
-    let rate = given("rate", "HERTZ");
     let reason =
         time::parse(field).err().unwrap_or_else(|| format!("is \"{}\", unlike times before it", quoted(field)));
-    message![reason, "; if the samples come at equal steps, ", rate, " reads none of the times"]
-}
-
-fn too_many_fields(fields: usize, columns: usize) -> String {
-    format!(
-        "has {fields} fields below a header of {columns}; if its numbers have decimal commas, separate the columns with \
-         semicolons"
-    )
+    text!["unread-time", reason]
 }

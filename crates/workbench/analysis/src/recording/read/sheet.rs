@@ -9,10 +9,11 @@ use super::preamble::{self, Found, Separator, reader, separator_below, tabulated
 use super::text::{Text, text};
 use super::time::is_written_out;
 use super::{serial, source, tagged, vbox};
-use crate::message::{Message, given, message};
+use crate::message::Message;
 use crate::recording::columns::{Header, Term, UnitSource};
 use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
 use crate::recording::message::RecordingError;
+use crate::texts::text;
 
 /// Lines that show a form.
 const FORM_LINES: usize = 3;
@@ -21,20 +22,15 @@ const FORM_LINES: usize = 3;
 type IsOfForm = fn(&[Vec<String>]) -> bool;
 
 /// Forms of files in which columns are not found, and how to convert them.
-const UNREADABLE_FORMS: [(IsOfForm, &str); 3] = [
+const UNREADABLE_FORMS: [(IsOfForm, fn() -> Message); 3] = [
     (
         |lines| lines.iter().flatten().any(|field| field.starts_with(['[', '(']) && field.contains([',', ' '])),
-        "; fields hold lists of numbers: make a column of each number, in Python: \
-         table[[\"ax\", \"ay\", \"az\"]] = table.acc.map(eval).tolist()",
+        || text!["lists-in-fields"],
     ),
-    (
-        |lines| lines.iter().filter(|line| is_word(line.first())).count() * 2 > lines.len(),
-        "; lines begin with their kind: write the lines of one kind into a file of its own, and join files with +",
-    ),
+    (|lines| lines.iter().filter(|line| is_word(line.first())).count() * 2 > lines.len(), || text!["lines-of-kinds"]),
     (
         |lines| lines.first().is_some_and(|line| line.iter().skip(1).all(|field| is_word(Some(field)))),
-        "; the header has several lines: make one of them, in Python: table = pandas.read_csv(FILE, header=[0, 1]); \
-         table.columns = table.columns.map(\"_\".join)",
+        || text!["header-of-several-lines"],
     ),
 ];
 
@@ -113,19 +109,18 @@ impl Sheet {
     }
 
     /// The way to convert the file, where its columns are not found because of its form.
-    pub fn form(&self) -> Option<&'static str> {
+    pub fn form(&self) -> Option<Message> {
         // Lines in which a form is looked for.
         const LINES_OF_FORM: usize = 20;
         let records = reader(&self.body, self.delimiter).into_records().filter_map(Result::ok).take(LINES_OF_FORM);
         let lines: Vec<Vec<String>> = records.map(|record| record.iter().map(str::to_owned).collect()).collect();
-        UNREADABLE_FORMS.iter().find(|(is_of, _)| is_of(&lines)).map(|(_, remedy)| *remedy)
+        UNREADABLE_FORMS.iter().find(|(is_of, _)| is_of(&lines)).map(|(_, remedy)| remedy())
     }
 
     /// The reason why the file has no time.
     pub fn without_time(&self, conventions: &Conventions) -> RecordingError {
         let time = conventions.column(Quantity::Time);
-        let rate = given("rate", "HERTZ");
-        self.refused(message!["there is no column {time}; if its samples come at equal steps, use ", rate])
+        self.refused(text!["no-column-of-time", time])
     }
 
     /// The unit of its samples' times and its source: seconds where they are written out.

@@ -15,13 +15,13 @@ use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::channels::{BEND_SPEED, Channels, MIN_BEND_FORCE, MIN_SPEED_CHANGE};
-use super::text::text;
 use crate::message::{Message, Remedy};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{
     Axes, Conventions, Dimension, ForceUnit, Frame, Gravity, Quantity, SpeedUnit, Unit,
 };
 use crate::recording::signal::{centred, integral, is_constant, median, relation, root_mean_square, smooth};
+use crate::texts::text;
 
 /// The weaker signal may be this much smaller than the least size that is compared, because its
 /// unit may be larger.
@@ -157,10 +157,10 @@ impl Channels<'_> {
     fn unmeasured(&self, quantity: Quantity, contradiction: &str) -> Message {
         let name = self.conventions.column(quantity);
         if !self.is_constant(quantity) {
-            return text!["unmeasured", name = name, contradiction = contradiction];
+            return text!["unmeasured", name, contradiction];
         }
         let value = shown(self.table.value(quantity, 0) / self.table.unit(quantity).0.in_si);
-        text!["unmeasured-constant", name = name, value = value, contradiction = contradiction]
+        text!["unmeasured-constant", name, value, contradiction]
     }
 
     /// The remedy where two columns are exchanged, each with the sign that it then needs.
@@ -242,7 +242,7 @@ pub fn exchanged_forces(channels: &Channels, _: Quantity) -> Option<Message> {
         return None;
     }
     let remedy = channels.exchanged_columns([Quantity::Force(0), Quantity::Force(1)], [ratio(1)?, 1.0]);
-    Some(text!["forces-exchanged", remedy = remedy])
+    Some(text!["forces-exchanged", remedy])
 }
 
 /// Two axes of which the angle of each goes with the rate of the other.
@@ -264,14 +264,7 @@ pub fn exchanged_rates(channels: &Channels, quantity: Quantity) -> Option<Messag
     let remedy = channels.exchanged_columns([one, other].map(Quantity::Rate), [first?, second?]);
     let [rate, other_rate] = [other, one].map(|axis| Quantity::Rate(axis).key());
     let (angle, other_angle) = (["Roll", "Pitch", "Yaw"][one], Quantity::Angle(other).key());
-    Some(text![
-        "rates-exchanged",
-        angle = angle,
-        rate = rate,
-        other_angle = other_angle,
-        other_rate = other_rate,
-        remedy = remedy
-    ])
+    Some(text!["rates-exchanged", angle, rate, other_angle, other_rate, remedy])
 }
 
 /// Bends whose lateral force goes with a rate that is not the yaw rate.
@@ -285,7 +278,7 @@ pub fn exchanged_yaw_rate(channels: &Channels, rate: Quantity) -> Option<Message
         return None;
     }
     let remedy = channels.exchanged_columns([rate, Quantity::Rate(2)], [1.0, found?]);
-    Some(text!["yaw-rate-exchanged", rate = rate.key(), remedy = remedy])
+    Some(text!["yaw-rate-exchanged", rate = rate.key(), remedy])
 }
 
 /// Forces that change the speed where they are taken from the world's axes to the vehicle's.
@@ -347,7 +340,7 @@ pub fn quaternion(channels: &Channels, _: Quantity) -> Option<Message> {
         return None;
     }
     let columns = channels.conventions.columns_of(keys, &Quantity::QUATERNION);
-    Some(text!["quaternion", kind = *kind, columns = columns])
+    Some(text!["quaternion", kind = *kind, columns])
 }
 
 /// A pitch with the wrong sign, as the speed on slopes tells.
@@ -407,7 +400,7 @@ pub fn same_values(channels: &Channels, quantity: Quantity) -> Option<Message> {
         return None;
     }
     let [one, other] = quantities.map(|quantity| conventions.column(quantity));
-    Some(text!["same-values", one = one, other = other])
+    Some(text!["same-values", one, other])
 }
 
 /// A speed that changes without a force along x, and no slope explains it.
@@ -438,7 +431,7 @@ pub fn missing_lateral_force(channels: &Channels, _: Quantity) -> Option<Message
         && found.sizes[0] >= MIN_MISSED_BEND_FORCE
         && found.correlation.abs() < UNRELATED_CORRELATION;
     let name = channels.conventions.column(Quantity::Force(1));
-    is_missing.then(|| text!["no-bends", name = name, size = found.sizes[0]])
+    is_missing.then(|| text!["no-bends", name, size = found.sizes[0]])
 }
 
 /// A constant speed that the force along x would change.
@@ -490,7 +483,7 @@ pub fn speed_and_force(channels: &Channels, _: Quantity) -> Option<Message> {
     let Channels { table, conventions, .. } = channels;
     let surge = channels.surge_ratio()?;
     if surge < OPPOSITE_RATIO {
-        return Some(text!["surge-opposite", surge = surge, remedy = channels.turned(Quantity::Force(0))]);
+        return Some(text!["surge-opposite", surge, remedy = channels.turned(Quantity::Force(0))]);
     }
     if is_equal(surge) {
         return None;
@@ -502,7 +495,7 @@ pub fn speed_and_force(channels: &Channels, _: Quantity) -> Option<Message> {
                 _ => format!("the {}", quantity.dimension().name()),
             };
             let (given, remedy) = (table.unit(quantity).0.word, channels.unit_remedy(quantity, unit.word));
-            text!["other-unit", name = name, other = unit.word, unit = given, remedy = remedy]
+            text!["other-unit", name, other = unit.word, unit = given, remedy]
         }
         Some(Cause::TimeScale(scale)) if (1.0 / MIN_TIME_SCALE..MIN_TIME_SCALE).contains(&scale) => {
             text!["time-scale-or-slopes", pace = time_scale(conventions, scale)]
@@ -510,22 +503,22 @@ pub fn speed_and_force(channels: &Channels, _: Quantity) -> Option<Message> {
         Some(Cause::TimeScale(scale)) => time_scale(conventions, scale),
         Some(Cause::SpeedScale(factor)) => {
             let columns = conventions.scaled(&[Quantity::Speed], &format!("* {factor}"));
-            text!["speed-scale", factor = factor.to_string(), columns = columns]
+            text!["speed-scale", factor = factor.to_string(), columns]
         }
         Some(Cause::Horizontal(factor, [unit, other])) => {
             let columns = conventions.scaled(&[0, 1].map(Quantity::Force), &format!("* {factor:.5}"));
-            text!["horizontal-scale", unit = unit.word, other = other.word, columns = columns]
+            text!["horizontal-scale", unit = unit.word, other = other.word, columns]
         }
         None => text!["check-speed-unit"],
     };
-    Some(text!["surge", surge = surge, meaning = meaning])
+    Some(text!["surge", surge, meaning])
 }
 
 /// The fact that time runs at another pace, and the remedy.
 fn time_scale(conventions: &Conventions, scale: f64) -> Message {
     let columns = conventions.scaled(&[Quantity::Time], &format!("* {scale:.3}"));
     let (times, pace) = if scale < 1.0 { (1.0 / scale, "slow") } else { (scale, "fast") };
-    text!["time-scale", times = times, pace = pace, columns = columns]
+    text!["time-scale", times, pace, columns]
 }
 
 /// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
@@ -584,14 +577,14 @@ pub fn sign_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
     let sway = channels.sway_ratio().filter(|sway| *sway < OPPOSITE_RATIO)?;
     let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|quantity| channels.turned(quantity));
     let is_mounted = channels.conventions.mounting.is_some();
-    let remedy = if is_mounted { rate } else { text!["rate-or-force", rate = rate, force = force] };
-    Some(text!["bends-opposite", sway = sway, remedy = remedy])
+    let remedy = if is_mounted { rate } else { text!["rate-or-force", rate, force] };
+    Some(text!["bends-opposite", sway, remedy])
 }
 
 /// A unit of the rates that explains the lateral force of bends.
 pub fn rates_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
     let sway = channels.sway_ratio()?;
-    rates_in_other_unit(channels, sway, text!["bends-rates", sway = sway])
+    rates_in_other_unit(channels, sway, text!["bends-rates", sway])
 }
 
 /// A unit that explains the lateral force of bends. Where the speed fits the force along x, its
@@ -605,8 +598,7 @@ pub fn unit_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
     let (given, source) = channels.table.unit(quantity);
     let may_be = quantity == Quantity::Force(0) || quantity == Quantity::Speed && source == UnitSource::Default;
     let (name, remedy) = (quantity.dimension().name(), channels.unit_remedy(quantity, other.word));
-    may_be
-        .then(|| text!["bends-unit", sway = sway, name = name, other = other.word, unit = given.word, remedy = remedy])
+    may_be.then(|| text!["bends-unit", sway, name, other = other.word, unit = given.word, remedy])
 }
 
 /// A vehicle that reverses where its speed has no sign.
@@ -624,7 +616,7 @@ pub fn backward_bends(channels: &Channels, _: Quantity) -> Option<Message> {
     }
     let speed = channels.speed_of_bends().filter(|speed| *speed < BACKWARD_SPEED)?;
     let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|quantity| channels.turned(quantity));
-    Some(text!["bends-backward", speed = speed, remedy = text!["rate-or-force", rate = rate, force = force]])
+    Some(text!["bends-backward", speed, remedy = text!["rate-or-force", rate, force]])
 }
 
 /// A unit of the rates that explains the ratio of what they should be and what they are.
@@ -637,7 +629,7 @@ fn rates_in_other_unit(channels: &Channels, ratio: f64, fact: Message) -> Option
     let other = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let remedy = channels.unit_remedy(Quantity::Rate(2), other.word);
     let is_near = ratio > 0.0 && distance(&other) < RATE_UNIT_TOLERANCE;
-    is_near.then(|| text!["rates-in-unit", fact = fact, other = other.word, unit = given.word, remedy = remedy])
+    is_near.then(|| text!["rates-in-unit", fact, other = other.word, unit = given.word, remedy])
 }
 
 /// A rate against the derivative of its angle.
@@ -647,14 +639,7 @@ pub fn sign_of_rates(channels: &Channels, angle: Quantity) -> Option<Message> {
     let ratio = channels.rate_ratio(axis).filter(|ratio| *ratio < OPPOSITE_RATIO)?;
     let [turned_rate, turned_angle] = [rate, angle].map(|quantity| channels.turned(quantity));
     let (rate, angle) = (rate.key(), angle.key());
-    Some(text![
-        "rate-opposite",
-        rate = rate,
-        ratio = ratio,
-        angle = angle,
-        turned_rate = turned_rate,
-        turned_angle = turned_angle
-    ])
+    Some(text!["rate-opposite", rate, ratio, angle, turned_rate, turned_angle])
 }
 
 /// Rates that are all as many times the derivatives of the angles.
@@ -667,9 +652,9 @@ pub fn scale_of_rates(channels: &Channels, _: Quantity) -> Option<Message> {
     }
     let of_time = || {
         let pace = time_scale(channels.conventions, 1.0 / size);
-        (sizes.len() > 1).then(|| text!["rates-and-time", size = size, pace = pace])
+        (sizes.len() > 1).then(|| text!["rates-and-time", size, pace])
     };
-    rates_in_other_unit(channels, 1.0 / size, text!["rates-and-angles", size = size]).or_else(of_time)
+    rates_in_other_unit(channels, 1.0 / size, text!["rates-and-angles", size]).or_else(of_time)
 }
 
 /// A speed that comes later or earlier than the force along x.
@@ -713,5 +698,5 @@ fn clear_delay(expected: &[f64], found: &[f64], least: f64, step: f64) -> Option
 
 fn delay_message(quantity: Quantity, cause: &str, delay: f64) -> Message {
     let (place, remedy) = if delay > 0.0 { ("after", "earlier") } else { ("before", "later") };
-    text!["delayed", name = quantity.key(), delay = delay.abs(), place = place, cause = cause, remedy = remedy]
+    text!["delayed", name = quantity.key(), delay = delay.abs(), place, cause, remedy]
 }

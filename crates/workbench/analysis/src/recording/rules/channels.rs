@@ -2,12 +2,12 @@
 
 use moris_washout::Input;
 
-use super::text::text;
 use crate::message::{Message, given};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Conventions, Frame, Quantity};
 use crate::recording::signal::{centred, integral, is_constant, relation, root_mean_square, runs, smooth};
 use crate::recording::table::Table;
+use crate::texts::text;
 
 /// Time over which changes of speed are compared with the force \[s\].
 const CHANGE_TIME: f64 = 2.0;
@@ -95,7 +95,7 @@ impl<'a> Channels<'a> {
                 let alike: Vec<Quantity> = layout.filter(|other| other.dimension() == quantity.dimension()).collect();
                 let factor = (other.in_si / unit.in_si * 1e6).round() / 1e6;
                 let columns = self.conventions.scaled(&alike, &format!("* {factor}"));
-                text!["correct-the-header", unit = unit.word, columns = columns]
+                text!["correct-the-header", unit = unit.word, columns]
             }
             UnitSource::Ending | UnitSource::Option | UnitSource::Default => {
                 text!["use", remedy = given(quantity.dimension().option(), word)]

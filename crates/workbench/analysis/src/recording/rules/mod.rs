@@ -11,7 +11,6 @@
 mod agreement;
 mod channels;
 mod motion;
-mod text;
 mod units;
 mod waveform;
 
@@ -123,7 +122,7 @@ pub fn warnings(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
 
 /// The warning about gravity that only the vertical force lacks.
 pub fn horizontal_gravity() -> Message {
-    text::text!["horizontal-gravity"]
+    crate::texts::text!["horizontal-gravity"]
 }
 
 /// The warnings about the motion that is ridden.

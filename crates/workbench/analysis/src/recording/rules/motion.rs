@@ -5,11 +5,11 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
 use super::channels::Channels;
-use super::text::text;
 use super::units::usual_maximum;
 use crate::message::Message;
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Gravity, Quantity};
+use crate::texts::text;
 
 /// A lasting force along x or y, and what may be its cause.
 pub fn bias(channels: &Channels, quantity: Quantity) -> Option<Message> {
@@ -27,13 +27,13 @@ pub fn bias(channels: &Channels, quantity: Quantity) -> Option<Message> {
     };
     let tilt = (mean / STANDARD_GRAVITY).clamp(-1.0, 1.0).asin().to_degrees();
     let cause = if channels.has(Quantity::Speed) && (mean - explained).abs() < MIN_BIAS {
-        text!["bias-of-speed", motion = motion]
+        text!["bias-of-speed", motion]
     } else if is_along_x {
-        text!["bias-x", tilt = tilt, motion = motion]
+        text!["bias-x", tilt, motion]
     } else {
-        text!["bias-y", tilt = tilt, motion = motion]
+        text!["bias-y", tilt, motion]
     };
-    (mean.abs() > MIN_BIAS).then(|| text!["bias", axis = axis, mean = mean, cause = cause])
+    (mean.abs() > MIN_BIAS).then(|| text!["bias", axis, mean, cause])
 }
 
 /// Accelerations that may be in g: without gravity and speed nothing tells their unit.
@@ -44,7 +44,7 @@ pub fn force_unit(channels: &Channels, _: Quantity) -> Option<Message> {
     let is_unknown = source == UnitSource::Default && !channels.has(Quantity::Speed);
     let force = channels.inputs.iter().map(|input| input.specific_force.xy().norm()).fold(0.0, f64::max);
     let may_be = channels.conventions.gravity == Gravity::Removed && is_unknown && force < WEAK_FORCE;
-    may_be.then(|| text!["force-unit", force = force, unit = unit.word])
+    may_be.then(|| text!["force-unit", force, unit = unit.word])
 }
 
 /// Rates that may be in another unit than the one that is taken.
@@ -54,7 +54,7 @@ pub fn fast_rates(channels: &Channels, _: Quantity) -> Option<Message> {
     let (unit, source) = channels.table.unit(Quantity::Rate(0));
     let fast = usual_maximum(channels.inputs);
     let is_open = source == UnitSource::Default && fast > BRISK_RATE;
-    is_open.then(|| text!["fast-rates", fast = fast, unit = unit.word])
+    is_open.then(|| text!["fast-rates", fast, unit = unit.word])
 }
 
 /// A beginning in motion.

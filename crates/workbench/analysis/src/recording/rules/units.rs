@@ -17,11 +17,11 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
 use super::channels::Channels;
-use super::text::text;
 use crate::message::{Message, given};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{AngleUnit, Axes, Gravity, Quantity, RateUnit, Unit};
 use crate::recording::signal::{extremes, integral, median, relation, root_mean_square, smooth, sorted};
+use crate::texts::text;
 
 /// Roll, pitch or lean that vehicles reach only where their rates show it \[rad\].
 const STEEP_ANGLE: f64 = FRAC_PI_2 + 0.1;
@@ -46,7 +46,7 @@ pub fn angle_range(channels: &Channels, _: Quantity) -> Option<Message> {
         return Some(text!["too-steep-degrees", steepest = steepest.to_degrees()]);
     }
     let remedy = channels.unit_remedy(Quantity::Angle(0), AngleUnit::Degree.word());
-    Some(text!["angles-of-degrees", kind = text!["too-steep", steepest = steepest], remedy = remedy])
+    Some(text!["angles-of-degrees", kind = text!["too-steep", steepest], remedy])
 }
 
 /// Angles that change as degrees would. A given unit overrides it.
@@ -60,12 +60,12 @@ pub fn angle_unit(channels: &Channels, quantity: Quantity) -> Option<Message> {
         evidence_of_degrees(channels, axis, name)
     } else {
         let lean = channels.inputs.iter().map(|input| input.lean.abs()).fold(0.0, f64::max);
-        (lean > STEEP_ANGLE).then(|| text!["angle-reaches", name = name, reach = lean])
+        (lean > STEEP_ANGLE).then(|| text!["angle-reaches", name, reach = lean])
     }?;
     let quantity = if quantity == Quantity::Lean { quantity } else { Quantity::Angle(0) };
     let remedy = channels.unit_remedy(quantity, AngleUnit::Degree.word());
     let radians = given(quantity.dimension().option(), AngleUnit::Radian.word());
-    Some(text!["angle-in-degrees", evidence = evidence, remedy = remedy, radians = radians])
+    Some(text!["angle-in-degrees", evidence, remedy, radians])
 }
 
 fn evidence_of_degrees(channels: &Channels, axis: usize, name: &str) -> Option<Message> {
@@ -79,11 +79,11 @@ fn evidence_of_degrees(channels: &Channels, axis: usize, name: &str) -> Option<M
     let of_changes = || ratio(360.0).or_else(|| steady_ratio(channels, axis));
     let of_changes = channels.has_body_rates().then(of_changes).flatten().map(f64::abs);
     if let Some(ratio) = of_changes.filter(|ratio| (DEGREE_RATIOS[0]..DEGREE_RATIOS[1]).contains(ratio)) {
-        return Some(text!["angle-changes", name = name, ratio = ratio]);
+        return Some(text!["angle-changes", name, ratio]);
     }
     let reach = channels.angle(axis).map(f64::abs).fold(0.0, f64::max);
     let is_confirmed = || ratio(TAU).is_some_and(|ratio| (0.5..2.0).contains(&ratio.abs()));
-    (axis < 2 && reach > STEEP_ANGLE && !is_confirmed()).then(|| text!["angle-reaches", name = name, reach = reach])
+    (axis < 2 && reach > STEEP_ANGLE && !is_confirmed()).then(|| text!["angle-reaches", name, reach])
 }
 
 /// Ratio of an angle's derivative in degrees and a rate that hardly vary; none of others.
@@ -137,7 +137,7 @@ pub fn exchanged_sensors(channels: &Channels, _: Quantity) -> Option<Message> {
     let quantities = [0, 1, 2, 3, 4, 5].map(|k| if k < 3 { Quantity::Force(k) } else { Quantity::Rate(k - 3) });
     let columns = conventions.columns_of(&["wx", "wy", "wz", "ax", "ay", "az"], &quantities);
     let also = if is_si { Message::default() } else { text!["also", remedy = given(dimension.option(), unit.word)] };
-    Some(text!["exchanged-sensors", gravity = rate.norm(), unit = unit.word, columns = columns, also = also])
+    Some(text!["exchanged-sensors", gravity = rate.norm(), unit = unit.word, columns, also])
 }
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
@@ -163,17 +163,17 @@ pub fn gravity(channels: &Channels, _: Quantity) -> Option<Message> {
     let meaning = match other_units.find(is_gravity_in) {
         Some(other) => {
             let remedy = channels.unit_remedy(Quantity::Force(2), other.word);
-            text!["gravity-in-unit", other = other.word, unit = unit.word, remedy = remedy]
+            text!["gravity-in-unit", other = other.word, unit = unit.word, remedy]
         }
         None if size > MIN_COUNTS => {
             let columns = conventions.scaled(&[0, 1, 2].map(Quantity::Force), &format!("/ {size:.0}"));
-            text!["gravity-in-counts", size = size, columns = columns]
+            text!["gravity-in-counts", size, columns]
         }
         None => meaning_of_median(&median, channels),
     };
     let turned = if is_mounted { text!["turned-by-mounting"] } else { Message::default() };
     let (y, z) = (raw.y * signs[1], raw.z * signs[2]);
-    Some(text!["gravity", turned = turned, x = raw.x, y = y, z = z, unit = unit.word, meaning = meaning])
+    Some(text!["gravity", turned, x = raw.x, y, z, unit = unit.word, meaning])
 }
 
 /// True if driving explains a horizontal median, as on a circuit with more bends one way. Then the
@@ -231,14 +231,14 @@ pub fn rate_unit(channels: &Channels, _: Quantity) -> Option<Message> {
     }
     let fast = usual_maximum(channels.inputs);
     let (evidence, insist) = if fast > FASTEST_RATE {
-        (text!["rates-reach", fast = fast], Message::default())
+        (text!["rates-reach", fast], Message::default())
     } else if source == UnitSource::Default {
         (evidence_of_degrees_a_second(channels)?, text!["or-if-they-are"])
     } else {
         return None;
     };
     let remedy = channels.unit_remedy(Quantity::Rate(0), RateUnit::DegreePerSecond.word());
-    Some(text!["rates-in-degrees", evidence = evidence, remedy = remedy, insist = insist])
+    Some(text!["rates-in-degrees", evidence, remedy, insist])
 }
 
 /// Angular velocity that is exceeded for a hundredth of the time \[rad/s\].
@@ -257,7 +257,7 @@ fn evidence_of_degrees_a_second(channels: &Channels) -> Option<Message> {
         derivative().or_else(|| {
             let swing = widest_swing(channels, axis);
             let is_wide = swing > WIDEST_SWING;
-            is_wide.then(|| text!["rates-swing", name = name, swing = swing.to_degrees(), drift = DRIFT_TIME])
+            is_wide.then(|| text!["rates-swing", name, swing = swing.to_degrees(), drift = DRIFT_TIME])
         })
     };
     // Roll and pitch.
@@ -270,7 +270,7 @@ fn rates_of_angle(channels: &Channels, axis: usize, name: &str) -> Option<Messag
     let derivative: Vec<f64> = angles.windows(2).map(|pair| (pair[1] - pair[0]) / channels.step).collect();
     let rates: Vec<f64> = channels.rate(axis).take(derivative.len()).collect();
     let scale = relation(&derivative, &rates).slope().filter(|scale| (30.0..100.0).contains(scale))?;
-    Some(text!["rates-of-angle", scale = scale, name = name])
+    Some(text!["rates-of-angle", scale, name])
 }
 
 fn rates_of_turn(channels: &Channels) -> Option<Message> {
@@ -286,7 +286,7 @@ fn rates_of_turn(channels: &Channels) -> Option<Message> {
     // a = v omega of a turn; a two-wheeler has no lateral force in its turns, and none that has the yaw rate's sign.
     let speed = relation(&yaw, &lateral).slope()?;
     let radius = speed / root_mean_square(&yaw);
-    (0.0..TIGHTEST_RADIUS).contains(&radius).then(|| text!["rates-of-turn", speed = speed, radius = radius])
+    (0.0..TIGHTEST_RADIUS).contains(&radius).then(|| text!["rates-of-turn", speed, radius])
 }
 
 /// Widest swing of the integral of a rate over any [`DRIFT_TIME`], from which its straight drift is

@@ -7,10 +7,10 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::channels::{BEND_SPEED, Channels, MIN_BEND_FORCE, MIN_SPEED_CHANGE};
-use super::text::text;
 use crate::message::{Message, given};
 use crate::recording::conventions::Quantity;
 use crate::recording::signal::{integral, is_constant, median, root_mean_square, runs, smooth, sorted};
+use crate::texts::text;
 
 /// Time from which a value that stays is looked at \[s\].
 const MIN_STOP_TIME: f64 = 2.0;
@@ -77,7 +77,7 @@ pub fn stop(channels: &Channels, quantity: Quantity) -> Option<Message> {
     let stays = |run: &Range<usize>| run.len() > least && (run.len() as f64) < MAX_STOP_FRACTION * values.len() as f64;
     let stop = runs(values, |a, b| a == b).filter(stays).find(is_contradicted)?;
     let [from, to] = [stop.start, stop.end].map(|sample| channels.time(sample));
-    Some(text!["stopped", name = quantity.key(), from = from, to = to, contradiction = contradiction])
+    Some(text!["stopped", name = quantity.key(), from, to, contradiction])
 }
 
 /// A channel whose values are so far apart that their steps are felt.
@@ -98,7 +98,7 @@ pub fn coarse(channels: &Channels, quantity: Quantity) -> Option<Message> {
     }
     let unit = channels.table.unit(quantity).0;
     let (name, distance) = (channels.conventions.column(quantity), shown((nearest / unit.in_si * 1e6).round() / 1e6));
-    Some(text!["coarse", name = name, distance = distance, unit = unit.word])
+    Some(text!["coarse", name, distance, unit = unit.word])
 }
 
 /// Channels whose values come several times in a row: they were sampled at a lower rate than they
@@ -131,5 +131,5 @@ pub fn repeated(channels: &Channels, _: Quantity) -> Option<Message> {
     let names: Vec<&str> = found.iter().map(|(quantity, _)| channels.conventions.column(*quantity)).collect();
     let rate = 1.0 / (count as f64 * step);
     let resample = given("resample", format!("{rate:.1}"));
-    Some(text!["repeated", names = names.join(", "), count = count as f64, rate = rate, resample = resample])
+    Some(text!["repeated", names = names.join(", "), count = count as f64, rate, resample])
 }

@@ -1,7 +1,8 @@
 //! Clocks that begin again, and times that are other numbers than seconds: HHMMSS, and days.
 
 use super::times::usual_step;
-use crate::message::{Message, message, named};
+use crate::message::Message;
+use crate::texts::text;
 
 /// A day \[s\].
 const SECONDS_PER_DAY: f64 = 86_400.0;
@@ -33,12 +34,7 @@ impl Clock<'_> {
         if is_open && is_serial_days(time) {
             let first = time[0].floor();
             time.iter_mut().for_each(|time| *time = (*time - first) * SECONDS_PER_DAY);
-            let option = named("time-unit");
-            warnings.push(message![
-                "The times are read as days, as spreadsheets write dates; ",
-                option,
-                " gives another unit."
-            ]);
+            warnings.push(text!["times-read-as-days"]);
         } else if !is_written && let Some(seconds) = of_digits(time, unit) {
             *time = seconds;
             warnings.push("The times are read as HHMMSS: they leave out the seconds from 60 to 99.".into());
@@ -54,8 +50,7 @@ impl Clock<'_> {
                 PERIODS.map(|period| period / unit).into_iter().chain(micros).chain(millis).collect();
             let counted: &[f64] = if is_written { &[] } else { &counters };
             if let Some(sample) = add_period(time, &[&periods, counted].concat()).filter(|_| !is_written) {
-                warnings
-                    .push(format!("The clock begins again at sample {}; its times are continued.", sample + 1).into());
+                warnings.push(text!["clock-begins-again", sample = sample + 1]);
             }
             time.iter_mut().for_each(|time| *time *= unit);
         }

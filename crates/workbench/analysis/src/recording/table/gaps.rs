@@ -9,6 +9,7 @@ use crate::recording::columns::{Column, Header, period};
 use crate::recording::conventions::Conventions;
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
+use crate::texts::text;
 
 /// Interpolates missing values, and cuts off samples before the first or after the last value of a
 /// column that the recording needs. Other columns hold their first and last values. Warns about
@@ -42,7 +43,7 @@ pub fn fill(
         if is_needed(*place) {
             (first, last) = (first.max(begin), last.min(end));
         } else {
-            samples.warnings.extend(held_warning(&name, time, begin, end).map(Message::from));
+            samples.warnings.extend(held_warning(&name, time, begin, end));
             let (at_begin, at_end) = (values[begin], values[end]);
             values[..begin].fill(at_begin);
             values[end + 1..].fill(at_end);
@@ -52,12 +53,7 @@ pub fn fill(
             let span = time[b] - time[a];
             if span > LONGEST_GAP && b - a > 1 {
                 let line = samples.lines[a];
-                samples.warnings.push(
-                    format!(
-                        "Column {name} is empty for {span:.2} s after line {line}; the gap is interpolated linearly."
-                    )
-                    .into(),
-                );
+                samples.warnings.push(text!["column-with-a-gap", name = &name, span, line]);
             }
             for k in a + 1..b {
                 let t = if span > 0.0 { (time[k] - time[a]) / span } else { 0.0 };
@@ -76,15 +72,12 @@ pub fn fill(
 }
 
 /// A warning about a column without values at the recording's beginning or end.
-fn held_warning(name: &str, time: &[f64], begin: usize, end: usize) -> Option<String> {
-    let at = |sample: usize| format!("{:.2} s", time[sample] - time[0]);
-    let empty = match (begin > 0, end + 1 < time.len()) {
-        (false, false) => return None,
-        (true, false) => format!("begins at {}; before, its first value is used", at(begin)),
-        (false, true) => format!("ends at {}; after that, its last value is used", at(end)),
-        (true, true) => {
-            format!("begins at {} and ends at {}; its first and last values are used beyond", at(begin), at(end))
-        }
-    };
-    Some(format!("Column {name} {empty}."))
+fn held_warning(name: &str, time: &[f64], begin: usize, end: usize) -> Option<Message> {
+    let [from, to] = [begin, end].map(|sample| time[sample] - time[0]);
+    match (begin > 0, end + 1 < time.len()) {
+        (false, false) => None,
+        (true, false) => Some(text!["column-begins-late", name, from]),
+        (false, true) => Some(text!["column-ends-early", name, to]),
+        (true, true) => Some(text!["column-begins-late-and-ends-early", name, from, to]),
+    }
 }

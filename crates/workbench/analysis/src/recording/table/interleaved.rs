@@ -4,6 +4,7 @@ use crate::message::Message;
 use crate::recording::conventions::Quantity;
 use crate::recording::signal::root_mean_square;
 use crate::recording::table::Table;
+use crate::texts::text;
 
 /// The reason for a refusal where samples that lie a number apart are alike, and neighbours are
 /// not, in several channels.
@@ -32,13 +33,5 @@ pub fn refusal(table: &Table) -> Option<Message> {
             channels.iter().filter(|(_, values)| jumps(values)).map(|(quantity, _)| quantity.key()).collect();
         (jumping.len() >= LEAST_CHANNELS).then_some((count, jumping))
     })?;
-    let names = jumping.join(", ");
-    Some(
-        format!(
-            "the samples are those of {count} sensors by turns: {names} jump at every line, and are alike {count} lines \
-             apart; write the lines of one sensor into a file of its own, in Python: \
-             pandas.read_csv(FILE)[0::{count}].to_csv(\"one.csv\", index=False)"
-        )
-        .into(),
-    )
+    Some(text!["sensors-by-turns", count, names = jumping.join(", ")])
 }

@@ -9,6 +9,7 @@ use crate::recording::columns::{Column, period};
 use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
+use crate::texts::text;
 
 /// The samples of one file, with the time in seconds.
 pub struct Part {
@@ -35,17 +36,14 @@ impl Part {
     }
 
     /// A warning about the first long gap.
-    fn gap(&self) -> Option<String> {
+    fn gap(&self) -> Option<Message> {
         // Longest gap that is interpolated over without a warning where a file's samples are
         // further apart, as those of a satellite receiver [steps].
         const GAP_STEPS: f64 = 2.5;
         let Samples { time, lines, .. } = &self.samples;
         let longest = LONGEST_GAP.max(GAP_STEPS * usual_step(time));
         let (step, line) = gaps(time, lines, longest).next()?;
-        Some(format!(
-            "{} has no samples for {step:.2} s after line {line}; the gap is interpolated linearly.",
-            self.file.display()
-        ))
+        Some(text!["file-with-a-gap", file = self.file.display().to_string(), step, line])
     }
 }
 
@@ -63,7 +61,7 @@ pub fn by_time(
 ) -> Result<Samples, RecordingError> {
     for part in &mut parts {
         if spreads_equal_times {
-            part.samples.warnings.extend(spread_equal_times(&mut part.samples.time).map(Message::from));
+            part.samples.warnings.extend(spread_equal_times(&mut part.samples.time));
         }
         part.check_order()?;
     }
@@ -97,7 +95,7 @@ pub fn by_time(
         let columns = part.samples.columns.iter();
         let columns = columns.map(|(place, column)| (*place, values(&places, column, period(layout, *place))));
         joined.columns.extend(columns);
-        joined.warnings.extend(part.samples.warnings.iter().cloned().chain(part.gap().map(Message::from)));
+        joined.warnings.extend(part.samples.warnings.iter().cloned().chain(part.gap()));
     }
     Ok(joined)
 }

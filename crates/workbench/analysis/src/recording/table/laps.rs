@@ -1,9 +1,10 @@
 //! Laps in one file, of which each starts with the time of the first.
 
 use super::Table;
-use crate::message::{given, message, named};
+use crate::message::given;
 use crate::recording::conventions::{Conventions, Quantity};
 use crate::recording::message::RecordingError;
+use crate::texts::text;
 
 /// Keeps the lap that the conventions choose.
 ///
@@ -20,21 +21,16 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
     let Some(lap) = conventions.lap else {
         let Some(&second) = starts.get(1) else { return Ok(()) };
         let is_counter = laps >= COUNTED && starts.windows(2).all(|pair| pair[1] - pair[0] == second);
-        let begins = match is_counter {
-            true => message![
-                "time begins again every {second} samples, as a counter does: ",
-                given("rate", "HERTZ"),
-                " reads none of the times; if these are {laps} laps, use "
-            ],
-            false => message!["time starts again: there are {laps} laps; use "],
+        let last = given("lap", laps);
+        let reason = match is_counter {
+            true => text!["counter-begins-again", second, laps, last],
+            false => text!["several-laps", laps, last],
         };
-        let reason = message![begins, given("lap", 1), " to ", given("lap", laps), " to read one of them"];
         return Err(table.refused_at(second, Quantity::Time, reason));
     };
     let end = starts.get(lap).copied().unwrap_or(table.time.len());
     let Some(range) = starts.get(lap - 1).map(|&start| start..end).filter(|range| range.len() > 1) else {
-        let reason = message!["has no samples of lap {lap}: time starts {laps} times; give another ", named("lap")];
-        return Err(table.refused(reason));
+        return Err(table.refused(text!["no-such-lap", lap, laps]));
     };
     table.keep(range);
     Ok(())

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use super::{Table, gaps};
-use crate::message::{Message, given, message};
+use crate::message::Message;
 use crate::recording::columns::{Header, value_places};
 use crate::recording::conventions::{Conventions, EmptyFields, Quantity};
 use crate::recording::message::{RecordingError, quoted};
 use crate::recording::read::Samples;
+use crate::texts::text;
 
 /// The recording in columns, by the rules for a file's: names, and units in their brackets. `name`
 /// is what messages call it.
@@ -49,11 +50,7 @@ pub fn of_columns(
         let may_be_empty = conventions.empty_fields == EmptyFields::Interpolate && Some(term.place) != time_place;
         let is_wrong = |value: &f64| !(value.is_finite() || value.is_nan() && may_be_empty);
         if let Some(sample) = values.iter().position(is_wrong) {
-            let value = values[sample];
-            let reason = message![
-                "is {value}; cut this part off, fill the gap with plausible values, or use ",
-                given("empty-fields", "interpolate")
-            ];
+            let reason = text!["gap", value = values[sample].to_string()];
             return Err(RecordingError::line(&file, sample as u64 + 1, Some(title), reason));
         }
     }

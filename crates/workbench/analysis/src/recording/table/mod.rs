@@ -31,11 +31,13 @@ use std::path::PathBuf;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::{Quaternion, UnitQuaternion};
 
-use crate::message::{Message, message};
+use crate::message::Message;
 use crate::recording::columns::{Column, UnitSource};
 use crate::recording::conventions::{Conventions, Gravity, Quantity, Unit};
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
+use crate::texts::text;
+
 pub use files::{read, recordings};
 pub use memory::of_columns;
 
@@ -88,7 +90,7 @@ impl Table {
         let is_missing = |quantity: &Quantity| {
             quantity.is_required() && *quantity != Quantity::Time && !self.columns.contains_key(quantity)
         };
-        let missing: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_missing).collect();
+        let missing: Vec<Quantity> = Quantity::all().filter(is_missing).collect();
         for &quantity in &missing {
             let is_vertical = quantity == Quantity::Force(2) && conventions.gravity == Gravity::Included;
             let rest = if is_vertical { STANDARD_GRAVITY * conventions.axes.force_signs()[2] } else { 0.0 };
@@ -115,10 +117,8 @@ impl Table {
         if let Some(sample) = (0..w.len()).find(is_off) {
             let norm = quaternion(sample).norm();
             let decimals = if norm > 10.0 { 0 } else { 3 };
-            let reason = message![
-                "qw, qx, qy and qz have the norm {norm:.3}, and those of a rotation 1; name others, or use ",
-                conventions.scaled(&Quantity::QUATERNION, &format!("/ {norm:.decimals$}"))
-            ];
+            let columns = conventions.scaled(&Quantity::QUATERNION, &format!("/ {norm:.decimals$}"));
+            let reason = text!["norm-of-quaternion", norm, columns];
             return Err(self.refused_at(sample, Quantity::Quaternion(0), reason));
         }
         let angles = (0..w.len()).map(|k| UnitQuaternion::new_normalize(quaternion(k)).euler_angles());

@@ -2,12 +2,13 @@
 
 use moris_interface::shown;
 
-use crate::message::{Message, given, message};
+use crate::message::{Message, given};
 use crate::recording::columns::Column;
 use crate::recording::conventions::{Conventions, EmptyFields, Quantity};
 use crate::recording::message::quoted;
 use crate::recording::read::{Samples, Sheet};
 use crate::recording::signal::is_constant;
+use crate::texts::text;
 
 /// Warnings about columns in use with one value throughout, where another moves that is likely the
 /// quantity's.
@@ -33,11 +34,7 @@ pub fn warnings(sheet: &Sheet, samples: &Samples, layout: &[Column], conventions
         let (name, other) = (sheet.header.shown(term.place), sheet.header.name(other));
         let remedy = given("columns", format!("\"{}={other}\"", column.quantity.key()));
         let (value, other) = (shown(dead[0]), quoted(other));
-        Some(message![
-            "Column {name} is constant, {value}, while {other} changes: a logger's placeholder. Use ",
-            remedy,
-            "."
-        ])
+        Some(text!["placeholder", name, value, other, remedy])
     };
     layout.iter().filter(|column| column.quantity != Quantity::Time).filter_map(warning).collect()
 }

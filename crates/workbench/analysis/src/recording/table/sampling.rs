@@ -9,9 +9,10 @@ use super::interpolation::{orientations, places, values};
 use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
 use moris_interface::shown;
 
-use crate::message::{Message, given, message, named};
+use crate::message::{Message, given};
 use crate::recording::conventions::{Conventions, Dimension, Quantity, Unit};
 use crate::recording::message::RecordingError;
+use crate::texts::text;
 
 /// Finest step: below it, time is in another unit \[s\].
 pub const MIN_SAMPLE_STEP: f64 = 1e-4;
@@ -24,7 +25,7 @@ pub const MIN_SAMPLE_STEP: f64 = 1e-4;
 /// coarse or too fine for the unit of time.
 pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Table, Vec<Message>), RecordingError> {
     if conventions.resample.is_some() {
-        table.warnings.extend(spread_equal_times(&mut table.time).map(Message::from));
+        table.warnings.extend(spread_equal_times(&mut table.time));
     }
     if let Some((wrong, reason)) = disorder(&table.time) {
         return Err(table.refused_at(wrong, Quantity::Time, reason));
@@ -53,30 +54,15 @@ fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingE
         .collect();
     let fitting = if fitting.is_empty() { String::new() } else { format!(" ({})", fitting.join(", ")) };
     let reason = if usual > COARSEST && TICKS.contains(&(table.time[0] / unit.in_si)) {
-        let scaled = conventions.scaled(&[Quantity::Time], "/ 10000000");
-        message!["these are ticks of 100 ns, as Windows counts them; use ", scaled]
+        text!["ticks-of-100-ns", columns = conventions.scaled(&[Quantity::Time], "/ 10000000")]
     } else if usual > COARSEST {
-        message![
-            "too coarse for a washout",
-            fitting.replacen(" (", " (samples a second: ", 1),
-            "; if time is in ms or another unit, give it with ",
-            named("time-unit"),
-            "; if it counts samples, use ",
-            given("rate", "HERTZ")
-        ]
+        text!["too-coarse", fitting = fitting.replacen(" (", " (samples a second: ", 1)]
     } else if usual < MIN_SAMPLE_STEP {
-        let rate = 1.0 / usual;
-        message![
-            "{rate:.0} samples a second are more than any recording has{fitting}; give the unit of time with ",
-            named("time-unit"),
-            ", or its scale with ",
-            given("columns", "\"time=NAME * 1000\"")
-        ]
+        text!["too-fine", rate = 1.0 / usual, fitting]
     } else {
         return Ok(());
     };
-    let unit = unit.word;
-    Err(table.refused(message!["samples come every {usual} s if time is in {unit}: ", reason]))
+    Err(table.refused(text!["unit-of-time", usual = usual.to_string(), unit = unit.word, reason]))
 }
 
 /// Refuses a gap that is longer than all the rest.
@@ -87,11 +73,7 @@ fn check_clock(table: &Table) -> Result<(), RecordingError> {
     let gap = step_to(table, longest);
     // Of a usual recording a gap is a small part.
     if gap > LONGEST_REFUSED && gap > table.time[table.time.len() - 1] - table.time[0] - gap {
-        let reason = format!(
-            "nothing was recorded for {gap:.0} s before this line, which is longer than all that was: the clock has \
-             jumped, or these are two recordings; cut one of them off"
-        );
-        return Err(table.refused_at(longest, Quantity::Time, reason));
+        return Err(table.refused_at(longest, Quantity::Time, text!["clock-has-jumped", gap]));
     }
     Ok(())
 }
@@ -108,12 +90,8 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     // The sample that is farthest off rarely has the unusual step. So the first
     // unusual step is named.
     let odd = (1..table.time.len()).find(|&k| (step_to(table, k) - usual).abs() > JITTER * usual).unwrap_or(off);
-    let step = step_to(table, odd);
-    let reason = message![
-        "the samples do not come at equal steps: here {step:.4} s after the one before, otherwise {usual:.4} s; ",
-        given("resample", format!("{:.0}", 1.0 / usual)),
-        " interpolates them"
-    ];
+    let remedy = given("resample", format!("{:.0}", 1.0 / usual));
+    let reason = text!["unequal-steps", step = step_to(table, odd), usual, remedy];
     Err(table.refused_at(odd, Quantity::Time, reason))
 }
 
@@ -129,8 +107,7 @@ fn resampled_at(table: Table, rate: f64) -> Result<(Table, Vec<Message>), Record
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
     let steps = (last - first) * rate + 1e-6;
     if steps > MOST_SAMPLES.max(4.0 * table.time.len() as f64) {
-        let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);
-        return Err(table.refused(reason));
+        return Err(table.refused(text!["too-many-samples", duration = last - first, rate = rate.to_string()]));
     }
     let count = (steps.floor() as usize + 1).max(2);
     let time: Vec<f64> = (0..count).map(|k| first + k as f64 / rate).collect();
@@ -143,9 +120,7 @@ fn resampled_at(table: Table, rate: f64) -> Result<(Table, Vec<Message>), Record
         columns.extend(Quantity::ANGLES.into_iter().zip(orientations(&places, [roll, pitch, yaw])));
     }
     let lines = places.iter().map(|place| table.lines[place.after]).collect();
-    let gap = |(step, line)| {
-        format!("Nothing was recorded for {step:.2} s after line {line}; the gap is interpolated linearly.").into()
-    };
+    let gap = |(step, line): (f64, u64)| text!["gap-in-the-recording", step, line];
     let warnings = gaps(&table.time, &table.lines, LONGEST_GAP).map(gap).collect();
     Ok((Table { time, columns, lines, ..table }, warnings))
 }

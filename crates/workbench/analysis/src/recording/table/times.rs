@@ -3,15 +3,16 @@
 use moris_interface::shown;
 
 use super::sampling::MIN_SAMPLE_STEP;
-use crate::message::{Message, given, message, named};
+use crate::message::{Message, given};
 use crate::recording::signal::median;
+use crate::texts::text;
 
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const LONGEST_GAP: f64 = 0.2;
 
 /// Spreads samples of equal times, as clocks with few digits write them, evenly up to the next
 /// time. Returns a warning if there are any.
-pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
+pub fn spread_equal_times(time: &mut [f64]) -> Option<Message> {
     let mean = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let (mut first, mut spread) = (0, 0);
     while first < time.len() {
@@ -24,8 +25,7 @@ pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
         spread += count - 1;
         first += count;
     }
-    (spread > 0)
-        .then(|| format!("{spread} samples have the time of the one before; they are spread evenly up to the next."))
+    (spread > 0).then(|| text!["equal-times-spread", spread])
 }
 
 /// The first sample whose time is not after the one before, and the reason why it is refused.
@@ -34,17 +34,14 @@ pub fn disorder(time: &[f64]) -> Option<(usize, Message)> {
     let (before, after) = (time[wrong - 1], time[wrong]);
     let fault = if after < before { "goes back" } else { "stands still" };
     let remedy = if time.windows(2).all(|pair| pair[1] <= pair[0]) && after < before {
-        "; the last line comes first: sort the lines, in Python: pandas.read_csv(FILE)[::-1].to_csv(\"ride.csv\", index=False)"
-            .into()
+        text!["last-line-first"]
     } else if after < before && is_nearly_sorted(time) {
-        "; lines that are a few places apart are exchanged: sort them, in Python: \
-         pandas.read_csv(FILE).sort_values(TIME).to_csv(\"ride.csv\", index=False)"
-            .into()
+        text!["lines-misplaced"]
     } else {
         remedy_for_equal_times(time, wrong)
     };
     let (before, after) = (shown(before), shown(after));
-    Some((wrong, message!["time {fault}: {after} s comes after {before} s", remedy]))
+    Some((wrong, text!["time-in-disorder", fault, after, before, remedy]))
 }
 
 /// True for different times of which each is a few places from where it belongs.
@@ -61,17 +58,13 @@ fn is_nearly_sorted(time: &[f64]) -> bool {
 fn remedy_for_equal_times(time: &[f64], sample: usize) -> Message {
     let duration = time[time.len() - 1] - time[0];
     if time[sample] != time[sample - 1] || duration <= 0.0 {
-        return message!["; if the samples come at equal steps, ", given("rate", "HERTZ"), " reads none of the times"];
+        return text!["or-none-of-the-times"];
     }
     let rate = (time.len() - 1) as f64 / duration;
     if rate > 1.0 / MIN_SAMPLE_STEP {
-        let unit = named("time-unit");
-        return message![
-            "; {rate:.0} samples a second are more than any recording has: give the unit of time with ",
-            unit
-        ];
+        return text!["finer-than-any", rate];
     }
-    message!["; if the times are rounded, ", given("resample", format!("{rate:.0}")), " spreads equal ones evenly"]
+    text!["times-rounded", resample = given("resample", format!("{rate:.0}"))]
 }
 
 /// The median step \[s\], which is insensitive to missing samples and outliers.

@@ -14,8 +14,8 @@ use moris_washout::nalgebra::Vector3;
 
 use super::blocks::{BLOCK_TIME, Blocks};
 use super::level::{Estimate, Level, sign};
-use crate::message::{Message, message};
-use crate::recording::conventions::Mounting;
+use crate::message::Message;
+use crate::texts::text;
 
 /// The forward direction.
 pub struct Forward {
@@ -36,7 +36,7 @@ pub struct Forward {
 pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
     // Largest standard error of a source that is used: it still tells forward from backward [rad].
     const USABLE: f64 = 45f64.to_radians();
-    let [auto, angles] = Mounting::options();
+
     let level = Level::new(blocks, up);
     let sources = [level.along_speed(&blocks.speeds), level.in_bends(), level.in_leaning_bends()];
     let is_usable = |estimate: &Estimate| estimate.error < USABLE;
@@ -44,15 +44,7 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
     estimates.sort_by(|a, b| a.error.total_cmp(&b.error));
     let straight = level.straight_accelerations().filter(is_usable);
     let Some(best) = estimates.first() else {
-        let axis = straight.ok_or_else(|| {
-            message![
-                auto.clone(),
-                " finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so forward is \
-                 unknown; give ",
-                angles.clone(),
-                " in degrees"
-            ]
-        })?;
+        let axis = straight.ok_or_else(|| text!["forward-unknown"])?;
         let (start, sign) = level.first_acceleration(blocks.first_rest(), &axis.direction);
         return Ok(Forward {
             direction: sign * axis.direction,
@@ -66,12 +58,7 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, Message> {
         straight.map(|axis| Estimate { direction: axis.direction * sign(axis.direction.dot(&best.direction)), ..axis });
     if let Some(other) = estimates[1..].iter().chain(&straight).find(|other| is_contradiction(best, other)) {
         let (one, two, angle) = (best.evidence, other.evidence, best.direction.angle(&other.direction).to_degrees());
-        return Err(message![
-            auto,
-            " finds forward from {one} and from {two}, {angle:.0} degrees apart; give ",
-            angles,
-            " in degrees"
-        ]);
+        return Err(text!["forward-contradicted", one, two, angle]);
     }
     let (finest, evidence) = match &straight {
         Some(axis) if axis.error <= best.error => (axis, format!("{} and {}", axis.evidence, best.evidence)),

@@ -10,8 +10,8 @@ mod level;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::message::{Message, Remedy, given, message, named};
-use crate::recording::conventions::Mounting;
+use crate::message::{Message, Remedy, given};
+use crate::texts::text;
 use blocks::{Blocks, mean};
 use forward::Forward;
 
@@ -32,42 +32,25 @@ pub fn find(
 ) -> Result<(Matrix3<f64>, Message), Message> {
     // Largest standard error of the forward direction [rad].
     const LARGEST_ERROR: f64 = 15f64.to_radians();
-    let [auto, angles] = Mounting::options();
+
     let blocks = Blocks::new(step, forces, rates, speeds);
     let rest = blocks.rest_force();
     let gravity = rest.unwrap_or_else(|| mean(forces));
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
-        let (size, unit) = (gravity.norm(), named("force-unit"));
-        return Err(message![
-            auto,
-            " finds no gravity: at rest the specific force is {size:.2} m/s2; check ",
-            unit,
-            ", or give ",
-            angles
-        ]);
+        return Err(text!["mounting-finds-no-gravity", size = gravity.norm()]);
     }
     let up = gravity.normalize();
     let Forward { direction, error, evidence, may_be_backward } = forward::find(&blocks, &up)?;
     let rotation = mounting_rotation(&up, &direction);
     let (option, degrees) = (option(&rotation), error.to_degrees());
     if error > LARGEST_ERROR {
-        return Err(message![
-            auto,
-            " finds forward from {evidence}, but only to {degrees:.0} degrees; give ",
-            angles,
-            " in degrees, or take ",
-            option
-        ]);
+        return Err(text!["forward-uncertain", evidence, degrees, option]);
     }
     let level = if rest.is_some() { "gravity" } else { "the mean force, as there is no second of rest" };
-    let mut warning = message![
-        "The sensor's mounting was found, up from {level}, and forward to {degrees:.0} degrees from {evidence}: ",
-        option,
-        " gives the same."
-    ];
+    let mut warning = text!["mounting-found", level, degrees, evidence, option];
     if may_be_backward {
         let turned = self::option(&mounting_rotation(&up, &-direction));
-        warning.push(message![" If that acceleration is a braking, forward is backward: use ", turned, "."]);
+        warning.push(text!["forward-may-be-backward", turned]);
     }
     Ok((rotation, warning))
 }

@@ -5,10 +5,12 @@ mod find;
 
 use moris_interface::shown;
 
-use crate::message::{Message, given, message};
+use crate::message::Message;
 use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
+use crate::texts::text;
+
 use find::{MIN_FLAT_SAMPLES, error_values, flat_tops, spikes};
 
 /// Finds samples that no vehicle causes, and interpolates over them if `repair` is set. Returns
@@ -29,11 +31,11 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<Message>, RecordingE
             spikes(quantity, values).into_iter().filter(|spike| errors.binary_search(spike).is_err()).collect();
         let is_sensor = matches!(quantity, Quantity::Force(_) | Quantity::Rate(_));
         let tops = if is_sensor { flat_tops(values) } else { Vec::new() };
-        warnings.extend(tops.iter().map(|tops| flat_top_warning(table, quantity, tops).into()));
+        warnings.extend(tops.iter().map(|tops| flat_top_warning(table, quantity, tops)));
         if repair && !(errors.is_empty() && spikes.is_empty()) {
             let mut wrong = [errors, spikes].concat();
             wrong.sort_unstable();
-            warnings.push(repair_warning(table, quantity, &wrong).into());
+            warnings.push(repair_warning(table, quantity, &wrong));
             let repaired = interpolated_over(values, &wrong);
             table.columns.insert(quantity, repaired);
         } else if !spikes.is_empty() {
@@ -44,42 +46,27 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<Message>, RecordingE
 }
 
 fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> Message {
-    let (value, times) =
-        (shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si), listed_times(table, errors));
-    message![
-        "is {value}, as loggers write it where they have no value, {times}; use ",
-        given("repair", "True"),
-        " to interpolate over it, or cut this part off"
-    ]
+    let value = shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si);
+    text!["error-value", value, times = listed_times(table, errors)]
 }
 
-fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> String {
-    format!(
-        "Column {} stays at its extreme {} for {MIN_FLAT_SAMPLES} samples or more in a row, {}: the sensor seems to be at the end of \
-         its range, and the peaks are cut off. They cannot be repaired.",
-        quantity.key(),
-        shown(table.value(quantity, tops[0])),
-        listed_times(table, tops)
-    )
+fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> Message {
+    let (name, value) = (quantity.key(), shown(table.value(quantity, tops[0])));
+    text!["flat-top", name, value, count = MIN_FLAT_SAMPLES, times = listed_times(table, tops)]
 }
 
-fn repair_warning(table: &Table, quantity: Quantity, wrong: &[usize]) -> String {
-    let samples = match wrong.len() {
-        1 => format!("a sample of column {} is", quantity.key()),
-        count => format!("{count} samples of column {} are", quantity.key()),
-    };
-    format!("Repaired: {samples} interpolated over, {}.", listed_times(table, wrong))
+fn repair_warning(table: &Table, quantity: Quantity, wrong: &[usize]) -> Message {
+    let (name, times) = (quantity.key(), listed_times(table, wrong));
+    match wrong.len() {
+        1 => text!["sample-repaired", name, times],
+        count => text!["samples-repaired", count, name, times],
+    }
 }
 
 fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> Message {
     let values = spikes.iter().map(|&spike| table.value(quantity, spike));
     let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
-    let (key, times) = (quantity.key(), listed_times(table, spikes));
-    message![
-        "Column {key} has isolated spikes of up to {largest:.1} in SI units, {times}. If no blow caused them, use ",
-        given("repair", "True"),
-        " to interpolate over them."
-    ]
+    text!["spikes", name = quantity.key(), largest, times = listed_times(table, spikes)]
 }
 
 /// Times and lines of samples, for a message.

@@ -1,4 +1,4 @@
-//! The sentences of the rules, with values in their places.
+//! The sentences of messages, with values in their places.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -33,10 +33,22 @@ macro_rules! parts {
 }
 parts! { &str String Remedy Message }
 
+/// Types that are written as text.
+macro_rules! written {
+    ($($kind:ty)*) => { $(
+        impl From<$kind> for Value {
+            fn from(value: $kind) -> Self {
+                Value::Part(value.to_string().into())
+            }
+        }
+    )* };
+}
+written! { &String usize u64 }
+
 /// A sentence with its values.
 ///
 /// # Panics
-/// Never: a test fills each sentence that the rules name.
+/// Never: a test looks up each sentence that is named.
 pub fn filled(name: &str, values: &[(&str, Value)]) -> Message {
     let mut message = Message::default();
     let mut left = TEXTS[name].as_str();
@@ -61,30 +73,44 @@ pub fn filled(name: &str, values: &[(&str, Value)]) -> Message {
     message
 }
 
-/// A sentence by its name, with values.
+/// A sentence by its name, with values: `name = value`, or `name` for the variable that is called so.
 macro_rules! text {
-    ($name:literal $(, $key:ident = $value:expr)* $(,)?) => {
-        $crate::recording::rules::text::filled($name, &[$( (stringify!($key), $value.into()) ),*])
+    (@value $key:ident) => { $key };
+    (@value $key:ident $value:expr) => { $value };
+    ($name:literal $(, $key:ident $(= $value:expr)?)* $(,)?) => {
+        $crate::texts::filled($name, &[$( (stringify!($key), $crate::texts::text!(@value $key $($value)?).into()) ),*])
     };
 }
-pub(super) use text;
+pub(crate) use text;
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+    use std::path::Path;
+
     use super::*;
+
+    fn sources(folder: &Path) -> Vec<String> {
+        let of = |path: &Path| match path.is_dir() {
+            true => sources(path),
+            false => path
+                .extension()
+                .is_some_and(|end| end == "rs")
+                .then(|| fs::read_to_string(path).unwrap())
+                .into_iter()
+                .collect(),
+        };
+        fs::read_dir(folder).unwrap().flat_map(|entry| of(&entry.unwrap().path())).collect()
+    }
 
     #[test]
     fn every_sentence_is_named_and_every_named_one_exists() {
-        let rules = [
-            include_str!("agreement.rs"),
-            include_str!("channels.rs"),
-            include_str!("mod.rs"),
-            include_str!("motion.rs"),
-            include_str!("units.rs"),
-            include_str!("waveform.rs"),
-        ];
-        let calls = rules.into_iter().flat_map(|text| text.split("text![").skip(1));
-        let mut named: Vec<&str> = calls.filter_map(|call| call.split('"').nth(1)).chain(["text-of-a-test"]).collect();
+        let sources = sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")));
+        let calls = sources.iter().flat_map(|text| text.split(concat!("text", "![")).skip(1));
+        let mut named: Vec<&str> = calls
+            .filter_map(|call| call.trim_start().strip_prefix('"')?.split('"').next())
+            .chain(["text-of-a-test"])
+            .collect();
         named.sort_unstable();
         named.dedup();
         assert_eq!(named, TEXTS.keys().collect::<Vec<_>>());
