@@ -1,15 +1,14 @@
 //! Steps the FMU through a run by its C functions, as a host does.
 
-use anyhow::{Context, Result, ensure};
-use moris_fmu_host::{Fmu, Instance, Status};
+use anyhow::{Result, ensure};
+use moris_fmu_host::{Fmu, HostError, Instance};
 use moris_simulation::measures::Limits;
 
 use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};
 use moris_simulation::drives::runs::Manoeuvre;
 
-const STATUS_FLAGS: [&str; 4] =
-    ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Simulates one run with one set of parameters, in communication steps of `step` seconds.
 ///
@@ -22,19 +21,17 @@ const STATUS_FLAGS: [&str; 4] =
 /// functions fails. The error then contains the FMU's message.
 pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64) -> Result<Trace> {
     ensure!(step > 0.0 && step <= run.duration, "the step must be between 0 and {} s, not {step} s", run.duration);
-    let references = References::of(fmu)?;
     let mut instance = fmu.instantiate(run.name)?;
     instance.initialize(&parameters.values(), Some(run.duration))?;
 
     let steps = (run.duration / step).round() as usize;
-    let mut samples = Vec::with_capacity(steps + 1);
-    samples.push(references.sample(&mut instance, run, 0.0)?);
+    let mut samples = vec![sample(&mut instance, run, 0.0)?];
     for k in 0..steps {
         let time = k as f64 * step;
-        references.set_inputs(&mut instance, run, time)?;
+        set_inputs(&mut instance, run, time)?;
         let step = step.min(run.duration - time);
         instance.step(time, step)?;
-        samples.push(references.sample(&mut instance, run, time + step)?);
+        samples.push(sample(&mut instance, run, time + step)?);
     }
     Ok(Trace {
         run: run.name,
@@ -46,85 +43,44 @@ pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64
     })
 }
 
-/// The value references of the variables that a run needs.
-struct References {
-    desired_force: [u32; 3],
-    desired_rate: [u32; 3],
-    roll_and_speed: [u32; 2],
-    felt_force: [u32; 3],
-    felt_rate: [u32; 3],
-    legs: [u32; 6],
-    position: [u32; 3],
-    tilt_rate: [u32; 2],
-    flags: [u32; STATUS_FLAGS.len()],
+fn set_inputs(instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<(), HostError> {
+    let motion = run.motion(time);
+    let (force, rate) = (motion.specific_force(), motion.angular_velocity());
+    for (k, axis) in AXES.into_iter().enumerate() {
+        instance.set(&format!("vehicle.specificForce.{axis}"), force[k])?;
+        instance.set(&format!("vehicle.angularVelocity.{axis}"), rate[k])?;
+    }
+    instance.set("vehicle.orientation.roll", motion.roll)?;
+    instance.set("vehicle.speed", motion.speed)
 }
 
-impl References {
-    fn of(fmu: &Fmu) -> Result<Self> {
-        let vector = |name: &str| value_references(fmu, ["x", "y", "z"].map(|axis| format!("{name}.{axis}")));
-        Ok(References {
-            desired_force: vector("vehicle.specificForce")?,
-            desired_rate: vector("vehicle.angularVelocity")?,
-            roll_and_speed: value_references(fmu, ["vehicle.orientation.roll", "vehicle.speed"])?,
-            felt_force: vector("rider.specificForce")?,
-            felt_rate: vector("rider.angularVelocity")?,
-            legs: value_references(fmu, [1, 2, 3, 4, 5, 6].map(|leg| format!("actuator[{leg}].length")))?,
-            position: vector("platform.position")?,
-            tilt_rate: value_references(fmu, ["tilt.rollRate", "tilt.pitchRate"])?,
-            flags: value_references(fmu, STATUS_FLAGS)?,
-        })
-    }
-
-    fn set_inputs(&self, instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<()> {
-        let motion = run.motion(time);
-        let mut set = |references: &[u32], values: &[f64]| {
-            let status = instance.set_real(references, values);
-            check_status(instance, status)
-        };
-        set(&self.desired_force, &motion.specific_force())?;
-        set(&self.desired_rate, &motion.angular_velocity())?;
-        set(&self.roll_and_speed, &[motion.roll, motion.speed])
-    }
-
-    fn sample(&self, instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<Sample> {
-        let mut flags = [0; STATUS_FLAGS.len()];
-        let status = instance.get_boolean(&self.flags, &mut flags);
-        check_status(instance, status)?;
-        let [tilt, soft, safety, actuator] = flags.map(|flag| flag != 0);
-        let motion = run.motion(time);
-        Ok(Sample {
-            time,
-            desired_force: motion.specific_force(),
-            desired_rate: motion.angular_velocity(),
-            felt_force: get_reals(instance, &self.felt_force)?,
-            felt_rate: get_reals(instance, &self.felt_rate)?,
-            legs: get_reals(instance, &self.legs)?,
-            position: get_reals(instance, &self.position)?,
-            tilt_rate: get_reals(instance, &self.tilt_rate)?,
-            limited: Limits { tilt, soft, safety, actuator },
-        })
-    }
+fn sample(instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<Sample, HostError> {
+    let motion = run.motion(time);
+    let mut is_set = |flag: &str| Ok(instance.get(flag)? != 0.0);
+    let limited = Limits {
+        tilt: is_set("status.tiltLimited")?,
+        soft: is_set("status.softLimited")?,
+        safety: is_set("status.safetyActive")?,
+        actuator: is_set("status.actuatorLimited")?,
+    };
+    let mut vector = |name: &str| values(instance, AXES.map(|axis| format!("{name}.{axis}")));
+    Ok(Sample {
+        time,
+        desired_force: motion.specific_force(),
+        desired_rate: motion.angular_velocity(),
+        felt_force: vector("rider.specificForce")?,
+        felt_rate: vector("rider.angularVelocity")?,
+        position: vector("platform.position")?,
+        legs: values(instance, [1, 2, 3, 4, 5, 6].map(|leg| format!("actuator[{leg}].length")))?,
+        tilt_rate: values(instance, ["tilt.rollRate", "tilt.pitchRate"].map(str::to_owned))?,
+        limited,
+    })
 }
 
-fn value_references<const N: usize>(fmu: &Fmu, names: [impl AsRef<str>; N]) -> Result<[u32; N]> {
-    let mut references = [0; N];
-    for (reference, name) in references.iter_mut().zip(&names) {
-        let name = name.as_ref();
-        *reference = fmu.variable(name).with_context(|| format!("the FMU has no variable {name}"))?.value_reference;
-    }
-    Ok(references)
-}
-
-fn get_reals<const N: usize>(instance: &mut Instance, references: &[u32; N]) -> Result<[f64; N]> {
+fn values<const N: usize>(instance: &mut Instance, names: [String; N]) -> Result<[f64; N], HostError> {
     let mut values = [0.0; N];
-    let status = instance.get_real(references, &mut values);
-    check_status(instance, status)?;
+    for (value, name) in values.iter_mut().zip(&names) {
+        *value = instance.get(name)?;
+    }
     Ok(values)
-}
-
-/// An error with the FMU's last message, unless the status is OK.
-fn check_status(instance: &Instance, status: Status) -> Result<()> {
-    let message = || instance.messages().last().map_or_else(String::new, |message| message.text.clone());
-    ensure!(status == Status::Ok, "the FMU returned {status:?}: {}", message());
-    Ok(())
 }
