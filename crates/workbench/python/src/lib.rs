@@ -38,25 +38,10 @@ mod _moris {
     const FADE_IN: f64 = moris_analysis::recording::FADE_IN;
 
     #[pymodule_export]
-    use crate::fit::fit;
-    #[pymodule_export]
-    use crate::fmu::pack_fmu;
-    #[pymodule_export]
-    use crate::output::PyOutput;
-    #[pymodule_export]
-    use crate::recording::PyRecording;
-    #[pymodule_export]
-    use crate::response::frequency_response;
-    #[pymodule_export]
-    use crate::simulation::{PySimulation, bound, parameter_file, parameter_values};
-    #[pymodule_export]
-    use crate::survey::survey;
-    #[pymodule_export]
-    use crate::sweep::{sweep_chunk, sweep_measures};
-    #[pymodule_export]
-    use crate::table::{presets, rigs, variable_rows};
-    #[pymodule_export]
-    use crate::tune::PyTuning;
-    #[pymodule_export]
-    use crate::washout::PyWashout;
+    use crate::{
+        fit::fit, fmu::pack_fmu, output::PyOutput, recording::PyRecording, response::frequency_response,
+        simulation::PySimulation, simulation::bound, simulation::parameter_file, simulation::parameter_values,
+        survey::survey, sweep::sweep_chunk, sweep::sweep_measures, table::presets, table::rigs, table::variable_rows,
+        tune::PyTuning, washout::PyWashout,
+    };
 }
