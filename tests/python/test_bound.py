@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import LinearConstraint, minimize
 
 ROOT = Path(__file__).resolve().parents[2]
-# The limits of crates/workbench/simulation/examples/bound.rs: the default rig's surge.
+# The limits of crates/workbench/simulation/tests/programs/bound.rs: the default rig's surge.
 TRAVEL, SPEED, ACCELERATION = 0.45, 1.0, 10.0
 GRAVITY, HEAD = 9.80665, 1.2
 ANGLE, RATE, TILT_ACCELERATION = 0.38, np.radians(3.0), 0.2

@@ -3,7 +3,7 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/workbench/pages/examples/pages.rs, one of `moris simulate`, and those of `moris ride` and
+The pages are those of crates/workbench/pages/tests/programs/pages.rs, one of `moris simulate`, and those of `moris ride` and
 `moris live`. In Firefox the most important checks are run. Without a browser or Playwright its checks are not run, and that is
 said; with --require it is an error. With --install all are installed first (apt and pip; for Debian). Pictures are left in
 target/report/.

@@ -8,7 +8,7 @@ mod fixture;
 mod hostile_pointers;
 mod initialization;
 mod library;
-#[path = "../../examples/first_order/model.rs"]
+#[path = "../models/first_order/model.rs"]
 mod model;
 mod panics;
 mod standard;

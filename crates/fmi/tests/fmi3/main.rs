@@ -9,7 +9,7 @@ mod fixture;
 mod hostile_pointers;
 mod initialization;
 mod library;
-#[path = "../../examples/lags/model.rs"]
+#[path = "../models/lags/model.rs"]
 mod model;
 mod random_calls;
 mod scalars;

@@ -10,7 +10,7 @@
 //! ```
 
 // The model's source file, for its GUID and its names.
-#[path = "../../../../fmi/examples/do_nothing/model.rs"]
+#[path = "../../../../fmi/tests/models/do_nothing/model.rs"]
 mod do_nothing;
 // The tests' random numbers; not all of its functions are used here.
 #[allow(dead_code)]

@@ -53,7 +53,7 @@ fn two_runs() -> Report {
     let mut soft = shipped;
     soft.conditioning.force_scale.fill(0.7);
     soft.conditioning.rate_scale.fill(0.3);
-    let small_motions = presets::parameters(include_str!("../../../../examples/paper-runs/small-motions.toml"));
+    let small_motions = presets::parameters(include_str!("../../../../../examples/paper-runs/small-motions.toml"));
     Report {
         vehicle: Vehicle::Motorcycle,
         title: "Out of town and a brusque stop".into(),
