@@ -28,7 +28,7 @@ def moris(*arguments):
 
 recording, tuned = DIRECTORY / "ride.csv", DIRECTORY / "tuned.toml"
 write_recording(recording)
-moris("tune", recording, "--evaluations", "300", "--output", tuned)
+moris("tune", recording, "--evaluations", "150", "--output", tuned)
 moris("simulate", recording, "--parameters", "default", "--compare", tuned)
 
 before = np.genfromtxt(DIRECTORY / "ride.outputs.csv", delimiter=",", names=True, deletechars="")

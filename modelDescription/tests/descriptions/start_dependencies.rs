@@ -7,6 +7,8 @@ use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
 
+use crate::cases::cases;
+
 /// Start values, over the model's own.
 type Values = &'static [(&'static str, f64)];
 
@@ -28,12 +30,11 @@ fn others(row: &Row, own: f64) -> Vec<f64> {
     candidates.into_iter().filter(|value| *value != own && row.accepts(*value)).collect()
 }
 
-/// The first elements of an array of which more are in no use here.
-const FIRST_ELEMENTS: usize = 18;
-
 /// Every input and parameter changed by itself: an output that changes with it must list it.
 fn outputs_list_what_they_change_with<M: Model>(starts: &[Values]) {
     let identity = M::IDENTITY;
+    // Of an array: the components of the first joint, or all joints.
+    let first_elements = cases(18, 3);
     let outputs: Vec<usize> =
         (0..identity.slots.len()).filter(|&slot| identity.row(slot).causality == Causality::Output).collect();
     let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
@@ -48,7 +49,7 @@ fn outputs_list_what_they_change_with<M: Model>(starts: &[Values]) {
         for slot in 0..own.len() {
             let known = identity.row(slot);
             let is_set = matches!(known.causality, Causality::Input | Causality::Parameter);
-            if !is_set || usize::from(identity.slots[slot].element) >= FIRST_ELEMENTS {
+            if !is_set || usize::from(identity.slots[slot].element) >= first_elements {
                 continue;
             }
             for value in others(known, own[slot]) {

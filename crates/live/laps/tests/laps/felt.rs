@@ -4,6 +4,7 @@ use moris_laps::{Laps, Preview, Sample};
 use moris_simulation::{Manoeuvre, Replay};
 use moris_washout::{Input, Parameters, Washout, presets};
 
+use crate::cases::cases;
 use crate::motorcycle;
 use crate::track::{LAP, STEP, busy_laps, laps, mirrored};
 
@@ -72,7 +73,7 @@ fn the_second_lap_is_felt_with_at_most_six_tenths_of_the_first_one_s_error() {
 
 #[test]
 fn the_motorcycle_s_lap_is_felt_better_from_its_second_round_on() {
-    let (inputs, samples, begins) = motorcycle::ride(5);
+    let (inputs, samples, begins) = motorcycle::ride(cases(5, 3));
     // As in examples/10_lap.toml.
     let parameters = presets::with(presets::PREVIEW, &[("scale.angularVelocity.x", 0.1)]);
     let by_lap = |squares: Vec<f64>| -> Vec<f64> {

@@ -247,7 +247,7 @@ fn searched(threads: usize, seed: u64) -> Parameters {
     let (first, second) = (objective(weaving(), NO_RESERVE), objective(brisk(), NO_RESERVE));
     let space = Space::new(&classical(), &DEFAULT);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let budget = Budget { evaluations: 120, seed };
+    let budget = Budget { evaluations: crate::cases::cases(120, 40), seed };
     pool.install(|| search(&[&first, &second], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].parameters)
 }
 
@@ -380,10 +380,9 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     let here = directory.path();
     write_recording(here, &weaving());
     write_recording(here, &brisk());
-    let output = moris(
-        here,
-        &["tune", "weaving.csv", "brisk.csv", "--strategy", "classical", "--evaluations", "100", "--report", "out"],
-    );
+    let evaluations = crate::cases::cases("100", "40");
+    let command = ["tune", "weaving.csv", "brisk.csv", "--strategy", "classical", "--evaluations", evaluations];
+    let output = moris(here, &[&command[..], &["--report", "out"]].concat());
     let printed = String::from_utf8(output.stdout).unwrap();
     // Two rides that have little in common: what is tuned on one may be worse on the other, and then it is said first.
     let first = printed.lines().next().unwrap();
@@ -401,20 +400,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     for file in ["out/tune.md", "out/weaving.tuned.html", "out/brisk.tuned.html"] {
         assert!(here.join(file).exists(), "{file}");
     }
-    let again = moris(
-        here,
-        &[
-            "tune",
-            "weaving.csv",
-            "brisk.csv",
-            "--strategy",
-            "classical",
-            "--evaluations",
-            "100",
-            "--output",
-            "again.toml",
-        ],
-    );
+    let again = moris(here, &[&command[..], &["--output", "again.toml"]].concat());
     assert_eq!(again.status.code(), Some(status));
     assert_eq!(fs::read(here.join("tuned.toml")).unwrap(), fs::read(here.join("again.toml")).unwrap());
 }
