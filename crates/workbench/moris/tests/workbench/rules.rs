@@ -169,7 +169,8 @@ fn leaning(k: usize, sign: f64, removed: f64) -> Sample {
     sample
 }
 
-/// A car that rolls to the outside of bends by 5 degrees a g, whose speed is so many times as large.
+/// A car that rolls to the outside of bends by 5 degrees a g, whose speed is so many times as
+/// large.
 fn car(k: usize, times: f64) -> Sample {
     let mut sample = rolling(k, |sample| 0.087 * sample.speed * sample.rate.z / GRAVITY);
     sample.speed *= times;
