@@ -31,6 +31,7 @@ fn page_html(rows: &[Row]) -> String {
             .to_owned(),
         heads: MEAN_HEADS.map(str::to_owned).to_vec(),
         rows: means(rows),
+        compared: None,
     };
     let by_drive = errors_by("Errors by drive", "the rigs", rows, &drives, |row| row.drive);
     let by_rig = errors_by("Errors by rig", "the drives", rows, &rigs, |row| row.rig);
@@ -56,12 +57,16 @@ fn errors_by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl F
     let first: &[&Row] = groups.first().map_or(&[], |(_, group)| group);
     let references = [("bound", Figure::Bound), ("best attained", Figure::Best)];
     let references = references.map(|(name, figure)| (name.to_owned(), line(first, figure)));
+    let compared = Some(references.len());
     let washouts = groups.iter().map(|(name, group)| (name.clone(), line(group, Figure::Own)));
     PageTable {
         title: title.to_owned(),
-        text: format!("RMS error of surge and sway together [m/s²], the mean over {over}."),
+        text: format!(
+            "RMS error of surge and sway together [m/s²], the mean over {over}: a bar beside the largest, the least of the washouts in bold."
+        ),
         heads: names.iter().map(|name| (*name).to_owned()).collect(),
         rows: references.into_iter().chain(washouts).collect(),
+        compared,
     }
 }
 

@@ -40,6 +40,8 @@ fn the_bench_writes_the_same_bytes_twice_and_at_rest_has_the_desired_error() {
     {
         assert!(page.contains(text), "{text}");
     }
+    // The least of the drive, and of each rig.
+    assert_eq!(page.matches("font-weight: bold").count(), 3, "{page}");
     assert!(printed.contains("best attained") && printed.contains("error/best"), "{printed}");
     let place = |name: &str| rows[0].iter().position(|head| head == name).unwrap();
     for row in &rows[1..] {
