@@ -24,6 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from pathlib import Path
 
+from book import install as install_mdbook
 from installing import add_rust_targets, install_packages
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -208,7 +209,7 @@ def program(options):
 
 
 def python_tests(options):
-    """tests of the FMUs by FMPy, of their libraries and of the prose"""
+    """tests of the FMUs by FMPy, of their libraries, of the prose and the book"""
     examples()
     program(options)
     pytest(options, 2, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
@@ -343,6 +344,8 @@ def main():
     if options.install and "pages" in chosen:
         # Before the command is compiled: it holds the pages' modules.
         add_rust_targets(WEBASSEMBLY)
+    if options.install and options.all and "python" in chosen:
+        install_mdbook()
     if options.install and options.all and "package" in chosen:
         add_rust_targets(*BOARD_TARGETS)
         install_packages(*BOARD_TOOLS)
