@@ -12,7 +12,7 @@
 use nalgebra::Vector3;
 
 /// Joints on the base \[m\].
-pub const BASE: [Vector3<f64>; 6] = [
+pub const BASE_JOINTS: [Vector3<f64>; 6] = [
     Vector3::new(0.9902680687415704, -0.13917310096006544, 0.0),
     Vector3::new(0.9902680687415704, 0.13917310096006544, 0.0),
     Vector3::new(-0.37460659341591207, 0.9271838545667874, 0.0),
@@ -22,7 +22,7 @@ pub const BASE: [Vector3<f64>; 6] = [
 ];
 
 /// Joints on the platform \[m\].
-pub const PLATFORM: [Vector3<f64>; 6] = [
+pub const PLATFORM_JOINTS: [Vector3<f64>; 6] = [
     Vector3::new(0.5233122540268096, -0.6698091405657137, 0.0),
     Vector3::new(0.5233122540268096, 0.6698091405657137, 0.0),
     Vector3::new(0.3184156044035252, 0.7881062763817693, 0.0),

@@ -32,17 +32,17 @@ pub use crate::motion::orientation::RollPitchYaw;
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Usual break frequencies \[rad/s\].
-const FREQUENCIES: RangeInclusive<f64> = 0.05..=20.0;
+const USUAL_FREQUENCIES: RangeInclusive<f64> = 0.05..=20.0;
 /// Usual damping ratios.
-const DAMPINGS: RangeInclusive<f64> = 0.3..=2.0;
+const USUAL_DAMPING_RATIOS: RangeInclusive<f64> = 0.3..=2.0;
 /// Usual scales; one above 1 would exceed the vehicle's motion.
-const SCALES: RangeInclusive<f64> = 0.01..=1.0;
+const USUAL_SCALES: RangeInclusive<f64> = 0.01..=1.0;
 /// Usual weights of a strategy's cost, and rates at which gains follow its gradient.
-const WEIGHTS: RangeInclusive<f64> = 1e-5..=1e3;
+const USUAL_WEIGHTS: RangeInclusive<f64> = 1e-5..=1e3;
 /// Usual gains of the adaptive strategy: a fraction of the force as travel, and a tilt rate for it.
-const GAINS: RangeInclusive<f64> = 1e-3..=2.0;
+const USUAL_GAINS: RangeInclusive<f64> = 1e-3..=2.0;
 /// Usual time constants that split the force \[s\].
-const SPLIT_TIMES: RangeInclusive<f64> = 0.01..=2.0;
+const USUAL_SPLIT_TIMES: RangeInclusive<f64> = 0.01..=2.0;
 /// Heading of the parameters that only one strategy has.
 const OF_STRATEGY: &str = "The strategy's weights";
 
@@ -295,13 +295,13 @@ interface! {
     /// Block (1): the high-pass of each axis of the base frame, and the low-pass beside it.
     pub struct SplitterParameters: Parameter, Tunable, group("splitter"), partly_used_if(&["x", "y"], "strategy", &["classical"]) {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.8, 0.8, 5.0), usual(FREQUENCIES), heading("Break frequencies"), main(4);
+        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.8, 0.8, 5.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), main(4);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.3, 1.2, 1.0), usual(DAMPINGS);
+        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.3, 1.2, 1.0), usual(USUAL_DAMPING_RATIOS);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.55, 0.35, 0.3), usual(FREQUENCIES), heading("Break frequencies"), main(5), used_if("splitter.order", &["3", "4"]);
+        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.55, 0.35, 0.3), usual(USUAL_FREQUENCIES), heading("Break frequencies"), main(5), used_if("splitter.order", &["3", "4"]);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
-        "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0), usual(DAMPINGS), used_if("splitter.order", &["4"]);
+        "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_DAMPING_RATIOS), used_if("splitter.order", &["4"]);
         /// Break frequency of the low-pass filter when splitter.lowPass is independent.
         "splitter.@.lowPassOmega" low_pass_omega: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(5.0, 5.0, 5.0), used_if("splitter.lowPass", &["independent"]);
         /// Damping ratio of the low-pass filter when splitter.lowPass is independent.
@@ -313,13 +313,13 @@ interface! {
     /// Block (6): the high-pass of each angle.
     pub struct AngularParameters: Parameter, Tunable, group("angular") {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0), usual(FREQUENCIES), heading("Break frequencies"), main(6);
+        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), main(6);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(DAMPINGS);
+        "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(USUAL_DAMPING_RATIOS);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "angular.@.omega2" omega2: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(FREQUENCIES), heading("Break frequencies"), used_if("angular.order", &["3", "4"]);
+        "angular.@.omega2" omega2: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), used_if("angular.order", &["3", "4"]);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
-        "angular.@.zeta2" zeta2: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(DAMPINGS), used_if("angular.order", &["4"]);
+        "angular.@.zeta2" zeta2: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(USUAL_DAMPING_RATIOS), used_if("angular.order", &["4"]);
     }
 }
 
@@ -327,9 +327,9 @@ interface! {
     /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
         /// Scale of the specific force after gravity removal.
-        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(SCALES), group("scale"), heading("Scales"), main(2);
+        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_SCALES), group("scale"), heading("Scales"), main(2);
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
-        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(SCALES), group("scale"), heading("Scales"), main(3);
+        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(USUAL_SCALES), group("scale"), heading("Scales"), main(3);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(4.5, 5.0, 8.0);
         /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), limited like the specific force.
@@ -458,9 +458,9 @@ interface! {
         /// Smallest transmission of a crank: the sine of the angle between rod and arm, in the arm's plane and with the rod's slant.
         "crank.leastTransmission" crank_least_transmission: f64 { 0.05 ..= 0.99 } = 0.3;
         /// Joint of the actuator on the base, in the base frame.
-        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
+        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE_JOINTS;
         /// Joint of the actuator on the platform, in the platform frame.
-        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
+        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM_JOINTS;
     }
 }
 
@@ -508,27 +508,27 @@ interface! {
     /// The adaptive strategy, for surge and sway each.
     pub struct AdaptiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["adaptive"]), heading(OF_STRATEGY) {
         /// Break frequency of the adaptive strategy's high-pass from force to travel.
-        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.7, usual(FREQUENCIES);
+        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.7, usual(USUAL_FREQUENCIES);
         /// Damping ratio of the adaptive strategy's high-pass from force to travel.
-        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 0.7, usual(DAMPINGS);
+        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 0.7, usual(USUAL_DAMPING_RATIOS);
         /// Rate at which the gain from force to travel follows the gradient of the cost.
-        "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18, usual(WEIGHTS);
+        "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18, usual(USUAL_WEIGHTS);
         /// Rate at which the gain from force to tilt rate follows the gradient of the cost.
-        "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16, usual(WEIGHTS);
+        "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16, usual(USUAL_WEIGHTS);
         /// Gain from force to travel to which the adaptation is pulled.
-        "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986, usual(GAINS);
+        "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986, usual(USUAL_GAINS);
         /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
-        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.25, usual(GAINS);
+        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.25, usual(USUAL_GAINS);
         /// Weight of travel; the error of the felt force has the weight 1.
-        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4.0, usual(WEIGHTS);
+        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4.0, usual(USUAL_WEIGHTS);
         /// Weight of the travel's velocity.
-        "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13, usual(WEIGHTS);
+        "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13, usual(USUAL_WEIGHTS);
         /// Weight of the tilt rate.
-        "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63, usual(WEIGHTS);
+        "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63, usual(USUAL_WEIGHTS);
         /// Weight of the distance of the gain from force to travel from its nominal value.
-        "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115, usual(WEIGHTS);
+        "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115, usual(USUAL_WEIGHTS);
         /// Weight of the distance of the gain from force to tilt rate from its nominal value.
-        "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349, usual(WEIGHTS);
+        "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349, usual(USUAL_WEIGHTS);
     }
 }
 
@@ -536,19 +536,19 @@ interface! {
     /// The optimal strategy, for surge and sway each.
     pub struct OptimalParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["optimal"]), heading(OF_STRATEGY) {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209, usual(WEIGHTS);
+        "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209, usual(USUAL_WEIGHTS);
         /// Weight of the travel's velocity at its limit.
-        "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105, usual(WEIGHTS);
+        "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105, usual(USUAL_WEIGHTS);
         /// Weight of the tilt rate at its limit.
-        "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033, usual(WEIGHTS);
+        "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033, usual(USUAL_WEIGHTS);
         /// Weight of the tilt acceleration at its limit.
-        "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242, usual(WEIGHTS);
+        "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242, usual(USUAL_WEIGHTS);
         /// Expected rate of decay of the slow part of the force.
-        "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345, usual(FREQUENCIES);
+        "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345, usual(USUAL_FREQUENCIES);
         /// Expected rate of decay of the fast part of the force.
-        "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71, usual(FREQUENCIES);
+        "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71, usual(USUAL_FREQUENCIES);
         /// Time constant that splits the force into its slow and its fast part.
-        "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117, usual(SPLIT_TIMES);
+        "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117, usual(USUAL_SPLIT_TIMES);
     }
 }
 
@@ -560,19 +560,19 @@ interface! {
         /// Disturbance of the force's fast part relative to that of its slow part.
         "robust.fastDisturbance" fast_disturbance: f64 { 1e-3 ..= 1e6 } = 121.0, usual(1.0 ..= 1e4);
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "robust.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.02, usual(WEIGHTS);
+        "robust.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.02, usual(USUAL_WEIGHTS);
         /// Weight of the travel's velocity at its limit.
-        "robust.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0048, usual(WEIGHTS);
+        "robust.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0048, usual(USUAL_WEIGHTS);
         /// Weight of the tilt rate at its limit.
-        "robust.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0007, usual(WEIGHTS);
+        "robust.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0007, usual(USUAL_WEIGHTS);
         /// Weight of the tilt acceleration at its limit.
-        "robust.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0072, usual(WEIGHTS);
+        "robust.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0072, usual(USUAL_WEIGHTS);
         /// Expected rate of decay of the slow part of the force.
-        "robust.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.115, usual(FREQUENCIES);
+        "robust.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.115, usual(USUAL_FREQUENCIES);
         /// Expected rate of decay of the fast part of the force.
         "robust.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 25.5, usual(0.05 ..= 100.0);
         /// Time constant that splits the force into its slow and its fast part.
-        "robust.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.245, usual(SPLIT_TIMES);
+        "robust.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.245, usual(USUAL_SPLIT_TIMES);
     }
 }
 
@@ -580,17 +580,17 @@ interface! {
     /// The predictive strategy, for surge and sway together.
     pub struct PredictiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["predictive"]) {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4e-3, usual(WEIGHTS), heading(OF_STRATEGY);
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4e-3, usual(USUAL_WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the travel's velocity at its limit.
-        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.6, usual(WEIGHTS), heading(OF_STRATEGY);
+        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.6, usual(USUAL_WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the tilt rate at its limit.
-        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3, usual(WEIGHTS), heading(OF_STRATEGY);
+        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3, usual(USUAL_WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the tilt acceleration at its limit.
-        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4, usual(WEIGHTS), heading(OF_STRATEGY);
+        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4, usual(USUAL_WEIGHTS), heading(OF_STRATEGY);
         /// Expected rate of decay of the slow part of the force beyond the plan.
-        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2, usual(FREQUENCIES), heading(OF_STRATEGY);
+        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2, usual(USUAL_FREQUENCIES), heading(OF_STRATEGY);
         /// Expected rate of decay of the fast part of the force beyond the plan.
-        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2, usual(FREQUENCIES), heading(OF_STRATEGY);
+        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2, usual(USUAL_FREQUENCIES), heading(OF_STRATEGY);
         /// Forecast of the specific force.
         "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
         /// Time constant with which the learned forecast forgets.

@@ -55,17 +55,17 @@ pub fn values(set: &str) -> Vec<(&str, f64)> {
     let is_value = |line: &&str| !line.is_empty() && !line.starts_with('#');
     let value = |line| {
         let (name, value) = str::split_once(line, " = ").unwrap_or_else(|| panic!("{line} is no name and value"));
-        (unquoted(name), number(unquoted(name), unquoted(value)))
+        (without_quotes(name), parsed_value(without_quotes(name), without_quotes(value)))
     };
     set.lines().filter(is_value).map(value).collect()
 }
 
-fn unquoted(text: &str) -> &str {
+fn without_quotes(text: &str) -> &str {
     text.trim_matches('"')
 }
 
-fn number(name: &str, value: &str) -> f64 {
-    let item = match Washout::IDENTITY.row(slot(name)).kind {
+fn parsed_value(name: &str, value: &str) -> f64 {
+    let item = match Washout::IDENTITY.row(variable_slot(name)).kind {
         Kind::Enumeration(enumeration) => enumeration.items.iter().position(|item| item.name == value),
         _ => None,
     };
@@ -73,7 +73,7 @@ fn number(name: &str, value: &str) -> f64 {
     number.unwrap_or_else(|| panic!("{name} has no value {value}"))
 }
 
-fn slot(name: &str) -> usize {
+fn variable_slot(name: &str) -> usize {
     Washout::IDENTITY.slot(name).unwrap_or_else(|| panic!("{name} is no variable of the washout"))
 }
 
@@ -93,7 +93,7 @@ pub fn with(set: &str, changed: &[(&str, f64)]) -> Parameters {
     let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
     Washout::start_slots(&mut slots);
     for (name, value) in values(set).iter().chain(changed) {
-        let slot = slot(name);
+        let slot = variable_slot(name);
         assert_eq!(Washout::IDENTITY.row(slot).causality, Causality::Parameter, "{name}");
         slots[slot] = *value;
     }

@@ -11,7 +11,7 @@ const MAX_ITERATIONS: usize = 60;
 
 /// Largest residual of a solution, relative to the terms of the equation. Rounding makes larger
 /// ones where the terms differ by many orders of magnitude; what results is then no regulator.
-const TOLERANCE: f64 = 1e-6;
+const RELATIVE_RESIDUAL_TOLERANCE: f64 = 1e-6;
 
 /// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None
 /// if there is no such P. M is 2 N.
@@ -51,7 +51,7 @@ where
     let p = 0.5 * (p + p.transpose());
     let size = q.amax() + (p * s * p).amax();
     let finite = p.iter().all(|entry| entry.is_finite());
-    (finite && residual(a, s, q, &p).amax() <= TOLERANCE * size).then_some(p)
+    (finite && residual(a, s, q, &p).amax() <= RELATIVE_RESIDUAL_TOLERANCE * size).then_some(p)
 }
 
 /// The left side of the equation, which a solution makes zero.

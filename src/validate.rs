@@ -63,7 +63,7 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
         })
     };
     let beyond = [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate().filter_map(beyond);
-    let doubtful_rig = near_an_end(&parameters.rig).into_iter().chain(weak(parameters));
+    let doubtful_rig = near_an_end(&parameters.rig).into_iter().chain(soft_limit_warning(parameters));
     beyond.chain(doubtful_rig).chain(Changed::of(parameters).warnings()).collect()
 }
 
@@ -82,7 +82,7 @@ fn near_an_end(rig: &Rig) -> Option<String> {
     })
 }
 
-fn weak(Parameters { rig, soft_limit, .. }: &Parameters) -> Option<String> {
+fn soft_limit_warning(Parameters { rig, soft_limit, .. }: &Parameters) -> Option<String> {
     let Rig { velocity_limit, acceleration_limit, .. } = *rig;
     let (needed, fastest) = (soft_limit.pace * velocity_limit, acceleration_limit / soft_limit.pace);
     (acceleration_limit < needed * (1.0 - 1e-9)).then(|| {
@@ -171,13 +171,16 @@ fn unusual_value(row: &Row, name: &str, value: f64) -> Option<String> {
     let with_unit = |value: f64| [shown(value).as_str(), unit.name].join(" ").trim_end().to_owned();
     let in_radians = value.to_radians();
     let is_degrees = unit.name.starts_with("rad") && (least..=greatest).contains(&in_radians);
-    let degrees =
-        if is_degrees { format!("; in degrees it would be {}", with_unit(round(in_radians))) } else { String::new() };
+    let degrees = if is_degrees {
+        format!("; in degrees it would be {}", with_unit(four_digits(in_radians)))
+    } else {
+        String::new()
+    };
     Some(format!("{name} is {}, but usual are {} to {}{degrees}", with_unit(value), shown(least), with_unit(greatest)))
 }
 
 /// A value to four digits behind the point.
-fn round(value: f64) -> f64 {
+fn four_digits(value: f64) -> f64 {
     libm::round(1e4 * value) / 1e4
 }
 
@@ -387,7 +390,7 @@ fn heading_advice(rig: &Rig) -> String {
 
 /// Advice as the end of a message, for joints whose lists go opposite ways round.
 fn numbering_advice(rig: &Rig) -> String {
-    if numbering::is_opposite(rig) { format!(". {}", numbering::ADVICE) } else { String::new() }
+    if numbering::is_opposite(rig) { format!(". {}", numbering::NUMBERING_ADVICE) } else { String::new() }
 }
 
 /// Rest at neutral is certified only if no leg can leave its stroke from there

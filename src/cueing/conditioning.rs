@@ -61,7 +61,7 @@ pub fn scaled_cue(input: &Input, parameters: &ConditioningParameters, gravity: f
     // The rider sits upright for most of the time.
     let leaned = if lean == 0.0 { roll } else { libm::sincos(input.orientation.roll + lean) };
     let force = input.specific_force + gravity * removed_gravity(parameters.gravity_removal, leaned, pitch);
-    let rates = rates(input, parameters.angular_velocity_frame, roll, pitch);
+    let rates = conditioned_rates(input, parameters.angular_velocity_frame, roll, pitch);
     Cue { force: force.component_mul(&parameters.force_scale), rates: rates.component_mul(&parameters.rate_scale) }
 }
 
@@ -122,7 +122,7 @@ fn removed_gravity(
 /// Vertical component of the body's z axis up to which the rates are those in body axes, and from
 /// which on they are those of the angles. It is 0 at the pole of eq. (10), a pitch of 90 degrees,
 /// and below that upside down.
-const UPRIGHT: [f64; 2] = [0.1, 0.4];
+const UPRIGHT_RANGE: [f64; 2] = [0.1, 0.4];
 
 /// Sine and cosine of an angle.
 type SinCos = (f64, f64);
@@ -131,7 +131,7 @@ type SinCos = (f64, f64);
 /// inverse of eq. (10). Else they are the angular velocity in body axes; between, a mean of both.
 ///
 /// They depend on the rotation alone, not on the angles that describe it.
-fn rates(input: &Input, frame: AngularVelocityFrame, roll: SinCos, pitch: SinCos) -> Vector3<f64> {
+fn conditioned_rates(input: &Input, frame: AngularVelocityFrame, roll: SinCos, pitch: SinCos) -> Vector3<f64> {
     let yaw = match frame {
         AngularVelocityFrame::World => libm::sincos(input.orientation.yaw),
         AngularVelocityFrame::Body => (0.0, 1.0),
@@ -139,7 +139,7 @@ fn rates(input: &Input, frame: AngularVelocityFrame, roll: SinCos, pitch: SinCos
     // Beyond a pitch of 90 degrees: the other angles of the same rotation, which eq. (10) is for.
     let turned = |(sin, cos): SinCos| if pitch.1 < 0.0 { (-sin, -cos) } else { (sin, cos) };
     let (roll, pitch, yaw) = (turned(roll), (pitch.0, pitch.1.abs()), turned(yaw));
-    let weight = smooth_step(pitch.1 * roll.1, UPRIGHT);
+    let weight = smooth_step(pitch.1 * roll.1, UPRIGHT_RANGE);
     let omega = input.angular_velocity;
     let of_angles = || match frame {
         AngularVelocityFrame::World => rates_from_reference(omega, yaw, pitch).to_vector(),
@@ -186,12 +186,12 @@ fn rates_from_body(omega: Vector3<f64>, (sin_roll, cos_roll): SinCos, (sin_pitch
 }
 
 /// The fraction of a limit up to which [`soft_limit`] changes nothing.
-const KNEE: f64 = 0.8;
+const SOFT_LIMIT_KNEE: f64 = 0.8;
 
 /// A smooth limit: the value itself up to 80 % of the limit, then bent towards the
 /// limit without a corner.
 pub fn soft_limit(value: f64, limit: f64) -> f64 {
-    let knee = KNEE * limit;
+    let knee = SOFT_LIMIT_KNEE * limit;
     if value.abs() <= knee {
         return value;
     }
@@ -212,7 +212,7 @@ pub struct ConditioningGlide {
 impl ConditioningGlide {
     /// Glides from these parameters to those, whose cue is less by `jump` at the same numbers.
     pub fn begin(&mut self, before: &ConditioningParameters, after: &ConditioningParameters, jump: &Cue) {
-        self.numbers.add(&(numbers(before) - numbers(after)));
+        self.numbers.add(&(gliding_numbers(before) - gliding_numbers(after)));
         self.cue.add(&stacked(&jump.force, &jump.rates));
     }
 
@@ -238,7 +238,7 @@ impl ConditioningGlide {
         if self.numbers.is_over() {
             return *target;
         }
-        let values = numbers(target) + self.numbers.values();
+        let values = gliding_numbers(target) + self.numbers.values();
         let three = |first: usize| values.fixed_rows::<3>(first).into_owned();
         let cutoff = |time: f64| if time > SHORTEST_TIME { 1.0 / time } else { 0.0 };
         ConditioningParameters {
@@ -265,7 +265,7 @@ const SHORTEST_TIME: f64 = 1e-6;
 const LONGEST_TIME: f64 = 1e6;
 
 /// Numbers that glide linearly.
-fn numbers(parameters: &ConditioningParameters) -> SVector<f64, 14> {
+fn gliding_numbers(parameters: &ConditioningParameters) -> SVector<f64, 14> {
     let ConditioningParameters { force_scale, rate_scale, force_limit, rate_limit, .. } = parameters;
     let time = |cutoff: f64| if cutoff > 0.0 { min(1.0 / cutoff, LONGEST_TIME) } else { 0.0 };
     let mut numbers = SVector::<f64, 14>::zeros();

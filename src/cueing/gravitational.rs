@@ -82,7 +82,7 @@ impl GravitationalStrategy {
                 TiltTracking::Exact => limits.follow(motion, &goal, limits.acceleration, step),
                 TiltTracking::Smooth => follow_smoothly(motion, &goal, &smooth, &limits, step),
             };
-            (next, (next.position - position).abs() > LAGGING)
+            (next, (next.position - position).abs() > LIMITED_TILT_DEVIATION)
         };
         let (roll, roll_limited) = track(&self.roll, target.roll, target_rate.roll, self.target_rate.roll);
         let (pitch, pitch_limited) = track(&self.pitch, target.pitch, target_rate.pitch, self.target_rate.pitch);
@@ -92,7 +92,7 @@ impl GravitationalStrategy {
 }
 
 /// Deviation of the tilt from its target above which it counts as limited \[rad\]: 0.001 degrees.
-const LAGGING: f64 = 2e-5;
+const LIMITED_TILT_DEVIATION: f64 = 2e-5;
 
 /// Pace at which a deviation from the target is taken back \[rad/s\].
 const CATCH_UP: f64 = 7.0;

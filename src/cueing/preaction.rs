@@ -51,7 +51,7 @@ enum Phase {
 }
 
 /// Time constant of the deceleration's smoothing \[s\].
-const SMOOTHING: f64 = 0.2;
+const SMOOTHING_TIME: f64 = 0.2;
 /// Smallest deceleration that counts as braking \[m/s2\].
 const LEAST_DECELERATION: f64 = 0.5;
 /// Fraction of the force for which the platform is still tilted at the stop. The errors before and
@@ -72,7 +72,7 @@ const POSITIONING_TIME: f64 = 9.0;
 const GENTLE_ACCELERATION: f64 = 0.05;
 const GENTLE_VELOCITY: f64 = 0.3;
 /// Speed below which the surge has recovered \[m/s\].
-const RECOVERED: f64 = 1e-3;
+const RECOVERED_SPEED: f64 = 1e-3;
 
 impl StopPreaction {
     /// At rest, with no stop ahead.
@@ -101,7 +101,7 @@ impl StopPreaction {
         step: f64,
     ) {
         self.slew = gravity * tilt.rate_limit;
-        self.deceleration += (-acceleration - self.deceleration) * (1.0 - libm::exp(-step / SMOOTHING));
+        self.deceleration += (-acceleration - self.deceleration) * (1.0 - libm::exp(-step / SMOOTHING_TIME));
         let braking = -acceleration > LEAST_DECELERATION && self.deceleration > LEAST_DECELERATION && speed > 0.0;
         if braking {
             self.time_left = speed / self.deceleration;
@@ -144,9 +144,9 @@ impl StopPreaction {
         let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * room;
         self.phase = match self.phase {
             // Cancelled before the platform moved backwards: there is nothing to recover from.
-            Phase::Launching { .. } if !launching && self.surge.velocity > -RECOVERED => Phase::Waiting,
+            Phase::Launching { .. } if !launching && self.surge.velocity > -RECOVERED_SPEED => Phase::Waiting,
             Phase::Launching { .. } if !launching => Phase::Recovering { from: -self.surge.velocity },
-            Phase::Recovering { .. } if self.surge.velocity > -RECOVERED => Phase::Waiting,
+            Phase::Recovering { .. } if self.surge.velocity > -RECOVERED_SPEED => Phase::Waiting,
             Phase::Waiting if launching => {
                 // Both halves together cover acceleration * time^2 / 3, at a speed of at most
                 // acceleration * time / 2.

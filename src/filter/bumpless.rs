@@ -79,9 +79,9 @@ impl<const N: usize> GlidingOffset<N> {
 }
 
 /// Time constant of the decay of an offset \[s\].
-const TIME_CONSTANT: f64 = 0.5;
+const OFFSET_TIME_CONSTANT: f64 = 0.5;
 /// Offsets below this become zero.
-const OVER: f64 = 1e-15;
+const OFFSET_TOLERANCE: f64 = 1e-15;
 
 impl FadingOffset {
     /// The correction now.
@@ -104,8 +104,8 @@ impl FadingOffset {
     pub fn advance(&mut self, step: f64) -> (Vector3<f64>, Vector3<f64>) {
         let start = self.value;
         if start != Vector3::zeros() {
-            let end = start * libm::exp(-step / TIME_CONSTANT);
-            self.value = end.map(|value| if value.abs() < OVER { 0.0 } else { value });
+            let end = start * libm::exp(-step / OFFSET_TIME_CONSTANT);
+            self.value = end.map(|value| if value.abs() < OFFSET_TOLERANCE { 0.0 } else { value });
         }
         (start, self.value)
     }

@@ -45,7 +45,7 @@ impl Denominator {
 type Transition = [f64x4; 6];
 
 /// By the matrix exponential of the chain with its input and the input's slope as two more states.
-fn transition(denominator: &Denominator, step: f64) -> Transition {
+fn exact_transition(denominator: &Denominator, step: f64) -> Transition {
     let mut matrix = SMatrix::<f64, 6, 6>::zeros();
     for (k, c) in denominator.coefficients.as_array_ref().iter().enumerate() {
         matrix[(0, k)] = -c;
@@ -59,7 +59,7 @@ fn transition(denominator: &Denominator, step: f64) -> Transition {
     // A deserialized state can have any coefficients, and on infinite ones the
     // exponential never ends.
     let usable = scaled.iter().all(|entry| entry.abs() < 1e30);
-    let exponential = if usable { exponential(&scaled) } else { SMatrix::zeros() };
+    let exponential = if usable { matrix_exponential(&scaled) } else { SMatrix::zeros() };
     let [a, b, c, d, input, slope] = core::array::from_fn(|j| f64x4::from([0, 1, 2, 3].map(|i| exponential[(i, j)])));
     // The slope is the difference of the inputs at the end and at the start, over the step.
     let end = slope / step;
@@ -67,7 +67,7 @@ fn transition(denominator: &Denominator, step: f64) -> Transition {
 }
 
 /// The exponential of a matrix, by scaling and squaring: exp(A) = exp(A / 2^k)^(2^k).
-fn exponential<const N: usize>(matrix: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
+fn matrix_exponential<const N: usize>(matrix: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     let norm = matrix.column_iter().map(|column| column.abs().sum()).fold(0.0, f64::max);
     // At this norm the terms that the series leaves out add up to less than 1e-18.
     let squarings = (0..).find(|&k| libm::scalbn(norm, -k) <= 0.5).unwrap_or(0);
@@ -92,7 +92,7 @@ pub struct Chains {
 
 /// State below this is set to zero: what decays for long would otherwise end in denormal
 /// numbers, which are slow.
-const REST: f64x4 = f64x4::new([1e-30; 4]);
+const DENORMAL_THRESHOLD: f64x4 = f64x4::new([1e-30; 4]);
 
 impl Chains {
     /// Chains at rest, which are ready for steps of `usual_step` seconds. The first step of another
@@ -128,7 +128,7 @@ impl Chains {
             let [x1, x2, x3, x4] = self.states[k].to_array();
             let [a, b, c, d, u, v] = self.transitions[k];
             let state = (a * x1 + b * x2) + (c * x3 + d * x4) + (u * start[k] + v * end[k]);
-            let at_rest = state.abs().cmp_lt(REST);
+            let at_rest = state.abs().cmp_lt(DENORMAL_THRESHOLD);
             self.states[k] = !at_rest & state;
         }
     }
@@ -144,7 +144,7 @@ impl Chains {
             let [x1, x2, ..] = self.states[k].to_array();
             let [a, b, .., u, v] = self.transitions[k].each_ref().map(first_two);
             let state = (a * x1 + b * x2) + (u * start[k] + v * end[k]);
-            let at_rest = state.abs().cmp_lt(first_two(&REST));
+            let at_rest = state.abs().cmp_lt(first_two(&DENORMAL_THRESHOLD));
             let [x1, x2] = (!at_rest & state).to_array();
             self.states[k] = f64x4::new([x1, x2, 0.0, 0.0]);
         }
@@ -153,7 +153,7 @@ impl Chains {
     /// Computes the transitions for steps of this length, which rarely changes.
     #[cold]
     fn prepare(&mut self, step: f64) {
-        self.transitions = self.denominators.map(|denominator| transition(&denominator, step));
+        self.transitions = self.denominators.map(|denominator| exact_transition(&denominator, step));
         self.step = step;
     }
 
@@ -238,7 +238,7 @@ mod tests {
     #[test]
     fn the_exponential_of_a_decaying_rotation_is_its_closed_form() {
         for (decay, angle) in [(0.0_f64, 1e-9_f64), (0.001, 0.3), (0.7, 1.1), (3.0, 7.0), (-2.0, 50.0)] {
-            let found = exponential(&Matrix2::new(-decay, -angle, angle, -decay));
+            let found = matrix_exponential(&Matrix2::new(-decay, -angle, angle, -decay));
             let expected = (-decay).exp() * Matrix2::new(angle.cos(), -angle.sin(), angle.sin(), angle.cos());
             let error = (found - expected).norm() / expected.norm();
             assert!(error < 1e-15 * (1.0 + angle), "{error} at {decay}, {angle}");
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn the_exponential_of_integrators_is_the_powers_of_time() {
         let time = 0.001;
-        let found = exponential(&Matrix6::from_fn(|i, j| if i == j + 1 { time } else { 0.0 }));
+        let found = matrix_exponential(&Matrix6::from_fn(|i, j| if i == j + 1 { time } else { 0.0 }));
         let mut expected = 1.0;
         for k in 0..6 {
             let error: f64 = found[(k, 0)] / expected - 1.0;
@@ -268,7 +268,7 @@ mod tests {
             for [i, j] in [[1, 0], [2, 1], [3, 2], [0, 4], [4, 5]] {
                 matrix[(i, j)] = 1.0;
             }
-            let (found, expected) = (exponential(&(matrix * step)), (matrix * step).exp());
+            let (found, expected) = (matrix_exponential(&(matrix * step)), (matrix * step).exp());
             let error = (found - expected).norm() / expected.norm();
             // Rounding of the matrix changes its exponential by as much.
             assert!(error < 1e-15 * (1.0 + (matrix * step).norm()), "{error} at {omega}, {zeta}, {step}");

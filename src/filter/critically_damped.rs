@@ -20,7 +20,7 @@ pub struct CriticallyDamped {
 
 /// State below this is set to zero: what decays for long would otherwise end in denormal
 /// numbers, which are slow.
-const REST: f64x4 = f64x4::new([1e-30; 4]);
+const DENORMAL_THRESHOLD: f64x4 = f64x4::new([1e-30; 4]);
 
 impl CriticallyDamped {
     /// The outputs now.
@@ -52,7 +52,7 @@ impl CriticallyDamped {
         let error_slope = self.slope - slope;
         let value = end - lag + (error * (1.0 + angle) + error_slope * step) * self.decay;
         let slope = slope + (error_slope * (1.0 - angle) - error * (omega * angle)) * self.decay;
-        self.value = !value.abs().cmp_lt(REST) & value;
-        self.slope = !slope.abs().cmp_lt(REST) & slope;
+        self.value = !value.abs().cmp_lt(DENORMAL_THRESHOLD) & value;
+        self.slope = !slope.abs().cmp_lt(DENORMAL_THRESHOLD) & slope;
     }
 }

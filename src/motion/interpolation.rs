@@ -27,7 +27,7 @@ pub fn between(start: RollPitchYaw, end: RollPitchYaw, fraction: f64) -> RollPit
     if small(nearest) && !steep(from.y) && !steep(to.y) {
         return RollPitchYaw::from_vector(linear(nearest));
     }
-    angles(turned(quaternion(from), quaternion(to), fraction))
+    angles_of_rotation(interpolated_rotation(rotation_quaternion(from), rotation_quaternion(to), fraction))
 }
 
 /// The angles of the same rotation that are nearest to others. They are shifted by whole turns, and
@@ -42,13 +42,13 @@ fn nearest_angles(angles: Vector3<f64>, others: Vector3<f64>) -> Vector3<f64> {
 }
 
 /// The rotation Rz(yaw) Ry(pitch) Rx(roll) as a quaternion.
-fn quaternion(angles: Vector3<f64>) -> Quaternion<f64> {
+fn rotation_quaternion(angles: Vector3<f64>) -> Quaternion<f64> {
     let [x, y, z] = [angles.x, angles.y, angles.z].map(|angle| libm::sincos(0.5 * angle));
     Quaternion::new(z.1, 0.0, 0.0, z.0) * Quaternion::new(y.1, 0.0, y.0, 0.0) * Quaternion::new(x.1, x.0, 0.0, 0.0)
 }
 
 /// Rotation at a fraction of the way between two, about a fixed axis.
-fn turned(from: Quaternion<f64>, to: Quaternion<f64>, fraction: f64) -> Quaternion<f64> {
+fn interpolated_rotation(from: Quaternion<f64>, to: Quaternion<f64>, fraction: f64) -> Quaternion<f64> {
     let to = if from.dot(&to) < 0.0 { -to } else { to };
     let angle = 2.0 * libm::atan2((to - from).norm(), (to + from).norm());
     let sine = libm::sin(angle);
@@ -59,7 +59,7 @@ fn turned(from: Quaternion<f64>, to: Quaternion<f64>, fraction: f64) -> Quaterni
 }
 
 /// Angles of a rotation.
-fn angles(q: Quaternion<f64>) -> RollPitchYaw {
+fn angles_of_rotation(q: Quaternion<f64>) -> RollPitchYaw {
     let (w, x, y, z) = (q.w, q.i, q.j, q.k);
     let (forward, across) = (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z));
     let cos_pitch = libm::hypot(forward, across);

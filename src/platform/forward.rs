@@ -11,9 +11,9 @@ use crate::motion::orientation::{Orientation, RollPitchYaw};
 pub const MAX_ITERATIONS: usize = 20;
 
 /// Legs that fit their lengths to this are found \[m\].
-const TOLERANCE: f64 = 1e-13;
-/// Accepted residual where rounding keeps Newton's method from [`TOLERANCE`] \[m\].
-const ACCEPTABLE: f64 = 1e-10;
+const LENGTH_TOLERANCE: f64 = 1e-13;
+/// Accepted residual where rounding keeps Newton's method from [`LENGTH_TOLERANCE`] \[m\].
+const ROUNDING_TOLERANCE: f64 = 1e-10;
 
 /// Newton's method did not find a pose with these leg lengths; they belong to none, or the platform
 /// is near a singularity.
@@ -57,11 +57,11 @@ pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose)
         let previous = residual;
         residual = error.amax();
         let stalled = residual >= 0.5 * previous;
-        if residual <= TOLERANCE || (stalled && residual <= ACCEPTABLE) {
+        if residual <= LENGTH_TOLERANCE || (stalled && residual <= ROUNDING_TOLERANCE) {
             return Ok(pose);
         }
         let Some(twist) = jacobian(geometry, &pose).lu().solve(&error) else { break };
-        pose = moved(&pose, &twist);
+        pose = pose_after_twist(&pose, &twist);
     }
     Err(NotConverged { residual })
 }
@@ -72,7 +72,7 @@ const LARGEST_CHANGE: f64 = 0.3;
 
 /// The pose moved by a small translation and a small rotation, which eq. (10) turns into
 /// changes of the angles.
-fn moved(pose: &Pose, twist: &Vector6<f64>) -> Pose {
+fn pose_after_twist(pose: &Pose, twist: &Vector6<f64>) -> Pose {
     let angles = pose.orientation.changes(twist.fixed_rows::<3>(3).into()).to_vector();
     let position: Vector3<f64> = twist.fixed_rows::<3>(0).into();
     let fraction = (LARGEST_CHANGE / position.amax().max(angles.amax())).min(1.0);

@@ -25,7 +25,7 @@ impl Legs {
 }
 
 /// A leg shorter than this has no direction; no rig that is accepted comes near it \[m\].
-const SHORTEST: f64 = 1e-9;
+const MIN_LEG_LENGTH: f64 = 1e-9;
 
 /// Lengths and rates of the legs for a motion of the platform.
 ///
@@ -66,7 +66,7 @@ pub(crate) fn joint_distances(geometry: &Geometry, motion: &PlatformMotion) -> L
             + z * (v.z + (w.x * arm.y[i] - w.y * arm.x[i]));
         let length = square_root(x * x + y * y + z * z);
         legs.length[i] = length;
-        legs.velocity[i] = along / length.max(SHORTEST);
+        legs.velocity[i] = along / length.max(MIN_LEG_LENGTH);
     }
     legs
 }
@@ -96,7 +96,7 @@ pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
     for i in 0..6 {
         let (ax, ay, az) = (arm.x[i], arm.y[i], arm.z[i]);
         let (x, y, z) = (p.x + ax - base.x[i], p.y + ay - base.y[i], p.z + az - base.z[i]);
-        let length = square_root(x * x + y * y + z * z).max(SHORTEST);
+        let length = square_root(x * x + y * y + z * z).max(MIN_LEG_LENGTH);
         let (nx, ny, nz) = (x / length, y / length, z / length);
         // The joint's velocity and acceleration as the platform turns about its origin.
         let (tx, ty, tz) = (w.y * az - w.z * ay, w.z * ax - w.x * az, w.x * ay - w.y * ax);

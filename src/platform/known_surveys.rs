@@ -6,15 +6,15 @@ use super::survey::{Survey, SurveyFailed, survey};
 use crate::interface::Rig;
 
 /// Number of rigs that are kept.
-const KEPT: usize = 4;
+const SURVEY_CACHE_CAPACITY: usize = 4;
 
 type Surveyed = Result<Survey, SurveyFailed>;
 
-static KNOWN: Mutex<Known> = Mutex::new(Known { rigs: [None; KEPT], next: 0 });
+static SURVEY_CACHE: Mutex<Known> = Mutex::new(Known { rigs: [None; SURVEY_CACHE_CAPACITY], next: 0 });
 
 /// The last rigs and their surveys; the oldest gives way.
 struct Known {
-    rigs: [Option<(Rig, Surveyed)>; KEPT],
+    rigs: [Option<(Rig, Surveyed)>; SURVEY_CACHE_CAPACITY],
     next: usize,
 }
 
@@ -26,7 +26,7 @@ impl Known {
     fn keep(&mut self, rig: Rig, surveyed: Surveyed) {
         if self.find(&rig).is_none() {
             self.rigs[self.next] = Some((rig, surveyed));
-            self.next = (self.next + 1) % KEPT;
+            self.next = (self.next + 1) % SURVEY_CACHE_CAPACITY;
         }
     }
 }
@@ -36,7 +36,7 @@ impl Known {
 /// # Errors
 /// As [`survey()`].
 pub fn known_survey(rig: &Rig) -> Surveyed {
-    known_or(&KNOWN, rig, survey)
+    known_or(&SURVEY_CACHE, rig, survey)
 }
 
 fn known_or(known: &Mutex<Known>, rig: &Rig, survey: impl FnOnce(&Rig) -> Surveyed) -> Surveyed {
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_rig_is_surveyed_once() {
-        let known = Mutex::new(Known { rigs: [None; KEPT], next: 0 });
+        let known = Mutex::new(Known { rigs: [None; SURVEY_CACHE_CAPACITY], next: 0 });
         for surveyed in [FOUND, FAILED] {
             let rig = of_height(if surveyed.is_ok() { 1.1 } else { 1.2 });
             assert_eq!(known_or(&known, &rig, |_| surveyed), surveyed);
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn another_rig_is_surveyed_and_the_oldest_gives_way() {
-        let known = Mutex::new(Known { rigs: [None; KEPT], next: 0 });
+        let known = Mutex::new(Known { rigs: [None; SURVEY_CACHE_CAPACITY], next: 0 });
         let mut count = 0;
         let mut of = |height: f64| {
             known_or(&known, &of_height(height), |_| {
@@ -88,13 +88,13 @@ mod tests {
             .unwrap();
             count
         };
-        for k in 0..KEPT {
+        for k in 0..SURVEY_CACHE_CAPACITY {
             assert_eq!(of(1.0 + k as f64), k + 1);
         }
-        assert_eq!(of(1.0), KEPT);
-        assert_eq!(of(99.0), KEPT + 1);
-        assert_eq!(of(2.0), KEPT + 1);
-        assert_eq!(of(1.0), KEPT + 2, "the oldest is no longer known");
+        assert_eq!(of(1.0), SURVEY_CACHE_CAPACITY);
+        assert_eq!(of(99.0), SURVEY_CACHE_CAPACITY + 1);
+        assert_eq!(of(2.0), SURVEY_CACHE_CAPACITY + 1);
+        assert_eq!(of(1.0), SURVEY_CACHE_CAPACITY + 2, "the oldest is no longer known");
         // Any joint and each end of the stroke make another rig.
         let mut rig = of_height(99.0);
         rig.platform[5].z += 1e-9;

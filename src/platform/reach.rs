@@ -104,7 +104,7 @@ const HEAVE_HALVINGS: u32 = 14;
 /// Reach of the platform along this axis alone, all other coordinates neutral, up to the pose at
 /// which the first leg is at an end of its stroke. Rotations end at a quarter turn.
 pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
-    Range { min: -reach(rig, axis, -1.0), max: reach(rig, axis, 1.0) }
+    Range { min: -reach_along(rig, axis, -1.0), max: reach_along(rig, axis, 1.0) }
 }
 
 /// Stroke from which on reserves have their full size \[m\].
@@ -141,19 +141,19 @@ pub fn horizontal_reach(rig: &Rig) -> [f64; 2] {
 }
 
 /// Largest reach considered: translations \[multiples of the farthest joint\], rotations \[rad\].
-const FARTHEST: [f64; 2] = [2.0, core::f64::consts::FRAC_PI_2];
+const SEARCH_LIMITS: [f64; 2] = [2.0, core::f64::consts::FRAC_PI_2];
 /// Number of points checked on the path, so that a leg that leaves its stroke and returns is found.
-const PARTS: u32 = 2000;
+const SEARCH_POINTS: u32 = 2000;
 /// Halvings of the last part: to well below a nanometre.
-const HALVINGS: u32 = 40;
+const BISECTION_STEPS: u32 = 40;
 
-fn reach(rig: &Rig, axis: Axis, sign: f64) -> f64 {
-    let farthest = if axis.is_rotation() { FARTHEST[1] } else { FARTHEST[0] * rig.farthest_joint() };
+fn reach_along(rig: &Rig, axis: Axis, sign: f64) -> f64 {
+    let farthest = if axis.is_rotation() { SEARCH_LIMITS[1] } else { SEARCH_LIMITS[0] * rig.farthest_joint() };
     let inside = |amount: f64| stroke_margin(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
-    let amount_at = |part: u32| farthest * f64::from(part) / f64::from(PARTS);
-    let Some(beyond) = (1..=PARTS).find(|&part| !inside(amount_at(part))) else { return farthest };
+    let amount_at = |part: u32| farthest * f64::from(part) / f64::from(SEARCH_POINTS);
+    let Some(beyond) = (1..=SEARCH_POINTS).find(|&part| !inside(amount_at(part))) else { return farthest };
     let (mut within, mut without) = (amount_at(beyond - 1), amount_at(beyond));
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTION_STEPS {
         let middle = 0.5 * (within + without);
         if inside(middle) { within = middle } else { without = middle }
     }

@@ -97,14 +97,14 @@ impl StopPlan {
     pub fn at(&self, time: f64) -> PlatformCoordinates {
         let StopPlan { start, durations, .. } = self;
         PlatformCoordinates {
-            linear: Motion::from_axes(|k| stopping(&start.linear.axis(k), durations.linear[k], time)),
-            angles: Motion::from_axes(|k| stopping(&start.angles.axis(k), durations.angular, time)),
+            linear: Motion::from_axes(|k| motion_while_stopping(&start.linear.axis(k), durations.linear[k], time)),
+            angles: Motion::from_axes(|k| motion_while_stopping(&start.angles.axis(k), durations.angular, time)),
         }
     }
 }
 
 /// One coordinate `time` seconds after it began to stop in `duration`.
-fn stopping(start: &Motion, duration: f64, time: f64) -> Motion {
+fn motion_while_stopping(start: &Motion, duration: f64, time: f64) -> Motion {
     let Motion { position, velocity, .. } = *start;
     if time >= duration {
         return Motion::at_rest(position + 0.5 * velocity * duration);

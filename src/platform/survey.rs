@@ -6,11 +6,11 @@ use super::{Geometry, Pose, forward_kinematics, jacobian, leg_lengths};
 use crate::interface::Rig;
 
 /// Leg lengths tried for each leg, evenly from the shortest to the longest.
-const LEVELS: usize = 4;
+const LEVELS_PER_LEG: usize = 4;
 /// Condition number beyond which the platform counts as singular; the default rig stays below 4.
 const WORST_CONDITION: f64 = 50.0;
 /// A move from one grid point to the next is followed in this many parts.
-const PARTS: usize = 2;
+const PARTS_PER_MOVE: usize = 2;
 
 /// Result of a survey over a grid of leg lengths, 4 levels for each leg.
 ///
@@ -61,9 +61,9 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
     let radius = mean_radius(&rig.platform);
     let mut found = Survey { smallest_singular_value: f64::INFINITY, worst_condition: 0.0 };
     let mut failed = false;
-    walk(&mut |levels: &[usize; 6]| {
+    visit_grid(&mut |levels: &[usize; 6]| {
         let target = levels.map(|level| level_length(rig, level));
-        match follow(&geometry, &pose, &lengths, &target) {
+        match follow_leg_lengths(&geometry, &pose, &lengths, &target) {
             Some(next) => pose = next,
             None => failed = true,
         }
@@ -88,7 +88,7 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
 
 /// Visits every point of the grid, going back and forth so that each differs from the last by one
 /// level of one leg. Stops when `visit` returns false.
-fn walk(visit: &mut impl FnMut(&[usize; 6]) -> bool) {
+fn visit_grid(visit: &mut impl FnMut(&[usize; 6]) -> bool) {
     let mut levels = [0; 6];
     let mut upward = [true; 6];
     loop {
@@ -97,7 +97,7 @@ fn walk(visit: &mut impl FnMut(&[usize; 6]) -> bool) {
         }
         // The reflected Gray code: the first leg that can move on does, and those before it turn round.
         let mut leg = 0;
-        while leg < 6 && levels[leg] == if upward[leg] { LEVELS - 1 } else { 0 } {
+        while leg < 6 && levels[leg] == if upward[leg] { LEVELS_PER_LEG - 1 } else { 0 } {
             upward[leg] = !upward[leg];
             leg += 1;
         }
@@ -113,14 +113,14 @@ fn walk(visit: &mut impl FnMut(&[usize; 6]) -> bool) {
 }
 
 fn level_length(rig: &Rig, level: usize) -> f64 {
-    rig.stroke()[0] + rig.stroke_length() * level as f64 / (LEVELS - 1) as f64
+    rig.stroke()[0] + rig.stroke_length() * level as f64 / (LEVELS_PER_LEG - 1) as f64
 }
 
 /// Forward kinematics along the straight line between two sets of leg lengths.
-fn follow(geometry: &Geometry, pose: &Pose, from: &[f64; 6], to: &[f64; 6]) -> Option<Pose> {
+fn follow_leg_lengths(geometry: &Geometry, pose: &Pose, from: &[f64; 6], to: &[f64; 6]) -> Option<Pose> {
     let mut pose = *pose;
-    for part in 1..=PARTS {
-        let fraction = part as f64 / PARTS as f64;
+    for part in 1..=PARTS_PER_MOVE {
+        let fraction = part as f64 / PARTS_PER_MOVE as f64;
         let lengths = core::array::from_fn(|i| from[i] + fraction * (to[i] - from[i]));
         pose = forward_kinematics(geometry, &lengths, &pose).ok()?;
     }
@@ -143,17 +143,17 @@ mod tests {
     fn the_grid_is_visited_once_by_moves_of_one_leg_by_one_level() {
         let mut visited = HashSet::new();
         let mut last: Option<[usize; 6]> = None;
-        walk(&mut |levels| {
+        visit_grid(&mut |levels| {
             if let Some(last) = last {
                 assert_eq!((0..6).map(|leg| levels[leg].abs_diff(last[leg])).sum::<usize>(), 1, "{last:?}, {levels:?}");
             }
-            assert!(levels.iter().all(|level| *level < LEVELS) && visited.insert(*levels));
+            assert!(levels.iter().all(|level| *level < LEVELS_PER_LEG) && visited.insert(*levels));
             last = Some(*levels);
             true
         });
-        assert_eq!(visited.len(), LEVELS.pow(6));
+        assert_eq!(visited.len(), LEVELS_PER_LEG.pow(6));
         let mut count = 0;
-        walk(&mut |_| {
+        visit_grid(&mut |_| {
             count += 1;
             count < 5
         });
@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn levels_go_from_the_shortest_to_the_longest() {
         let rig = Rig::default();
-        let lengths: Vec<f64> = (0..LEVELS).map(|level| level_length(&rig, level)).collect();
+        let lengths: Vec<f64> = (0..LEVELS_PER_LEG).map(|level| level_length(&rig, level)).collect();
         assert!(lengths.iter().zip([1.0, 1.2, 1.4, 1.6]).all(|(found, expected)| (found - expected).abs() < 1e-15));
     }
 
@@ -186,10 +186,10 @@ mod tests {
         let pose = Pose::neutral(&rig);
         let lengths = leg_lengths(&geometry, &pose);
         let target = [1.25, 1.35, 1.3, 1.4, 1.28, 1.33];
-        let found = follow(&geometry, &pose, &lengths, &target).expect("inside the workspace");
+        let found = follow_leg_lengths(&geometry, &pose, &lengths, &target).expect("inside the workspace");
         let reached = leg_lengths(&geometry, &found);
         assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-9), "{reached:?}");
-        assert!(follow(&geometry, &pose, &lengths, &[1.3, 1.3, 1.3, 1.3, 1.3, 9.0]).is_none());
+        assert!(follow_leg_lengths(&geometry, &pose, &lengths, &[1.3, 1.3, 1.3, 1.3, 1.3, 9.0]).is_none());
     }
 
     /// The default rig with the platform's joints this many degrees on either side of three points.

@@ -15,14 +15,14 @@ use crate::interface::PREVIEW_SAMPLES;
 use crate::motion::min_max::{max, min};
 
 /// Points of the reference: now, and the preview's.
-const POINTS: usize = PREVIEW_SAMPLES + 1;
+const REFERENCE_POINTS: usize = PREVIEW_SAMPLES + 1;
 /// Time from one point to the next \[s\].
-const SPACING: f64 = 0.2;
+const POINT_INTERVAL: f64 = 0.2;
 /// Steps of the integration from one point to the next.
-const DIVISIONS: usize = 10;
+const STEPS_PER_POINT: usize = 10;
 /// Weights of the regulator with a preview. With them the shadows' shape errors are those of the
 /// predictive strategy with one, scale by scale.
-const WEIGHTS: Weights = Weights {
+const REGULATOR_WEIGHTS: Weights = Weights {
     position: 0.05,
     velocity: 0.01,
     tilt_rate: 0.1,
@@ -38,7 +38,7 @@ type Moved = SVector<f64, 4>;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tracker {
     feedback: SMatrix<f64, 2, 4>,
-    forward: [[f64; 2]; POINTS],
+    forward: [[f64; 2]; REFERENCE_POINTS],
 }
 
 impl Tracker {
@@ -47,33 +47,33 @@ impl Tracker {
     /// # Errors
     /// There is no regulator for its limits.
     pub fn new(model: &AxisModel) -> Result<Self, Unsolvable> {
-        let Regulator { gains, cost } = Regulator::new(model, &WEIGHTS)?;
-        let (a, b) = dynamics(model, &WEIGHTS);
+        let Regulator { gains, cost } = Regulator::new(model, &REGULATOR_WEIGHTS)?;
+        let (a, b) = dynamics(model, &REGULATOR_WEIGHTS);
         let closed: SMatrix<f64, 4, 4> = (a - b * gains).fixed_view::<4, 4>(0, 0).transpose();
         // R^-1 B' on the costate of travel and tilt.
-        let heaviness = WEIGHTS.tilt_acceleration / (model.acceleration_limit * model.acceleration_limit);
+        let heaviness = REGULATOR_WEIGHTS.tilt_acceleration / (model.acceleration_limit * model.acceleration_limit);
         let to_input = SMatrix::<f64, 2, 4>::from_fn(|i, j| b[(j, i)] / if i == 0 { 1.0 } else { heaviness });
         let mut costate: Moved = cost.fixed_view::<4, 1>(0, 1).into();
-        let mut forward = [SVector::<f64, 2>::zeros(); POINTS];
-        let step = SPACING / DIVISIONS as f64;
-        for k in 0..POINTS - 1 {
-            for division in 0..DIVISIONS {
+        let mut forward = [SVector::<f64, 2>::zeros(); REFERENCE_POINTS];
+        let step = POINT_INTERVAL / STEPS_PER_POINT as f64;
+        for k in 0..REFERENCE_POINTS - 1 {
+            for division in 0..STEPS_PER_POINT {
                 // The rule of the midpoint, with the reference linear between the points.
-                let middle = to_input * advanced(&closed, &costate, 0.5 * step) * step;
-                let part = (division as f64 + 0.5) / DIVISIONS as f64;
+                let middle = to_input * advanced_state(&closed, &costate, 0.5 * step) * step;
+                let part = (division as f64 + 0.5) / STEPS_PER_POINT as f64;
                 forward[k] += (1.0 - part) * middle;
                 forward[k + 1] += part * middle;
-                costate = advanced(&closed, &costate, step);
+                costate = advanced_state(&closed, &costate, step);
             }
         }
         // After the last point the reference fades.
-        let fading = SMatrix::<f64, 4, 4>::identity() * WEIGHTS.slow_pole - closed;
-        forward[POINTS - 1] += to_input * fading.lu().solve(&costate).ok_or(Unsolvable::RiccatiEquation)?;
+        let fading = SMatrix::<f64, 4, 4>::identity() * REGULATOR_WEIGHTS.slow_pole - closed;
+        forward[REFERENCE_POINTS - 1] += to_input * fading.lu().solve(&costate).ok_or(Unsolvable::RiccatiEquation)?;
         Ok(Tracker { feedback: gains.fixed_view::<2, 4>(0, 0).into(), forward: forward.map(Into::into) })
     }
 
     /// Dropped force and tilt acceleration that the reference ahead asks for at a scale of 1.
-    pub fn forward(&self, references: &[f64; POINTS]) -> [f64; 2] {
+    pub fn forward(&self, references: &[f64; REFERENCE_POINTS]) -> [f64; 2] {
         [0, 1].map(|i: usize| -references.iter().zip(&self.forward).map(|(r, weight)| weight[i] * r).sum::<f64>())
     }
 
@@ -85,7 +85,7 @@ impl Tracker {
 }
 
 /// exp(A t) x, by the first terms of its series.
-fn advanced(a: &SMatrix<f64, 4, 4>, x: &Moved, time: f64) -> Moved {
+fn advanced_state(a: &SMatrix<f64, 4, 4>, x: &Moved, time: f64) -> Moved {
     let mut term = *x;
     (1..=8).fold(*x, |sum, k| {
         term = a * term * (time / f64::from(k));
@@ -93,13 +93,13 @@ fn advanced(a: &SMatrix<f64, 4, 4>, x: &Moved, time: f64) -> Moved {
     })
 }
 
-/// The reference of an axis now and ahead, [`SPACING`] apart.
-pub fn points(now: f64, course: &PreviewedCue, largest: f64) -> [f64; POINTS] {
+/// The reference of an axis now and ahead, [`POINT_INTERVAL`] apart.
+pub fn reference_points(now: f64, course: &PreviewedCue, largest: f64) -> [f64; REFERENCE_POINTS] {
     let PreviewedCue { step, count, values, age, .. } = course;
     let value = |k: usize| if k == 0 { now } else { max(min(values[k - 1], largest), -largest) };
     let end = course.length();
     core::array::from_fn(|point| {
-        let time = point as f64 * SPACING;
+        let time = point as f64 * POINT_INTERVAL;
         // Corner 0 is now, and corner k the k-th value.
         let after = max((age + min(time, end)) / step, 0.0);
         let upper = (libm::floor(after) as usize + 1).min(*count);
@@ -110,7 +110,7 @@ pub fn points(now: f64, course: &PreviewedCue, largest: f64) -> [f64; POINTS] {
         let part =
             if to_time > from_time { min((min(time, end) - from_time) / (to_time - from_time), 1.0) } else { 1.0 };
         let known = from + part * (value(upper) - from);
-        if time > end { known * libm::exp(-WEIGHTS.slow_pole * (time - end)) } else { known }
+        if time > end { known * libm::exp(-REGULATOR_WEIGHTS.slow_pole * (time - end)) } else { known }
     })
 }
 
@@ -126,10 +126,10 @@ mod tests {
 
     #[test]
     fn a_reference_that_fades_is_fed_forward_as_the_regulator_does() {
-        let regulator = Regulator::new(&MODEL, &WEIGHTS).unwrap();
+        let regulator = Regulator::new(&MODEL, &REGULATOR_WEIGHTS).unwrap();
         let tracker = Tracker::new(&MODEL).unwrap();
-        for (column, pole) in [(4, WEIGHTS.slow_pole), (5, WEIGHTS.fast_pole)] {
-            let fading = core::array::from_fn(|k| (-pole * SPACING * k as f64).exp());
+        for (column, pole) in [(4, REGULATOR_WEIGHTS.slow_pole), (5, REGULATOR_WEIGHTS.fast_pole)] {
+            let fading = core::array::from_fn(|k| (-pole * POINT_INTERVAL * k as f64).exp());
             for (i, found) in tracker.forward(&fading).into_iter().enumerate() {
                 let expected = -regulator.gains[(i, column)];
                 assert!((found - expected).abs() < 0.03 * expected.abs() + 1e-3, "{column} {i}: {found} {expected}");
@@ -146,14 +146,14 @@ mod tests {
         let mut course = PreviewedCue { step: 0.4, count: 5, ..PreviewedCue::default() };
         course.values[..5].copy_from_slice(&[1.0, 3.0, 3.0, -100.0, 2.0]);
         course.age = 0.1;
-        let found = points(0.0, &course, 40.0);
+        let found = reference_points(0.0, &course, 40.0);
         // The values are at 0.3, 0.7, 1.1, 1.5 and 1.9 s.
         let expected =
             [(0, 0.0), (1, 2.0 / 3.0), (2, 1.5), (3, 2.5), (4, 3.0), (6, 3.0 - 43.0 * 0.25), (9, 2.0 - 42.0 * 0.25)];
         for (k, value) in expected {
             assert!((found[k] - value).abs() < 1e-9, "{k}: {} {value}", found[k]);
         }
-        assert!((found[12] - 2.0 * (-0.5 * WEIGHTS.slow_pole).exp()).abs() < 1e-9);
+        assert!((found[12] - 2.0 * (-0.5 * REGULATOR_WEIGHTS.slow_pole).exp()).abs() < 1e-9);
         assert!(is_known(&[course; 2]) && !is_known(&[course, PreviewedCue::default()]));
         let mut none = PreviewedCue::default();
         none.delay(0.1);

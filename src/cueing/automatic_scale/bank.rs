@@ -6,8 +6,8 @@ use core::f64::consts::{FRAC_1_SQRT_2, PI};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::ahead::{Tracker, is_known, points};
-use super::platform::{Platform, WEIGHTS};
+use super::ahead::{Tracker, is_known, reference_points};
+use super::platform::{Platform, REGULATOR_WEIGHTS};
 use crate::cueing::conditioning::soft_limit;
 use crate::cueing::strategy::coordinated::models;
 use crate::cueing::strategy::optimal::weighed;
@@ -18,24 +18,24 @@ use crate::interface::{AutomaticScaleParameters, Parameters};
 use crate::motion::min_max::{max, min};
 
 /// Number of shadows.
-const SHADOWS: usize = 13;
+const SHADOW_COUNT: usize = 13;
 /// Scale of a shadow relative to that of the one before; the first has 1, the last 0.03.
-const RATIO: f64 = 0.746_6;
+const SHADOW_SCALE_RATIO: f64 = 0.746_6;
 /// Time between two samples of the bank \[s\].
-const SAMPLE: f64 = 0.02;
+const SAMPLE_TIME: f64 = 0.02;
 /// Differences of time below this are rounding \[s\].
-const INSTANT: f64 = 1e-9;
+const TIME_TOLERANCE: f64 = 1e-9;
 /// Frequency below which forces are compared \[Hz\], as in the measure of shape.
 const CUE_FREQUENCY: f64 = 2.0;
 /// Largest force that is compared \[m/s2\]: a spike does not rule the memory for minutes.
 const LARGEST_FORCE: f64 = 40.0;
 /// Mean square that is added to a reference's \[m2/s4\]: rest counts as no error.
-const REST: f64 = 0.1;
+const MEAN_SQUARE_FLOOR: f64 = 0.1;
 /// Weight of what is felt the wrong way round, beside that of any error.
 const INVERSION_WEIGHT: f64 = 0.54;
 /// Fraction of the mean square of the references at which the factor may rise at its full rate. In
 /// a pause nothing shows that more would fit.
-const ACTIVE: f64 = 0.5;
+const ACTIVE_FRACTION: f64 = 0.5;
 /// Memory at the ride's start \[s\]; it grows with the ride.
 const FIRST_MEMORY: f64 = 1.65;
 
@@ -47,7 +47,7 @@ pub struct Bank {
     trackers: [Tracker; 2],
     /// Courses of the references that are previewed, at a factor of 1 without a limit.
     courses: [PreviewedCue; 2],
-    shadows: [[Shadow; 2]; SHADOWS],
+    shadows: [[Shadow; 2]; SHADOW_COUNT],
     /// The references below [`CUE_FREQUENCY`].
     desired: [LowPass; 2],
     /// Means of their squares \[m2/s4\].
@@ -86,10 +86,10 @@ impl Bank {
         let models = models(parameters);
         Ok(Bank {
             models,
-            gains: gains(&models)?,
-            trackers: trackers(&models)?,
+            gains: regulator_gains(&models)?,
+            trackers: new_trackers(&models)?,
             courses: [PreviewedCue::default(); 2],
-            shadows: [[Shadow::default(); 2]; SHADOWS],
+            shadows: [[Shadow::default(); 2]; SHADOW_COUNT],
             desired: [LowPass::default(); 2],
             power: [0.0; 2],
             sum: [0.0; 2],
@@ -105,7 +105,7 @@ impl Bank {
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
         let models = models(parameters);
         if models != self.models {
-            (self.gains, self.trackers) = (gains(&models)?, trackers(&models)?);
+            (self.gains, self.trackers) = (regulator_gains(&models)?, new_trackers(&models)?);
             self.models = models;
         }
         Ok(())
@@ -135,14 +135,17 @@ impl Bank {
             *sum += reference.clamp(-LARGEST_FORCE, LARGEST_FORCE) * step;
         }
         self.since += step;
-        if self.since < SAMPLE - INSTANT {
+        if self.since < SAMPLE_TIME - TIME_TOLERANCE {
             return None;
         }
         let references = self.sum.map(|sum| at_rest_if_tiny(sum / self.since));
         let desired = self.sample(references, force_limit, tuning);
         (self.sum, self.since) = ([0.0; 2], 0.0);
-        let usual = ACTIVE * (self.power[0] + self.power[1]);
-        let activity = min((desired[0] * desired[0] + desired[1] * desired[1]) / (usual + ACTIVE * REST), 1.0);
+        let usual = ACTIVE_FRACTION * (self.power[0] + self.power[1]);
+        let activity = min(
+            (desired[0] * desired[0] + desired[1] * desired[1]) / (usual + ACTIVE_FRACTION * MEAN_SQUARE_FLOOR),
+            1.0,
+        );
         Some(Goal { scale: self.fitting(tuning.error), activity })
     }
 
@@ -164,7 +167,8 @@ impl Bank {
             let desired = self.desired[axis].advance(reference, &filter);
             self.power[axis] = at_rest_if_tiny(self.power[axis] + share * (desired * desired - self.power[axis]));
             let (model, gains, tracker) = (&self.models[axis], &self.gains[axis], &self.trackers[axis]);
-            let forward = is_previewed.then(|| tracker.forward(&points(reference, &self.courses[axis], LARGEST_FORCE)));
+            let forward =
+                is_previewed.then(|| tracker.forward(&reference_points(reference, &self.courses[axis], LARGEST_FORCE)));
             let mut scale = 1.0;
             for shadows in &mut self.shadows {
                 let Shadow { platform, felt, error } = &mut shadows[axis];
@@ -177,7 +181,7 @@ impl Bank {
                 let inverted = if felt * desired < 0.0 { INVERSION_WEIGHT * felt * felt } else { 0.0 };
                 let missed = felt - scale * desired;
                 *error = at_rest_if_tiny(*error + share * (missed * missed + inverted - *error));
-                scale *= RATIO;
+                scale *= SHADOW_SCALE_RATIO;
             }
             desired
         })
@@ -194,29 +198,30 @@ impl Bank {
                 let Some(larger) = before else { return scale };
                 // Linear in the logarithms, between this scale and the one before.
                 let part = libm::log(allowed / error) / libm::log(larger / error);
-                return scale * libm::pow(RATIO, -part);
+                return scale * libm::pow(SHADOW_SCALE_RATIO, -part);
             }
             before = Some(error);
-            scale *= RATIO;
+            scale *= SHADOW_SCALE_RATIO;
         }
-        scale / RATIO
+        scale / SHADOW_SCALE_RATIO
     }
 
     /// The square of the worse axis's shape error at a scale.
     fn relative_error(&self, shadows: &[Shadow; 2], scale: f64) -> f64 {
-        let of = |axis: usize| shadows[axis].error / (scale * scale * (self.power[axis] + REST));
+        let of = |axis: usize| shadows[axis].error / (scale * scale * (self.power[axis] + MEAN_SQUARE_FLOOR));
         max(of(0), of(1))
     }
 }
 
 /// The regulators' gains for surge and sway.
-fn gains(models: &[AxisModel; 2]) -> Result<[Gains; 2], Unsolvable> {
-    let gains = |axis: usize| Regulator::new(&weighed(&models[axis]), &WEIGHTS).map(|regulator| regulator.gains);
+fn regulator_gains(models: &[AxisModel; 2]) -> Result<[Gains; 2], Unsolvable> {
+    let gains =
+        |axis: usize| Regulator::new(&weighed(&models[axis]), &REGULATOR_WEIGHTS).map(|regulator| regulator.gains);
     Ok([gains(0)?, gains(1)?])
 }
 
 /// The trackers for surge and sway.
-fn trackers(models: &[AxisModel; 2]) -> Result<[Tracker; 2], Unsolvable> {
+fn new_trackers(models: &[AxisModel; 2]) -> Result<[Tracker; 2], Unsolvable> {
     let tracker = |axis: usize| Tracker::new(&weighed(&models[axis]));
     Ok([tracker(0)?, tracker(1)?])
 }

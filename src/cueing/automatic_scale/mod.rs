@@ -40,7 +40,7 @@ const FASTEST_FALL: f64 = 1.0;
 /// Time constant with which a factor that is no longer automatic returns to 1 \[s\].
 const RETURN_TIME: f64 = 2.0;
 /// A factor as near to 1 as this is 1.
-const NEARLY: f64 = 1e-6;
+const UNITY_TOLERANCE: f64 = 1e-6;
 
 impl FittingScale {
     /// Before the ride.
@@ -48,7 +48,7 @@ impl FittingScale {
     /// # Errors
     /// There is no regulator for the platform's limits.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        let bank = bank(parameters)?;
+        let bank = new_bank(parameters)?;
         Ok(FittingScale {
             factor: if bank.is_some() { parameters.automatic_scale.start } else { 1.0 },
             rate: 0.0,
@@ -67,7 +67,7 @@ impl FittingScale {
             Some(bank) if is_automatic => bank.retune(parameters).map_err(Unsolvable::of_automatic_scale)?,
             None if !is_automatic => {}
             _ if nothing_cued => *self = Self::new(parameters)?,
-            bank => *bank = self::bank(parameters)?,
+            bank => *bank = new_bank(parameters)?,
         }
         Ok(())
     }
@@ -121,14 +121,14 @@ impl FittingScale {
     fn return_to_one(&mut self, step: f64) {
         self.rate = (1.0 - self.factor) / (self.factor * RETURN_TIME);
         self.factor += self.factor * self.rate * step;
-        if 1.0 - self.factor < NEARLY {
+        if 1.0 - self.factor < UNITY_TOLERANCE {
             (self.factor, self.rate) = (1.0, 0.0);
         }
     }
 }
 
 /// The bank that the parameters ask for, at rest.
-fn bank(parameters: &Parameters) -> Result<Option<Bank>, ParameterError> {
+fn new_bank(parameters: &Parameters) -> Result<Option<Bank>, ParameterError> {
     match parameters.automatic_scale.automatic {
         AutomaticScale::Off => Ok(None),
         AutomaticScale::On => Bank::new(parameters).map(Some).map_err(Unsolvable::of_automatic_scale),

@@ -9,7 +9,7 @@ use crate::motion::min_max::{max, min};
 
 /// Weights of the regulator. With them the shadows' shape errors are those of the predictive
 /// strategy, scale by scale, on recorded rides.
-pub const WEIGHTS: Weights = Weights {
+pub const REGULATOR_WEIGHTS: Weights = Weights {
     position: 4e-3,
     velocity: 0.6,
     tilt_rate: 9.4e-4,
@@ -21,7 +21,7 @@ pub const WEIGHTS: Weights = Weights {
 /// Time constant that splits the reference into its slow and its fast part \[s\].
 const SPLIT_TIME: f64 = 0.6;
 /// Deceleration with which travel stops at its limit \[m/s2\].
-const BRAKING: f64 = 1.3;
+const BRAKING_DECELERATION: f64 = 1.3;
 
 /// One axis at one scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -60,7 +60,7 @@ fn within_reach(travel: &Motion, demanded: f64, model: &AxisModel, step: f64) ->
     let coasted = position + 0.5 * velocity * step;
     let fastest = |side: f64| {
         let room = model.position_limit - side * coasted;
-        min(approach_velocity(room, BRAKING, step), model.velocity_limit)
+        min(approach_velocity(room, BRAKING_DECELERATION, step), model.velocity_limit)
     };
     let next = max(min(demanded, fastest(1.0)), -fastest(-1.0));
     Motion { position: coasted + 0.5 * next * step, velocity: next, acceleration: (next - velocity) / step }

@@ -23,7 +23,7 @@ const PACE_RATE: f64 = 1.5;
 /// pace, 5 m/s3 at a limit.
 const POSITION_RATE: f64 = 0.2;
 /// Slowest pace but none \[rad/s\].
-const SLOWEST: f64 = 1e-3;
+const MIN_PACE: f64 = 1e-3;
 
 impl SoftLimitGlide {
     /// At these parameters.
@@ -62,7 +62,7 @@ impl SoftLimitGlide {
                     now
                 }
             }
-            (now, target) if now < SLOWEST || target < SLOWEST => target,
+            (now, target) if now < MIN_PACE || target < MIN_PACE => target,
             (now, target) => max(min(target, now * factor), now / factor),
         };
         let way = POSITION_RATE * step;

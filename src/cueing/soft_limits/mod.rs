@@ -27,7 +27,7 @@ use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
 use wide::{CmpGe, f64x2};
 
-use self::nearest::{Accelerations, ROWS, RowValues, Rows, Sides, nearest};
+use self::nearest::{Accelerations, ROW_COUNT, RowValues, Rows, Sides, nearest_accelerations};
 use self::retreat::Retreat;
 use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
@@ -56,9 +56,9 @@ pub struct SoftLimits {
 }
 
 /// Weights of the changed accelerations' squares: surge, sway, heave, and the angles \[m2\].
-const WEIGHTS: [f64; 6] = [1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
+const CHANGE_WEIGHTS: [f64; 6] = [1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
 /// Fraction of a limit of acceleration that demands may use.
-const ACCELERATION: f64 = 0.95;
+const ACCELERATION_FRACTION: f64 = 0.95;
 /// Rate at which a limit of velocity is approached \[1/s\].
 const VELOCITY_PACE: f64 = 25.0;
 /// Largest slope of the acceleration on the way to a limit of velocity \[m/s3\]. Together with the
@@ -109,7 +109,7 @@ impl Ends {
             min: min + below,
             max: max - above,
             velocity: if pace > 0.0 { self::min(velocity, acceleration / pace) } else { velocity },
-            acceleration: ACCELERATION * acceleration,
+            acceleration: ACCELERATION_FRACTION * acceleration,
             room: [room[0] - below, room[1] - above],
         }
     }
@@ -290,8 +290,8 @@ impl SoftLimits {
         let turn = (demand.angles.velocity - angles.velocity) / step;
         let demanded = Accelerations::new(change.x, change.y, change.z, turn.x, turn.y, turn.z);
         let rows = self.rows(state);
-        let inverse_weights = Accelerations::from(WEIGHTS.map(|weight| 1.0 / weight));
-        let nearest = nearest(&demanded, &inverse_weights, &rows, &mut self.sides);
+        let inverse_weights = Accelerations::from(CHANGE_WEIGHTS.map(|weight| 1.0 / weight));
+        let nearest = nearest_accelerations(&demanded, &inverse_weights, &rows, &mut self.sides);
         if !self.sides.any() {
             return None;
         }
@@ -318,7 +318,7 @@ impl SoftLimits {
                 .map(|rates| turning.orientation.angular_velocity(RollPitchYaw::from_vector(rates))),
         );
         let by_angles = jacobian.fixed_columns::<3>(3) * of_rates;
-        let mut normals = SMatrix::<f64, ROWS, 6>::zeros();
+        let mut normals = SMatrix::<f64, ROW_COUNT, 6>::zeros();
         normals.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
         normals.fixed_view_mut::<6, 3>(3, 0).copy_from(&jacobian.fixed_columns::<3>(0));
         normals.fixed_view_mut::<6, 3>(3, 3).copy_from(&by_angles);

@@ -8,43 +8,43 @@ use crate::motion::min_max::{max, min};
 /// Accelerations of surge, sway, heave \[m/s2\], roll, pitch and yaw \[rad/s2\].
 pub type Accelerations = SVector<f64, 6>;
 /// Surge, sway, heave and the six legs.
-pub const ROWS: usize = 9;
+pub const ROW_COUNT: usize = 9;
 /// A value for each row.
-pub type RowValues = SVector<f64, ROWS>;
+pub type RowValues = SVector<f64, ROW_COUNT>;
 
 /// A W^-1 A' of the rows' normals A.
-type Gram = SMatrix<f64, ROWS, ROWS>;
+type Gram = SMatrix<f64, ROW_COUNT, ROW_COUNT>;
 
 /// Ranges of linear combinations of the accelerations: lower <= normals c <= upper.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows {
-    pub normals: SMatrix<f64, ROWS, 6>,
+    pub normals: SMatrix<f64, ROW_COUNT, 6>,
     pub lower: RowValues,
     pub upper: RowValues,
 }
 
 /// The side on which each row acts: 1 at its upper end, -1 at its lower end, 0 inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sides([i8; ROWS]);
+pub struct Sides([i8; ROW_COUNT]);
 
 impl Sides {
     /// True if any row acts.
     pub fn any(&self) -> bool {
-        self.0 != [0; ROWS]
+        self.0 != [0; ROW_COUNT]
     }
 }
 
 /// Weight of a violated row's square, beside weights of about 1 of the accelerations. Rows that
 /// contradict each other are violated a little instead of not being solved.
-pub const PENALTY: f64 = 1e4;
+pub const VIOLATION_PENALTY: f64 = 1e4;
 /// Trials in which all rows that are wrong change at once, before they change one by one.
 const TRIALS_AT_ONCE: usize = 6;
 /// Changes one by one; random programs take 20 at most.
 const MOST_CHANGES: usize = 60;
 /// Multiplier that counts as zero.
-const ZERO: f64 = 1e-12;
+const MULTIPLIER_TOLERANCE: f64 = 1e-12;
 /// Violation that counts as rounding \[m/s2\].
-const RESOLVED: f64 = 1e-9;
+const VIOLATION_TOLERANCE: f64 = 1e-9;
 
 /// The accelerations c with the least (c - demand)' W (c - demand) + penalty of the violations.
 /// `inverse_weights` is the diagonal of W^-1; `sides` holds the rows that acted in the last step,
@@ -54,13 +54,13 @@ const RESOLVED: f64 = 1e-9;
 /// W^-1 A' + I/penalty)_SS lambda = (A demand - bound)_S. A row of S whose multiplier has the wrong
 /// sign leaves, another that is violated enters. From one step to the next few rows change, so a
 /// trial or two are enough; where this goes round in circles, rows change one by one.
-pub fn nearest(
+pub fn nearest_accelerations(
     demand: &Accelerations,
     inverse_weights: &Accelerations,
     rows: &Rows,
     sides: &mut Sides,
 ) -> Accelerations {
-    let moved = SMatrix::<f64, 6, ROWS>::from_fn(|k, row| inverse_weights[k] * rows.normals[(row, k)]);
+    let moved = SMatrix::<f64, 6, ROW_COUNT>::from_fn(|k, row| inverse_weights[k] * rows.normals[(row, k)]);
     let gram = rows.normals * moved;
     let demanded = rows.normals * demand;
     let multipliers = all_at_once(&gram, &demanded, rows, sides).or_else(|| one_by_one(&gram, &demanded, rows, sides));
@@ -68,8 +68,8 @@ pub fn nearest(
 }
 
 /// A row's side if it is beyond its range.
-fn violated(value: f64, rows: &Rows, row: usize) -> i8 {
-    i8::from(value > rows.upper[row] + RESOLVED) - i8::from(value < rows.lower[row] - RESOLVED)
+fn violated_side(value: f64, rows: &Rows, row: usize) -> i8 {
+    i8::from(value > rows.upper[row] + VIOLATION_TOLERANCE) - i8::from(value < rows.lower[row] - VIOLATION_TOLERANCE)
 }
 
 /// Principal pivoting from these sides on. None if it does not end soon.
@@ -78,9 +78,9 @@ fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides
         let multipliers = multipliers_of(gram, demanded, rows, sides)?;
         let values = demanded - gram * multipliers;
         let before = *sides;
-        for row in 0..ROWS {
+        for row in 0..ROW_COUNT {
             sides.0[row] = match sides.0[row] {
-                0 => violated(values[row], rows, row),
+                0 => violated_side(values[row], rows, row),
                 side if f64::from(side) * multipliers[row] < 0.0 => 0,
                 side => side,
             };
@@ -101,15 +101,15 @@ fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides)
     for _ in 0..MOST_CHANGES {
         let values = demanded - gram * multipliers;
         let beyond = |row: usize| max(values[row] - rows.upper[row], rows.lower[row] - values[row]);
-        let inside = (0..ROWS).filter(|row| sides.0[*row] == 0);
+        let inside = (0..ROW_COUNT).filter(|row| sides.0[*row] == 0);
         let worst = inside.max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)));
-        let Some(worst) = worst.filter(|row| violated(values[*row], rows, *row) != 0) else { break };
-        sides.0[worst] = violated(values[worst], rows, worst);
+        let Some(worst) = worst.filter(|row| violated_side(values[*row], rows, *row) != 0) else { break };
+        sides.0[worst] = violated_side(values[worst], rows, worst);
         // Each round but the last takes out a row.
-        for _ in 0..ROWS {
+        for _ in 0..ROW_COUNT {
             let next = multipliers_of(gram, demanded, rows, sides)?;
             let mut fraction = 1.0;
-            for row in 0..ROWS {
+            for row in 0..ROW_COUNT {
                 if f64::from(sides.0[row]) * next[row] < 0.0 {
                     fraction = min(multipliers[row] / (multipliers[row] - next[row]), fraction);
                 }
@@ -118,8 +118,8 @@ fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides)
             if fraction == 1.0 {
                 break;
             }
-            for row in 0..ROWS {
-                if f64::from(sides.0[row]) * multipliers[row] <= ZERO {
+            for row in 0..ROW_COUNT {
+                if f64::from(sides.0[row]) * multipliers[row] <= MULTIPLIER_TOLERANCE {
                     (sides.0[row], multipliers[row]) = (0, 0.0);
                 }
             }
@@ -130,14 +130,14 @@ fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides)
 
 /// The multipliers if exactly the rows of `sides` act; zero for the others.
 fn multipliers_of(
-    gram: &SMatrix<f64, ROWS, ROWS>,
+    gram: &SMatrix<f64, ROW_COUNT, ROW_COUNT>,
     demanded: &RowValues,
     rows: &Rows,
     sides: &Sides,
 ) -> Option<RowValues> {
     let acts = sides.0.map(|side| side != 0);
-    let matrix = SMatrix::<f64, ROWS, ROWS>::from_fn(|i, j| match (i == j, acts[i] && acts[j]) {
-        (true, true) => gram[(i, i)] + 1.0 / PENALTY,
+    let matrix = SMatrix::<f64, ROW_COUNT, ROW_COUNT>::from_fn(|i, j| match (i == j, acts[i] && acts[j]) {
+        (true, true) => gram[(i, i)] + 1.0 / VIOLATION_PENALTY,
         (false, true) => gram[(i, j)],
         (true, false) => 1.0,
         (false, false) => 0.0,

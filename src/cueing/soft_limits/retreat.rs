@@ -21,7 +21,7 @@ use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
 
 /// Frequency w at which the limits return, with a damping ratio of 1/2 \[rad/s\].
-const FREQUENCY: f64 = 0.8;
+const RETURN_RATE: f64 = 0.8;
 /// Largest retreat of an end, as a fraction of its distance from neutral.
 const LARGEST_RETREAT: f64 = 0.5;
 /// Least room at neutral from which on the retreat is whole \[m\].
@@ -52,7 +52,7 @@ impl Retreat {
     /// acceleration.
     pub fn accelerated(&self, making_up: &Vector3<f64>) -> Self {
         let Motion { position, velocity, .. } = self.travel;
-        let acceleration = self.acting / SETTING_IN * making_up - FREQUENCY * (FREQUENCY * position + velocity);
+        let acceleration = self.acting / SETTING_IN * making_up - RETURN_RATE * (RETURN_RATE * position + velocity);
         Retreat { travel: Motion { acceleration, ..self.travel }, ..*self }
     }
 

@@ -3,14 +3,14 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 
-use super::nearest::PENALTY;
+use super::nearest::VIOLATION_PENALTY;
 use super::*;
 use crate::cueing::strategy::predictive::dual_active_set::tests::Random;
 
 /// The least of 1/2 (c - d)' W (c - d) + penalty/2 |s|^2 with lower - s <= normals c <= upper + s,
 /// over the accelerations c and the violations s.
 fn by_interior_point(demand: &Accelerations, inverse_weights: &Accelerations, rows: &Rows) -> Accelerations {
-    const SIZE: usize = 6 + ROWS;
+    const SIZE: usize = 6 + ROW_COUNT;
     let mut hessian = vec![vec![0.0; SIZE]; SIZE];
     let mut gradient = vec![0.0; SIZE];
     for k in 0..6 {
@@ -18,10 +18,10 @@ fn by_interior_point(demand: &Accelerations, inverse_weights: &Accelerations, ro
         gradient[k] = -demand[k] / inverse_weights[k];
     }
     for (k, row) in hessian.iter_mut().enumerate().skip(6) {
-        row[k] = PENALTY;
+        row[k] = VIOLATION_PENALTY;
     }
     let (mut constraints, mut bounds) = (Vec::new(), Vec::new());
-    for row in 0..ROWS {
+    for row in 0..ROW_COUNT {
         for (sign, bound) in [(1.0, rows.upper[row]), (-1.0, -rows.lower[row])] {
             let mut normal: Vec<f64> = rows.normals.row(row).iter().map(|value| sign * value).collect();
             normal.resize(SIZE, 0.0);
@@ -45,16 +45,17 @@ fn cost(accelerations: &Accelerations, demand: &Accelerations, rows: &Rows) -> f
     let values = rows.normals * accelerations;
     let violations =
         values.zip_zip_map(&rows.lower, &rows.upper, |value, lower, upper| value - value.clamp(lower, upper));
-    0.5 * changed.component_mul(&Accelerations::from(WEIGHTS)).dot(&changed) + 0.5 * PENALTY * violations.norm_squared()
+    0.5 * changed.component_mul(&Accelerations::from(CHANGE_WEIGHTS)).dot(&changed)
+        + 0.5 * VIOLATION_PENALTY * violations.norm_squared()
 }
 
 #[test]
 fn the_nearest_accelerations_are_those_of_an_interior_point_method() {
     let mut random = Random(5);
-    let inverse_weights = Accelerations::from(WEIGHTS.map(|weight| 1.0 / weight));
+    let inverse_weights = Accelerations::from(CHANGE_WEIGHTS.map(|weight| 1.0 / weight));
     let mut acted = 0;
     for trial in 0..2000 {
-        let mut normals = SMatrix::<f64, ROWS, 6>::from_fn(|_, _| random.next());
+        let mut normals = SMatrix::<f64, ROW_COUNT, 6>::from_fn(|_, _| random.next());
         normals.fixed_view_mut::<3, 6>(0, 0).fill(0.0);
         normals.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
         // Every tenth program has rows that contradict each other.
@@ -64,15 +65,15 @@ fn the_nearest_accelerations_are_those_of_an_interior_point_method() {
         let rows = Rows { normals, lower: middle - half, upper: middle + half };
         let demand = Accelerations::from_fn(|_, _| 10.0 * random.next());
         let mut sides = Sides::default();
-        let found = nearest(&demand, &inverse_weights, &rows, &mut sides);
+        let found = nearest_accelerations(&demand, &inverse_weights, &rows, &mut sides);
         let expected = by_interior_point(&demand, &inverse_weights, &rows);
         // The cost is strictly convex: none is less but by the solver's tolerance.
         let [least, found_by_solver] = [&found, &expected].map(|accelerations| cost(accelerations, &demand, &rows));
         assert!(least < found_by_solver * (1.0 + 1e-8), "trial {trial}: {least} beside {found_by_solver}");
         assert!((found - expected).amax() < 3e-4, "trial {trial}: {found} beside {expected}");
         // From the sides that act, the solution is found again, to the rounding of the largest multipliers.
-        let again = (nearest(&demand, &inverse_weights, &rows, &mut sides) - found).amax();
-        assert!(again < 3e-16 * PENALTY, "trial {trial}: {again}");
+        let again = (nearest_accelerations(&demand, &inverse_weights, &rows, &mut sides) - found).amax();
+        assert!(again < 3e-16 * VIOLATION_PENALTY, "trial {trial}: {again}");
         acted += usize::from(sides.any());
     }
     assert!(acted > 1900, "{acted}");
@@ -80,11 +81,11 @@ fn the_nearest_accelerations_are_those_of_an_interior_point_method() {
 
 #[test]
 fn a_demand_within_its_ranges_is_the_nearest() {
-    let normals = SMatrix::<f64, ROWS, 6>::from_fn(|row, k| f64::from(u8::from(row % 6 == k)));
+    let normals = SMatrix::<f64, ROW_COUNT, 6>::from_fn(|row, k| f64::from(u8::from(row % 6 == k)));
     let rows = Rows { normals, lower: RowValues::repeat(-2.0), upper: RowValues::repeat(2.0) };
     let demand = Accelerations::new(1.0, -1.9, 0.3, 2.0, -2.0, 0.0);
     let mut sides = Sides::default();
-    assert_eq!(nearest(&demand, &Accelerations::repeat(1.0), &rows, &mut sides), demand);
+    assert_eq!(nearest_accelerations(&demand, &Accelerations::repeat(1.0), &rows, &mut sides), demand);
     assert!(!sides.any());
 }
 

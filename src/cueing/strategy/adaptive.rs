@@ -78,9 +78,9 @@ impl Law for Adaptive {
         self.retune(models, &on_rig(parameters));
         let in_motion = self.axes.iter().any(|axis| axis.to_travel_gain != [0.0; 2]);
         if in_motion && before != self.parameters {
-            self.glide.add(&(logarithms(&before) - logarithms(&self.parameters)));
+            self.glide.add(&(adaptation_logarithms(&before) - adaptation_logarithms(&self.parameters)));
         }
-        let less = |state: &AxisState| returning(&before, state) - returning(&self.parameters, state);
+        let less = |state: &AxisState| return_force(&before, state) - return_force(&self.parameters, state);
         Ok(states.map(|state| Jump { force: less(&state), slope: less(&state.coasting()) }))
     }
 
@@ -138,7 +138,7 @@ impl Adaptive {
     fn gliding(&mut self, step: f64) -> AdaptiveParameters {
         self.glide.advance(step);
         let [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2] =
-            (logarithms(&self.parameters) + self.glide.values()).map(libm::exp).into();
+            (adaptation_logarithms(&self.parameters) + self.glide.values()).map(libm::exp).into();
         AdaptiveParameters {
             gain1,
             gain2,
@@ -155,7 +155,7 @@ impl Adaptive {
 }
 
 /// Logarithms of the numbers of the adaptation.
-fn logarithms(parameters: &AdaptiveParameters) -> SVector<f64, 9> {
+fn adaptation_logarithms(parameters: &AdaptiveParameters) -> SVector<f64, 9> {
     let AdaptiveParameters { gain1, gain2, nominal1, nominal2, pull1, pull2, .. } = *parameters;
     let AdaptiveParameters { weight_position, weight_velocity, weight_tilt_rate, .. } = *parameters;
     let numbers = [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2];
@@ -184,7 +184,7 @@ impl Adaptation {
         let AdaptiveParameters { nominal1, nominal2, .. } = *parameters;
         let [stiffness, damping] = stiffness_and_damping(parameters);
         // H alpha is not dropped: whatever its gain, travel makes up for the kick of a tilt that begins.
-        let dropped = (travel_gain - 1.0) * left + returning(parameters, state);
+        let dropped = (travel_gain - 1.0) * left + return_force(parameters, state);
 
         let limited = alpha != demanded || rate != tilt_gain * left || tilt.abs() >= model.angle_limit;
         let gravity = model.gravity * cos;
@@ -216,9 +216,9 @@ impl Adaptation {
         for ((gain, gradient), (rate, nominal)) in self.gains.iter_mut().zip(gradients).zip(laws) {
             *gain = (*gain - step * rate * gradient).clamp(LEAST_GAIN * nominal.min(1.0), 1.0);
         }
-        self.to_travel_gain = integrated(self.to_travel_gain, travel_acceleration, step);
-        self.to_tilt_gain = integrated(self.to_tilt_gain, tilt_acceleration, step);
-        self.tilt = [sensitivity(tilted + step * turned), sensitivity(turned)];
+        self.to_travel_gain = integrated_sensitivity(self.to_travel_gain, travel_acceleration, step);
+        self.to_tilt_gain = integrated_sensitivity(self.to_tilt_gain, tilt_acceleration, step);
+        self.tilt = [limited_sensitivity(tilted + step * turned), limited_sensitivity(turned)];
         Decision { dropped_force: dropped, tilt_acceleration: alpha }
     }
 }
@@ -230,17 +230,17 @@ fn stiffness_and_damping(parameters: &AdaptiveParameters) -> [f64; 2] {
 }
 
 /// The part of the dropped force that returns travel \[m/s2\].
-fn returning(parameters: &AdaptiveParameters, state: &AxisState) -> f64 {
+fn return_force(parameters: &AdaptiveParameters, state: &AxisState) -> f64 {
     let [stiffness, damping] = stiffness_and_damping(parameters);
     -damping * state.velocity - stiffness * state.position
 }
 
 /// A sensitivity of position and velocity after a step.
-fn integrated([x, v]: [f64; 2], acceleration: f64, step: f64) -> [f64; 2] {
-    [sensitivity(x + step * v), sensitivity(v + step * acceleration)]
+fn integrated_sensitivity([x, v]: [f64; 2], acceleration: f64, step: f64) -> [f64; 2] {
+    [limited_sensitivity(x + step * v), limited_sensitivity(v + step * acceleration)]
 }
 
-fn sensitivity(value: f64) -> f64 {
+fn limited_sensitivity(value: f64) -> f64 {
     at_rest_if_tiny(value.clamp(-LARGEST_SENSITIVITY, LARGEST_SENSITIVITY))
 }
 
@@ -448,10 +448,10 @@ mod tests {
 
     #[test]
     fn sensitivities_are_bounded_and_come_to_rest() {
-        assert_eq!(sensitivity(2e3), LARGEST_SENSITIVITY);
-        assert_eq!(sensitivity(-2e3), -LARGEST_SENSITIVITY);
-        assert_eq!(sensitivity(1e-31), 0.0);
-        assert_eq!(sensitivity(-1e-29), -1e-29);
+        assert_eq!(limited_sensitivity(2e3), LARGEST_SENSITIVITY);
+        assert_eq!(limited_sensitivity(-2e3), -LARGEST_SENSITIVITY);
+        assert_eq!(limited_sensitivity(1e-31), 0.0);
+        assert_eq!(limited_sensitivity(-1e-29), -1e-29);
     }
 
     #[test]

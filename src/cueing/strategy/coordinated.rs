@@ -57,7 +57,7 @@ const LEVEL_FREQUENCY: f64 = 2.0;
 /// Time over which the return to neutral fades in after a plan's end \[s\].
 const DECISION_FADE: f64 = 1.0;
 /// A tilt within this fraction of its angle's or rate's limit counts as limited.
-const NEARLY: f64 = 0.999;
+const LIMITED_FRACTION: f64 = 0.999;
 /// Smallest magnitude of the determinant of the head's axes that is divided by. Only a platform
 /// that is nearly turned on its side has a smaller one.
 const LEAST_DETERMINANT: f64 = 0.1;
@@ -137,9 +137,9 @@ impl Coordinated {
             let demanded = fraction * decision.tilt_acceleration + (1.0 - fraction) * returning;
             let acceleration = smooth.nearest_acceleration(&situation.states[k], demanded, step);
             let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
-            self.limited |= next.position.abs() >= NEARLY * tilt.angle_limit;
-            self.limited |= next.velocity.abs() >= NEARLY * tilt.rate_limit;
-            self.tilt[k] = flushed(&next);
+            self.limited |= next.position.abs() >= LIMITED_FRACTION * tilt.angle_limit;
+            self.limited |= next.velocity.abs() >= LIMITED_FRACTION * tilt.rate_limit;
+            self.tilt[k] = without_tiny_components(&next);
             self.dropped_force[k] = decision.dropped_force;
         }
         self.fraction = fraction;
@@ -180,13 +180,13 @@ impl Coordinated {
         [0, 1].map(|k: usize| {
             let now = now.axis(k);
             let limits = Limits::safety(&parameters.safety, k, parameters.structure.max_step);
-            flushed(&limits.at_velocity(&now, now.velocity + accelerations[k] * step, step))
+            without_tiny_components(&limits.at_velocity(&now, now.velocity + accelerations[k] * step, step))
         })
     }
 }
 
 /// The motion, with components that are too small to matter set to zero.
-fn flushed(motion: &Motion) -> Motion {
+fn without_tiny_components(motion: &Motion) -> Motion {
     Motion {
         position: at_rest_if_tiny(motion.position),
         velocity: at_rest_if_tiny(motion.velocity),
@@ -508,7 +508,7 @@ mod tests {
     #[test]
     fn tiny_motions_are_none() {
         let tiny = |value: f64| Motion { position: value, velocity: -value, acceleration: value };
-        assert_eq!(flushed(&tiny(1e-31)), Motion::default());
-        assert_eq!(flushed(&tiny(1e-29)), tiny(1e-29));
+        assert_eq!(without_tiny_components(&tiny(1e-31)), Motion::default());
+        assert_eq!(without_tiny_components(&tiny(1e-29)), tiny(1e-29));
     }
 }

@@ -30,10 +30,10 @@ pub struct Disturbance {
 }
 
 /// Factor by which gamma^-2 changes until it is bracketed, and how often it may.
-const BRACKET: f64 = 16.0;
+const BRACKET_FACTOR: f64 = 16.0;
 const MOST_BRACKETS: usize = 40;
 /// Bisections of the bracket: gamma is then known to 1e-6 of itself.
-const BISECTIONS: usize = 21;
+const BISECTION_STEPS: usize = 21;
 
 impl Disturbance {
     /// The regulator of an axis that is least for the worst disturbance.
@@ -52,11 +52,11 @@ impl Disturbance {
         let bounded = |inverse_square: f64| problem.cost(&(inverse_square * self.square())).is_ok();
         let mut most = 1.0;
         if bounded(most) {
-            most = brackets(most, BRACKET).find(|&trial| !bounded(trial))?;
+            most = bracketing_trials(most, BRACKET_FACTOR).find(|&trial| !bounded(trial))?;
         }
-        let mut least = brackets(most, BRACKET.recip()).find(|&trial| bounded(trial))?;
-        most = BRACKET * least;
-        for _ in 0..BISECTIONS {
+        let mut least = bracketing_trials(most, BRACKET_FACTOR.recip()).find(|&trial| bounded(trial))?;
+        most = BRACKET_FACTOR * least;
+        for _ in 0..BISECTION_STEPS {
             let middle = square_root(least * most);
             *if bounded(middle) { &mut least } else { &mut most } = middle;
         }
@@ -73,7 +73,7 @@ impl Disturbance {
 }
 
 /// Trials on the way from a value, each `factor` times the one before.
-fn brackets(from: f64, factor: f64) -> impl Iterator<Item = f64> {
+fn bracketing_trials(from: f64, factor: f64) -> impl Iterator<Item = f64> {
     core::iter::successors(Some(factor * from), move |trial| Some(factor * trial)).take(MOST_BRACKETS)
 }
 

@@ -185,8 +185,8 @@ impl Strategy {
 
 /// Below this a quantity is zero: what decays for long would otherwise end in denormal
 /// numbers, which are slow.
-const REST: f64 = 1e-30;
+const DENORMAL_THRESHOLD: f64 = 1e-30;
 
 pub(super) fn at_rest_if_tiny(value: f64) -> f64 {
-    if value.abs() < REST { 0.0 } else { value }
+    if value.abs() < DENORMAL_THRESHOLD { 0.0 } else { value }
 }

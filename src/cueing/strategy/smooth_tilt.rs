@@ -31,7 +31,7 @@ pub struct TiltLimits {
 
 /// Slope of the acceleration that is always allowed \[rad/s3\]: with a head 1.2 m above the
 /// platform 7 m/s3 are felt.
-const SLOPE: f64 = 6.0;
+const ALLOWED_JERK: f64 = 6.0;
 /// Large accelerations build up in at most the inverse of this \[1/s\].
 const LEAST_BUILD_UP: f64 = 15.0;
 /// Largest pace of the angle \[rad/s\] ...
@@ -44,7 +44,7 @@ const PACE_OF_LIMITS: f64 = 2.5;
 impl TiltLimits {
     /// The limits of angle, rate and acceleration.
     pub fn new(angle: f64, rate: f64, acceleration: f64) -> Self {
-        let build_up = max(SLOPE / acceleration, LEAST_BUILD_UP);
+        let build_up = max(ALLOWED_JERK / acceleration, LEAST_BUILD_UP);
         let fastest = min(rate, square_root(acceleration * angle));
         let pace = min(min(PACE_OF_BUILD_UP * build_up, PACE_OF_LIMITS * acceleration / fastest), LARGEST_PACE);
         TiltLimits { angle, rate, acceleration, build_up, pace }

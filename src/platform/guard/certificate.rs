@@ -22,7 +22,7 @@ use crate::platform::{PlatformCoordinates, PlatformMotion, PlatformState};
 
 /// Stop plans are divided into cells. The bound on what happens between two points is about this
 /// fraction of the acceleration limit.
-const MARGIN: f64 = 0.05;
+const CELL_ACCELERATION_FRACTION: f64 = 0.05;
 /// The largest number of cells into which the longest piece of a stop plan is divided.
 const MOST_CELLS: f64 = 12.0;
 
@@ -203,7 +203,7 @@ impl Machine {
         let speed = Speed::of(plan.start()).of_joints(self.radius);
         // Between points d apart the bound is about 1.5 (G1²/L) d/T.
         let lever = self.lever(self.transmission_at(plan.start()));
-        let needed = 1.5 * speed * speed / (lever.turning_length * MARGIN * lever.acceleration);
+        let needed = 1.5 * speed * speed / (lever.turning_length * CELL_ACCELERATION_FRACTION * lever.acceleration);
         let whole = libm::ceil(needed).clamp(1.0, MOST_CELLS);
         if duration <= 0.0 {
             // At rest already.

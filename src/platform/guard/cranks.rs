@@ -31,7 +31,7 @@
 
 use super::bounds::JointBounds;
 use super::home::{Distance, Point, keep_chords};
-use super::machine::{CLEARANCE, Machine, STOP_FRACTION, Speed};
+use super::machine::{CLEARANCE_FRACTION, Machine, STOP_FRACTION, Speed};
 use crate::interface::SafetyParameters;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
@@ -45,7 +45,7 @@ const ASSUMED_PART: f64 = 0.8;
 const LARGEST_TURN: f64 = 2.0;
 
 /// The largest cosine of an angle of transmission whose sine is not smaller than this one.
-fn cosine(transmission: f64) -> f64 {
+fn cosine_from_sine(transmission: f64) -> f64 {
     square_root(max(1.0 - transmission * transmission, 0.0))
 }
 
@@ -74,12 +74,12 @@ impl Cranks {
 
     /// The largest change of a transmission for each metre of a joint's travel \[1/m\].
     pub(super) fn transmission_slope(&self, transmission: f64) -> f64 {
-        cosine(transmission) / transmission * (1.0 / self.rod + 1.0 / self.arm)
+        cosine_from_sine(transmission) / transmission * (1.0 / self.rod + 1.0 / self.arm)
     }
 
     /// What a joint's speed squared adds to its acceleration, as one over a length \[1/m\].
     pub(super) fn turning(&self, transmission: f64) -> f64 {
-        (cosine(transmission) / self.arm + 1.0 / self.rod) / (transmission * transmission)
+        (cosine_from_sine(transmission) / self.arm + 1.0 / self.rod) / (transmission * transmission)
     }
 
     /// Bound on |q'''| with these bounds of the joints, where no transmission is smaller
@@ -87,7 +87,7 @@ impl Cranks {
     pub(super) fn arc_jerk(&self, bounds: &JointBounds, transmission: f64) -> f64 {
         let JointBounds { velocity, acceleration, jerk } = *bounds;
         let per = 1.0 / transmission;
-        let (cosine, rate) = (cosine(transmission), velocity * per);
+        let (cosine, rate) = (cosine_from_sine(transmission), velocity * per);
         let [of_arm, of_rod] = [self.arm, self.rod].map(|length| rate / length);
         let second = (acceleration + rate * (cosine * of_arm + of_rod)) * per;
         let rod_second = (acceleration + rate * (of_arm + cosine * of_rod)) * per;
@@ -292,6 +292,6 @@ impl Machine {
     /// The smallest transmission that the way home needs at the fraction `s` of it.
     fn transmission_needed(&self, cranks: &Cranks, s: f64) -> f64 {
         let least = cranks.least_transmission;
-        least + CLEARANCE * s * (self.home.transmission - least)
+        least + CLEARANCE_FRACTION * s * (self.home.transmission - least)
     }
 }

@@ -13,7 +13,7 @@ use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_le
 /// accelerations that the legs' rotation causes.
 pub(super) const STOP_FRACTION: f64 = 0.6;
 /// The clearance at neutral, as a fraction of the room that the legs have there.
-pub(super) const CLEARANCE: f64 = 1.0 / 16.0;
+pub(super) const CLEARANCE_FRACTION: f64 = 1.0 / 16.0;
 
 /// The legs with their limits, as the certificate needs them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,11 +91,12 @@ impl Home {
             longest,
             joints: extremes(&leg_lengths(&geometry.with_legs(), neutral)),
             transmission: arms.as_ref().map_or(1.0, |(_, arms)| arms.least_transmission()),
-            clearance: room.map(|room| CLEARANCE * room),
-            beyond_clearance: room.map(|room| (1.0 - CLEARANCE) * room),
+            clearance: room.map(|room| CLEARANCE_FRACTION * room),
+            beyond_clearance: room.map(|room| (1.0 - CLEARANCE_FRACTION) * room),
             per_two_lengths: 0.5 / limits.min,
             ends,
-            clear_beyond: arms.map_or([0.0; 2], |(_, arms)| arms.clear_of(ends).map(|room| (1.0 - CLEARANCE) * room)),
+            clear_beyond: arms
+                .map_or([0.0; 2], |(_, arms)| arms.clear_of(ends).map(|room| (1.0 - CLEARANCE_FRACTION) * room)),
         }
     }
 }

@@ -59,10 +59,10 @@ struct Deviation {
 
 /// Time for which the input rests while the platform is kept from its demand, before the platform
 /// goes straight home \[s\].
-const PATIENCE: f64 = 10.0;
+const HOMING_DELAY: f64 = 10.0;
 /// Factors on the speed of the way home after a step without and with a certified candidate.
-const SLOWER: f64 = 1.0 / 64.0;
-const FASTER: f64 = 8.0;
+const RETURN_SPEED_DECREASE: f64 = 1.0 / 64.0;
+const RETURN_SPEED_INCREASE: f64 = 8.0;
 
 impl ActuatorGuard {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
@@ -116,10 +116,11 @@ impl ActuatorGuard {
         let before = self.now.legs;
         let (resting, homeward) = self.patience(resting, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
-        let stops = resting > PATIENCE && homeward.is_none();
+        let stops = resting > HOMING_DELAY && homeward.is_none();
         let found = if stops { None } else { self.nearest(demand, &followed, homeward, safety, step) };
-        let homeward =
-            homeward.map(|fraction| if found.is_some() { min(FASTER * fraction, 1.0) } else { SLOWER * fraction });
+        let homeward = homeward.map(|fraction| {
+            if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
+        });
         let (next, plan) = found.unwrap_or_else(|| (self.following(&followed, step), followed));
         (self.now, self.plan) = (next, plan);
         self.limited = Some(Deviation {
@@ -131,14 +132,14 @@ impl ActuatorGuard {
     }
 
     /// Time for which the input has been at rest, `step` seconds later. Once that is longer than
-    /// [`PATIENCE`], the platform stops. From rest it goes straight home, and the fraction of its
-    /// speed is given. It goes on until it joins its demand or the input moves.
+    /// [`HOMING_DELAY`], the platform stops. From rest it goes straight home, and the fraction of
+    /// its speed is given. It goes on until it joins its demand or the input moves.
     fn patience(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
         let Some(Deviation { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
             return (0.0, None);
         };
         let at_rest = Speed::of(&self.now.coordinates) == Speed::default();
-        (before + step, homeward.or_else(|| (before > PATIENCE && at_rest).then_some(1.0)))
+        (before + step, homeward.or_else(|| (before > HOMING_DELAY && at_rest).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later

@@ -12,7 +12,7 @@ use crate::platform::{Legs, PlatformCoordinates, PlatformState, jacobian};
 
 /// Number of bisections between the plan and the pursuit. They find the farthest certified
 /// candidate to a part in 2^6.
-const BISECTIONS: usize = 6;
+const BISECTION_STEPS: usize = 6;
 
 impl ActuatorGuard {
     /// The certified state nearest to a pursuit of the demand, with its plan, if there is one.
@@ -32,7 +32,7 @@ impl ActuatorGuard {
             Some(fraction) => self.machine.homeward(now, safety, fraction, step),
             None => self.pursued(now, &demand.legs, safety, step),
         };
-        farthest(|fraction| {
+        farthest_certified(|fraction| {
             let trial = self.machine.state(on_plan.towards(&pursued, fraction, now, step));
             let plan = match homeward {
                 // A part of a certified way home is certified.
@@ -96,11 +96,11 @@ impl ActuatorGuard {
 
 /// The result for the largest fraction of the way from the plan (0) to the pursuit (1)
 /// for which there is one.
-fn farthest<T>(certified: impl Fn(f64) -> Option<T>) -> Option<T> {
+fn farthest_certified<T>(certified: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut found = certified(1.0);
     let (mut low, mut high) = (0.0, 1.0);
     if found.is_none() {
-        for _ in 0..BISECTIONS {
+        for _ in 0..BISECTION_STEPS {
             let fraction = 0.5 * (low + high);
             match certified(fraction) {
                 Some(result) => (low, found) = (fraction, Some(result)),
@@ -113,15 +113,15 @@ fn farthest<T>(certified: impl Fn(f64) -> Option<T>) -> Option<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::farthest;
+    use super::farthest_certified;
 
     #[test]
     fn the_farthest_is_found_to_a_part_in_sixty_four() {
         for edge in [0.01, 0.1, 0.33, 0.5, 0.7, 0.99] {
-            let found = farthest(|fraction| (fraction <= edge).then_some(fraction)).unwrap_or(0.0);
+            let found = farthest_certified(|fraction| (fraction <= edge).then_some(fraction)).unwrap_or(0.0);
             assert!(found <= edge && edge - found <= 1.0 / 64.0, "{found}, not {edge}");
         }
-        assert_eq!(farthest(Some), Some(1.0));
-        assert_eq!(farthest(|_| None::<f64>), None);
+        assert_eq!(farthest_certified(Some), Some(1.0));
+        assert_eq!(farthest_certified(|_| None::<f64>), None);
     }
 }

@@ -12,7 +12,7 @@ use std::fmt;
 
 use moris_washout::Rig;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::numbering::{ADVICE, is_opposite};
+use moris_washout::platform::numbering::{NUMBERING_ADVICE, is_opposite};
 use moris_washout::platform::{Geometry, Pose, forward_kinematics, jacobian};
 
 /// Lengths tried for each leg, evenly from the shortest to the longest.
@@ -101,7 +101,7 @@ impl fmt::Display for Clearance {
         self.collisions().try_for_each(|approach| writeln!(f, "  {}", line(approach)))?;
         writeln!(f, "  {title} are {diameter}.")?;
         writeln!(f, "  Choose other joints: those of two {kind} may be exchanged, or too close together.")?;
-        if self.is_opposite { writeln!(f, "  {ADVICE}.") } else { Ok(()) }
+        if self.is_opposite { writeln!(f, "  {NUMBERING_ADVICE}.") } else { Ok(()) }
     }
 }
 

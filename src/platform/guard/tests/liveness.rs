@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
-use crate::platform::guard::{ActuatorGuard, Deviation, PATIENCE};
+use crate::platform::guard::{ActuatorGuard, Deviation, HOMING_DELAY};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, stroke_reserve};
 
@@ -133,7 +133,7 @@ fn a_platform_leaves_a_corner_where_every_pursuit_of_neutral_is_refused() {
             }
             guard.now().coordinates.linear.position
         };
-        if advance(STEP) != start || advance(0.5 * PATIENCE) != start {
+        if advance(STEP) != start || advance(0.5 * HOMING_DELAY) != start {
             continue;
         }
         frozen += 1;
