@@ -75,9 +75,9 @@ interface! {
         "vehicle.preview.count" count: i32 { 0 ..= 20 } = 0;
         /// Time from one element of the preview to the next; the first is as far ahead of the present inputs.
         "vehicle.preview.step" step: f64 [S] { 1e-2 ..= 10.0 } = 0.2;
-        /// Specific force to come along the head's x, as vehicle.specificForce.x will be.
+        /// Future specific force along the head's x axis, defined as vehicle.specificForce.x is.
         "vehicle.preview.specificForce.x[#]" surge: [f64; PREVIEW_SAMPLES] [M_PER_S2] { -1e4 ..= 1e4 } = [0.0; PREVIEW_SAMPLES];
-        /// Specific force to come along the head's y, as vehicle.specificForce.y will be.
+        /// Future specific force along the head's y axis, defined as vehicle.specificForce.y is.
         "vehicle.preview.specificForce.y[#]" sway: [f64; PREVIEW_SAMPLES] [M_PER_S2] { -1e4 ..= 1e4 } = [0.0; PREVIEW_SAMPLES];
     }
 }
@@ -193,9 +193,9 @@ enumeration! {
 enumeration! {
     /// Law by which the classical strategy's tilt follows its target.
     pub enum TiltTracking {
-        /// The braking law. The acceleration jumps, and travel makes up for it (the paper).
+        /// Braking law: steps of the acceleration are compensated by travel (the paper).
         "exact" Exact,
-        /// The acceleration builds up and fades, for a travel that limits may stop.
+        /// Jerk-limited acceleration, for travel that may reach its limits.
         "smooth" Smooth,
     }
 }
@@ -213,7 +213,7 @@ enumeration! {
 enumeration! {
     /// Preaction ahead of a brusque stop (the paper's section 6).
     pub enum Preaction {
-        /// Nothing.
+        /// No preaction.
         "off" Off,
         /// The tilt decreases ahead of the stop, and surge provides part of the force meanwhile.
         "on" On,
@@ -221,11 +221,11 @@ enumeration! {
 }
 
 enumeration! {
-    /// Choice of a factor on surge, sway and rates, as large as the rig can give.
+    /// Choice of the largest factor on surge, sway and rates that the rig can reproduce.
     pub enum AutomaticScale {
-        /// No factor.
+        /// A factor of 1.
         "off" Off,
-        /// A factor of at most 1, at which shape and sign of the felt force are right.
+        /// A factor of at most 1 that keeps shape and sign of the felt force.
         "on" On,
     }
 }
@@ -237,11 +237,11 @@ enumeration! {
         "classical" Classical,
         /// A filter whose gains follow the gradient of a cost.
         "adaptive" Adaptive,
-        /// A linear-quadratic regulator.
+        /// A linear-quadratic regulator (LQR).
         "optimal" Optimal,
-        /// A plan of the next seconds within all limits, made anew 50 times a second.
+        /// Model predictive control (MPC): a plan of the next seconds within all limits, renewed 50 times a second.
         "predictive" Predictive,
-        /// A regulator that is least for the worst reference.
+        /// An H-infinity regulator: least cost for the worst reference.
         "robust" Robust,
     }
 }
@@ -269,11 +269,11 @@ enumeration! {
 enumeration! {
     /// Forecast of the specific force in the predictive strategy.
     pub enum ForecastKind {
-        /// By a mixture of experts, one of which is fitted to the past input.
+        /// A mixture of experts, one of them fitted to past inputs.
         "learned" Learned,
-        /// Its slow and its fast part fade.
+        /// The force decays, with a slow and a fast part.
         "decay" Decay,
-        /// It stays what it is.
+        /// The force stays constant.
         "hold" Hold,
     }
 }
@@ -352,7 +352,7 @@ interface! {
 interface! {
     /// Block (2): tilt coordination's limits, for roll and pitch each.
     pub struct TiltParameters: Parameter, Tunable, group("tilt") {
-        /// Largest rate of tilt coordination (3 deg/s: riders hardly perceive it).
+        /// Largest rate of tilt coordination (3 deg/s: about the threshold of perception).
         "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_36, usual(0.02 ..= 0.053), heading("Tilt limits"), main(7);
         /// Largest acceleration of tilt coordination.
         "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.4, usual(0.05 ..= 0.5), heading("Tilt limits");
@@ -371,7 +371,7 @@ interface! {
         "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.37, 0.37, 0.33), main(9);
         /// Largest velocity of the platform.
         "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
-        /// Largest acceleration of the platform, for braking too.
+        /// Largest acceleration of the platform, including braking.
         "safety.@.accelerationLimit" acceleration_limit: Vector3<f64> [M_PER_S2] { 1e-9 ..= 1e9 } = Vector3::new(10.0, 10.0, 10.0);
     }
 }
@@ -379,9 +379,9 @@ interface! {
 interface! {
     /// The soft limits, in front of the safety units and the actuator guard.
     pub struct SoftLimitParameters: Parameter, Tunable {
-        /// Rate at which the platform may approach a limit: at most this times the distance left per second. 0 is off.
+        /// Rate of approach to a limit: the speed is at most this rate times the remaining distance; 0 is off.
         "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 9.0 } = 5.0;
-        /// Reserve that is kept at either end of an axis and of an actuator's stroke, at most half the room there at neutral.
+        /// Margin kept at either end of an axis and of an actuator's stroke; at most half the distance from neutral to that end.
         "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;
     }
 }
@@ -389,17 +389,17 @@ interface! {
 interface! {
     /// The automatic scale, in front of all limits.
     pub struct AutomaticScaleParameters: Parameter, Tunable {
-        /// Automatic scale: a factor on surge, sway and rates, as large as the rig can give them with the right sign and shape.
+        /// Automatic scale: the largest factor on surge, sway and rates at which the rig keeps their sign and shape.
         "scale.automatic" automatic: AutomaticScale = AutomaticScale::Off;
-        /// Largest shape error for which the automatic scale does not fall: RMS of the felt force less the cue, relative to the cue.
+        /// Shape error above which the automatic scale falls: RMS of felt force minus cue, relative to the cue.
         "automaticScale.error" error: f64 { 0.05 ..= 2.0 } = 0.62, used_if("scale.automatic", &["on"]);
-        /// Time over which the automatic scale remembers the ride.
+        /// Time constant of the running means from which the automatic scale is computed.
         "automaticScale.memory" memory: f64 [S] { 1.0 ..= 1e4 } = 25.0, used_if("scale.automatic", &["on"]);
         /// Time constant with which the automatic scale falls.
         "automaticScale.fallTime" fall_time: f64 [S] { 0.1 ..= 1e4 } = 0.6, used_if("scale.automatic", &["on"]);
         /// Time constant with which the automatic scale rises.
         "automaticScale.riseTime" rise_time: f64 [S] { 0.1 ..= 1e4 } = 5.2, used_if("scale.automatic", &["on"]);
-        /// Automatic scale at the beginning of a ride, before anything is known of it.
+        /// Initial value of the automatic scale.
         "automaticScale.start" start: f64 { 0.01 ..= 1.0 } = 0.55, used_if("scale.automatic", &["on"]);
     }
 }
@@ -435,7 +435,7 @@ interface! {
 interface! {
     /// The Stewart platform: joints and actuator limits.
     pub struct Rig: Parameter, Fixed {
-        /// Height of the platform frame's origin above the base frame's at neutral; negative for a platform that hangs.
+        /// Height of the platform frame's origin above the base frame's at neutral; negative for a hanging platform.
         "rig.neutralHeight" neutral_height: f64 [M] { -100.0 ..= 100.0 } = 1.091, heading("Rig");
         /// Shortest length of an actuator; without effect with cranks.
         "actuator.minLength" min_length: f64 [M] { 1e-3 ..= 100.0 } = 1.0, heading("Rig");
@@ -525,9 +525,9 @@ interface! {
         "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13, usual(USUAL_WEIGHTS);
         /// Weight of the tilt rate.
         "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63, usual(USUAL_WEIGHTS);
-        /// Weight of the distance of the gain from force to travel from its nominal value.
+        /// Weight of the deviation of the gain from force to travel from its nominal value.
         "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115, usual(USUAL_WEIGHTS);
-        /// Weight of the distance of the gain from force to tilt rate from its nominal value.
+        /// Weight of the deviation of the gain from force to tilt rate from its nominal value.
         "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349, usual(USUAL_WEIGHTS);
     }
 }
@@ -555,7 +555,7 @@ interface! {
 interface! {
     /// The robust strategy, for surge and sway each.
     pub struct RobustParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["robust"]), heading(OF_STRATEGY) {
-        /// Bound on the cost of a disturbance, relative to the least possible; near 1 the worst is weighed most.
+        /// Attenuation level gamma relative to the least possible one; values near 1 weigh the worst disturbance most.
         "robust.attenuation" attenuation: f64 { 1.001 ..= 1e3 } = 1.08, usual(1.01 ..= 10.0);
         /// Disturbance of the force's fast part relative to that of its slow part.
         "robust.fastDisturbance" fast_disturbance: f64 { 1e-3 ..= 1e6 } = 121.0, usual(1.0 ..= 1e4);
@@ -593,11 +593,11 @@ interface! {
         "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2, usual(USUAL_FREQUENCIES), heading(OF_STRATEGY);
         /// Forecast of the specific force.
         "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
-        /// Time constant with which the learned forecast forgets.
+        /// Time constant with which the learned forecast forgets past inputs.
         "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 160.0, used_if("predictive.forecast", &["learned"]);
         /// Time constant over which the learned forecast's experts are compared.
         "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 14.0, used_if("predictive.forecast", &["learned"]);
-        /// Reserve of an actuator's stroke that a plan keeps at either end.
+        /// Margin that a plan keeps at either end of an actuator's stroke.
         "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
     }
 }

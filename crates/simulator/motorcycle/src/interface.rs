@@ -114,13 +114,13 @@ interface! {
         "status.frictionLimited" friction_limited: bool = false, starts_from(DYNAMICS_PREFIXES);
         /// True if wheel lift limited drive or brakes at the end of the last communication step.
         "status.wheelLiftLimited" wheel_lift_limited: bool = false, starts_from(DYNAMICS_PREFIXES);
-        /// Distance covered along the path, with all rounds.
+        /// Distance covered along the path, including all laps.
         "path.distance" path_distance: f64 [M] = 0.0;
         /// Deviation of the rear tyre's contact from the path, positive to the left.
         "path.deviation" path_deviation: f64 [M] = 0.0;
         /// Heading relative to the path's, positive to the left.
         "path.headingDeviation" path_heading: f64 [RAD] = 0.0;
-        /// Speed that the rider plans for this place on the path.
+        /// Speed that the rider plans for this point of the path.
         "path.plannedSpeed" planned_speed: f64 [M_PER_S] = 0.0, starts_from(&["gravity", "initial.", "path.", "rider.", "tyre."]);
         /// True if friction limited the lateral force of a tyre at the end of the last communication step; only on a path.
         "status.gripLimited" grip_limited: bool = false;
@@ -132,9 +132,9 @@ interface! {
         "vehicle.preview.count" preview_count: i32 { 0 ..= 20 } = 0;
         /// Time from one element of the preview to the next; the first is as far ahead of the present outputs.
         "vehicle.preview.step" preview_step: f64 [S] = 0.2;
-        /// Specific force to come along the head's x, as vehicle.specificForce.x will be.
+        /// Future specific force along the head's x axis, defined as vehicle.specificForce.x is.
         "vehicle.preview.specificForce.x[#]" preview_surge: [f64; PREVIEW_SAMPLES] [M_PER_S2] = [0.0; PREVIEW_SAMPLES];
-        /// Specific force to come along the head's y, as vehicle.specificForce.y will be.
+        /// Future specific force along the head's y axis, defined as vehicle.specificForce.y is.
         "vehicle.preview.specificForce.y[#]" preview_sway: [f64; PREVIEW_SAMPLES] [M_PER_S2] = [0.0; PREVIEW_SAMPLES];
     }
 }
@@ -152,7 +152,7 @@ enumeration! {
         "slalom" Slalom,
         /// A bend of 180 degrees with a radius of 12 m between straights of 150 m.
         "hairpin" Hairpin,
-        /// A closed circuit of 1634 m with eight bends, repeated without end.
+        /// A closed circuit of 1634 m with eight bends, repeated endlessly.
         "lap" Lap,
     }
 }
@@ -344,9 +344,9 @@ interface! {
     pub struct Path: Parameter, Fixed {
         /// Path that the rider follows.
         "path.course" course: Course = Course::None;
-        /// True to begin the custom path again at its end; else the rider goes straight on from there.
+        /// True to begin the custom path again at its end; otherwise the rider continues straight ahead.
         "path.repeat" repeat: bool = false;
-        /// Deviation at which the motorcycle has left the path.
+        /// Deviation beyond which the motorcycle has left the path.
         Tunable "path.halfWidth" half_width: f64 [M] { 0.1 ..= 20.0 } = 3.0;
         /// Largest lateral acceleration that the rider plans.
         Tunable "rider.lateralAcceleration" lateral_acceleration: f64 [M_PER_S2] { 0.1 ..= 30.0 } = 4.5;
