@@ -25,7 +25,7 @@ SETS = ["classical", "adaptive", "optimal", "robust", "default", "preview", "pap
 STEP = 0.001
 BUFFER_SIZES = {"classical": 24 << 10, "predictive": 240 << 10}
 MAX_FLASH = 320_000
-MAX_INSTRUCTIONS = {"classical": 60_000, "default": 180_000, "preview": 180_000}
+MAX_INSTRUCTIONS = {"classical": 50_000, "default": 150_000, "preview": 150_000}
 """Of a step of 1 ms of the drive, on the Cortex-M7."""
 MAX_STACKS = {"classical": (80_000, 16_000), "default": (150_000, 20_000)}
 """Bytes to make a washout and to step it, on the Cortex-M7."""

@@ -1,9 +1,10 @@
 //! The accelerations nearest to demanded ones within ranges of linear combinations of them.
 
-use nalgebra::{Cholesky, SMatrix, SVector};
+use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::motion::min_max::{max, min};
+use crate::motion::square_root::square_root;
 
 /// Accelerations of surge, sway, heave \[m/s2\], roll, pitch and yaw \[rad/s2\].
 pub type Accelerations = SVector<f64, 6>;
@@ -135,17 +136,40 @@ fn multipliers_of(
     rows: &Rows,
     sides: &Sides,
 ) -> Option<RowValues> {
-    let acts = sides.0.map(|side| side != 0);
-    let matrix = SMatrix::<f64, ROW_COUNT, ROW_COUNT>::from_fn(|i, j| match (i == j, acts[i] && acts[j]) {
-        (true, true) => gram[(i, i)] + 1.0 / VIOLATION_PENALTY,
-        (false, true) => gram[(i, j)],
-        (true, false) => 1.0,
-        (false, false) => 0.0,
-    });
     let beyond = RowValues::from_fn(|row, _| match sides.0[row] {
         0 => 0.0,
         1 => demanded[row] - rows.upper[row],
         _ => demanded[row] - rows.lower[row],
     });
-    Some(Cholesky::new(matrix)?.solve(&beyond))
+    let (mut numbers, mut count) = ([0; ROW_COUNT], 0);
+    for (row, _) in sides.0.iter().enumerate().filter(|(_, side)| **side != 0) {
+        (numbers[count], count) = (row, count + 1);
+    }
+    // The Cholesky factor of the acting rows' part: the others' rows and columns stay zero.
+    let (acting, mut factor, mut solution) = (&numbers[..count], Gram::zeros(), beyond);
+    for (k, &column) in acting.iter().enumerate() {
+        let (before, from_here) = acting.split_at(k);
+        for &row in from_here {
+            let value = gram[(row, column)] + if row == column { 1.0 / VIOLATION_PENALTY } else { 0.0 };
+            let rest =
+                before.iter().fold(value, |value, &other| value - factor[(column, other)] * factor[(row, other)]);
+            factor[(row, column)] = if row != column {
+                rest / factor[(column, column)]
+            } else if rest > 0.0 {
+                square_root(rest)
+            } else {
+                return None;
+            };
+        }
+        solution[column] /= factor[(column, column)];
+        for &row in &from_here[1..] {
+            solution[row] -= solution[column] * factor[(row, column)];
+        }
+    }
+    for &column in acting.iter().rev() {
+        let known = column + 1..;
+        let others = factor.column(column).rows_range(known.clone()).dot(&solution.rows_range(known));
+        solution[column] = (solution[column] - others) / factor[(column, column)];
+    }
+    Some(solution)
 }

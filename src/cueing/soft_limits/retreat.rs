@@ -76,10 +76,11 @@ impl Retreat {
         let largest = max(LARGEST_RETREAT * room, f64::MIN_POSITIVE);
         let part = position / largest;
         let to_fourth = 1.0 + (part * part) * (part * part);
-        let slope = 1.0 / (to_fourth * square_root(square_root(to_fourth)));
+        let root = square_root(square_root(to_fourth));
+        let slope = 1.0 / (to_fourth * root);
         let bend = -5.0 * (part * part * part) / largest * slope / to_fourth;
         let along = slope * acceleration + bend * velocity * velocity;
-        let (least, most) = ends.range(q - position / square_root(square_root(to_fourth)), v - slope * velocity, pace);
+        let (least, most) = ends.range(q - position / root, v - slope * velocity, pace);
         let upper = min(upper, most + along);
         (min(max(lower, least + along), upper), upper)
     }

@@ -31,7 +31,7 @@ impl Forecast {
     /// Integral of the reference from now to a time \[m/s\]. Beyond the forecast's end, its slow
     /// and its fast part fade.
     pub fn integral(&self, time: f64) -> f64 {
-        let blocks = Horizon::Near.ends().into_iter().zip(Horizon::Near.durations());
+        let blocks = Horizon::Near.ends().into_iter().zip(*Horizon::Near.durations());
         let within = |(end, duration): (f64, f64)| (time - (end - duration)).clamp(0.0, duration);
         let inside: f64 = self.means.iter().zip(blocks).map(|(mean, block)| mean * within(block)).sum();
         let beyond = (time - FORECAST).max(0.0);

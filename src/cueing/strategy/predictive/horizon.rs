@@ -28,10 +28,10 @@ pub enum Horizon {
 
 impl Horizon {
     /// Durations of the blocks \[s\]: short where a plan is about to be carried out.
-    pub const fn durations(self) -> [f64; BLOCKS] {
+    pub const fn durations(self) -> &'static [f64; BLOCKS] {
         match self {
-            Horizon::Near => [0.04, 0.06, 0.1, 0.18, 0.28, 0.44, 0.72, 1.18],
-            Horizon::Far => [0.1, 0.2, 0.3, 0.4, 0.6, 0.9, 1.4, 2.1],
+            Horizon::Near => &[0.04, 0.06, 0.1, 0.18, 0.28, 0.44, 0.72, 1.18],
+            Horizon::Far => &[0.1, 0.2, 0.3, 0.4, 0.6, 0.9, 1.4, 2.1],
         }
     }
 

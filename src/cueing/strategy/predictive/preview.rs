@@ -337,7 +337,7 @@ mod tests {
         let previewed = Previewed { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
         for horizon in [Horizon::Near, Horizon::Far] {
             let forecast = previewed.over(horizon);
-            let total = forecast.means.dot(&SVector::from(horizon.durations()));
+            let total = forecast.means.dot(&SVector::from(*horizon.durations()));
             let end = horizon.ends()[BLOCKS - 1];
             assert!((total - ahead.integral(1.5) - after.integral(end - 1.5)).abs() < 1e-12);
             let first = 0.5 + 0.5 * (reference(horizon.durations()[0]) - 0.5);

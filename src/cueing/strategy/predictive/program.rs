@@ -189,7 +189,8 @@ pub struct AxisProgram {
     model: AxisModel,
     horizon: Horizon,
     from_data: SMatrix<f64, { 4 * BLOCKS }, DATA>,
-    from_controls: SMatrix<f64, { 4 * BLOCKS }, AXIS_CONTROLS>,
+    /// By node and control: how a unit of the control moves the node.
+    effects: [[[f64; 4]; AXIS_CONTROLS]; BLOCKS],
     gradient: SMatrix<f64, AXIS_CONTROLS, DATA>,
     hessian: SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS>,
     /// L^-T of the Hessian L L'.
@@ -283,8 +284,13 @@ impl AxisProgram {
         let solved = cholesky.l_dirty().solve_lower_triangular_mut(&mut inverse);
         let factor = inverse.transpose();
         let scales = RowScales::new(model, horizon);
-        let program =
-            AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian, factor, scales };
+        let mut effects = [[[0.0; 4]; AXIS_CONTROLS]; BLOCKS];
+        for (control, column) in from_controls.column_iter().enumerate() {
+            for (node, effects) in effects.iter_mut().enumerate() {
+                effects[control].copy_from_slice(&column.as_slice()[4 * node..4 * node + 4]);
+            }
+        }
+        let program = AxisProgram { model: *model, horizon, from_data, effects, gradient, hessian, factor, scales };
         solved.then_some(program).ok_or(Unsolvable::Program)
     }
 
@@ -308,24 +314,17 @@ impl AxisProgram {
     /// The state at a node after these controls from rest at neutral.
     #[inline(always)]
     fn moved(&self, node: usize, controls: &[f64; AXIS_CONTROLS]) -> [f64; 4] {
-        let (mut state, node) = ([0.0; 4], node.min(BLOCKS - 1));
-        let (columns, _) = self.from_controls.as_slice().as_chunks::<4>();
-        let Some(columns) = columns.first_chunk::<{ AXIS_CONTROLS * BLOCKS }>() else { return state };
+        let mut state = [0.0; 4];
+        let (by_dropped, by_tilting) = self.effects[node].split_at(BLOCKS);
+        let (dropped, tilting) = controls.split_at(BLOCKS);
+        let effects = by_dropped.iter().zip(dropped).zip(by_tilting.iter().zip(tilting));
         // A control moves the nodes from the end of its block on.
-        for block in 0..node + 1 {
-            for control in [block, BLOCKS + block] {
-                let by_control = &columns[control * BLOCKS + node];
-                for k in 0..4 {
-                    state[k] += controls[control] * by_control[k];
-                }
+        for ((by_dropped, dropped), (by_tilting, tilting)) in effects.take(node + 1) {
+            for k in 0..4 {
+                state[k] = state[k] + dropped * by_dropped[k] + tilting * by_tilting[k];
             }
         }
         state
-    }
-
-    /// Effects of one unit of each control on the nodes.
-    fn columns(&self) -> impl Iterator<Item = &[f64]> {
-        self.from_controls.as_slice().chunks_exact(4 * BLOCKS)
     }
 
     /// The gradient of the cost without any control.
@@ -356,44 +355,47 @@ impl AxisProgram {
     /// and the tilt with which the platform can stop.
     #[inline(always)]
     fn visit_rows(&self, node: usize, states: [&[f64; 4]; 2], tilting: f64, mut visit: impl FnMut(usize, f64)) {
-        let scales = &self.scales;
-        let [before, [x, v, q, w]] = states;
-        let [by_tilt, by_rate, by_acceleration] = scales.tilt;
-        visit(4 * node, scales.positions[node] * x);
-        visit(4 * node + 1, scales.velocity * v);
-        visit(4 * node + 2, by_tilt * q + by_rate * w + by_acceleration * tilting);
-        visit(4 * node + 3, scales.tilt_rate[0] * w + scales.tilt_rate[1] * tilting);
-        visit(4 * BLOCKS + node, tilting);
+        for kind in 0..4 {
+            visit(4 * node + kind, self.row(kind, node, states, tilting));
+        }
+        visit(4 * BLOCKS + node, self.row(4, node, states, tilting));
         if node > 0 {
-            let middle = self.middle(before, states[1], node, tilting);
-            visit(5 * BLOCKS + node - 1, scales.middles[node] * middle);
+            visit(5 * BLOCKS + node - 1, self.row(5, node, states, tilting));
         }
         if node == BLOCKS - 1 {
-            let [by_tilt, by_rate] = scales.end_tilt;
-            visit(AXIS_ROWS - 2, scales.positions[node] * (x + STOPPING_TIME * v));
-            visit(AXIS_ROWS - 1, by_tilt * q + by_rate * w);
+            visit(AXIS_ROWS - 2, self.row(6, node, states, tilting));
+            visit(AXIS_ROWS - 1, self.row(7, node, states, tilting));
+        }
+    }
+
+    /// The value of a node's row of this kind, by the order in [`AxisProgram::visit_rows`].
+    #[inline(always)]
+    fn row(&self, kind: usize, node: usize, [before, now]: [&[f64; 4]; 2], tilting: f64) -> f64 {
+        let (scales, [x, v, q, w]) = (&self.scales, now);
+        match kind {
+            0 => scales.positions[node] * x,
+            1 => scales.velocity * v,
+            2 => scales.tilt[0] * q + scales.tilt[1] * w + scales.tilt[2] * tilting,
+            3 => scales.tilt_rate[0] * w + scales.tilt_rate[1] * tilting,
+            4 => tilting,
+            5 => scales.middles[node] * self.middle(before, now, node, tilting),
+            6 => scales.positions[node] * (x + STOPPING_TIME * v),
+            _ => scales.end_tilt[0] * q + scales.end_tilt[1] * w,
         }
     }
 
     /// Sets how a row depends on the controls. `normal` is zero before.
     fn set_normal(&self, row: usize, normal: &mut [f64]) {
-        let node = match row {
-            row if row < 4 * BLOCKS => row / 4,
-            row if row < 5 * BLOCKS => row - 4 * BLOCKS,
-            row if row < AXIS_ROWS - 2 => row - 5 * BLOCKS + 1,
-            _ => BLOCKS - 1,
+        let (kind, node) = match row {
+            row if row < 4 * BLOCKS => (row % 4, row / 4),
+            row if row < 5 * BLOCKS => (4, row - 4 * BLOCKS),
+            row if row < AXIS_ROWS - 2 => (5, row - 5 * BLOCKS + 1),
+            _ => (row + 8 - AXIS_ROWS, BLOCKS - 1),
         };
-        for (k, (column, value)) in self.columns().zip(normal).enumerate() {
-            if k % BLOCKS > node {
-                continue;
-            }
-            let states = column.as_chunks::<4>().0;
+        let [before, now] = [node.max(1) - 1, node].map(|node| self.effects[node].iter());
+        for (k, ((before, now), value)) in before.zip(now).zip(normal).enumerate() {
             let tilting = if k == BLOCKS + node { 1.0 } else { 0.0 };
-            self.visit_rows(node, [&states[node.max(1) - 1], &states[node]], tilting, |visited, by_control| {
-                if visited == row {
-                    *value = by_control;
-                }
-            });
+            *value = self.row(kind, node, [before, now], tilting);
         }
     }
 }
@@ -561,7 +563,7 @@ pub struct PlanRows<'a> {
 }
 
 impl Rows<CONTROLS, ROWS> for PlanRows<'_> {
-    fn evaluate(&self, controls: &SVector<f64, CONTROLS>, search: &mut Search) {
+    fn evaluate(&self, controls: &SVector<f64, CONTROLS>, search: &mut Search<ROWS>) {
         let controls = controls.as_slice().as_chunks::<AXIS_CONTROLS>().0;
         let mut before = [[0.0; 4]; 2];
         for (node, legs) in self.limits.legs.iter().enumerate() {
@@ -585,8 +587,8 @@ impl Rows<CONTROLS, ROWS> for PlanRows<'_> {
         for (k, (axis, normal)) in axes {
             if let Some(leg) = row.checked_sub(2 * AXIS_ROWS) {
                 let (node, row) = (leg / 6, &self.limits.legs[leg / 6][leg % 6]);
-                for (value, column) in normal.iter_mut().zip(axis.columns()) {
-                    *value = row.by_position[k] * column[4 * node] + row.by_tilt[k] * column[4 * node + 2];
+                for (value, [position, _, tilt, _]) in normal.iter_mut().zip(&axis.effects[node]) {
+                    *value = row.by_position[k] * position + row.by_tilt[k] * tilt;
                 }
             } else if row / AXIS_ROWS == k {
                 axis.set_normal(row % AXIS_ROWS, normal);
@@ -665,7 +667,7 @@ mod tests {
         let mut cost = 0.0;
         let (mut dropped_before, mut tilting_before) =
             (DROPPED_BEFORE, state.tilt_acceleration / model.acceleration_limit);
-        for (block, duration) in axis.horizon.durations().into_iter().enumerate() {
+        for (block, &duration) in axis.horizon.durations().iter().enumerate() {
             let after = nodes.0.as_slice()[4 * block..4 * block + 4].to_vec();
             let (dropped, tilting) = (controls[block], controls[BLOCKS + block]);
             // Simpson's rule is exact for the square of a line.

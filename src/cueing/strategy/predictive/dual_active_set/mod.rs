@@ -31,7 +31,7 @@ pub(crate) mod tests;
 /// The rows lower <= C u <= upper of a quadratic program.
 pub trait Rows<const N: usize, const M: usize> {
     /// Shows each row's value at a point to a search.
-    fn evaluate(&self, point: &SVector<f64, N>, search: &mut Search);
+    fn evaluate(&self, point: &SVector<f64, N>, search: &mut Search<M>);
 
     /// Sets `normal`, which is zero before, to a row of C.
     fn set_normal(&self, row: usize, normal: &mut SVector<f64, N>);
@@ -42,15 +42,15 @@ pub trait Rows<const N: usize, const M: usize> {
 
 /// A search for the row that is violated most.
 #[derive(Clone, Debug)]
-pub struct Search<'a> {
-    lower: &'a [f64],
-    upper: &'a [f64],
-    given_up: &'a [bool],
+pub struct Search<'a, const M: usize> {
+    lower: &'a SVector<f64, M>,
+    upper: &'a SVector<f64, M>,
+    given_up: &'a SVector<bool, M>,
     worst: f64,
     found: Option<PendingRow>,
 }
 
-impl Search<'_> {
+impl<const M: usize> Search<'_, M> {
     /// Sees a row's value.
     #[inline(always)]
     pub fn see(&mut self, row: usize, value: f64) {
@@ -220,7 +220,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         }
         let mut direction = SVector::<f64, N>::zeros();
         if independent {
-            for (column, &part) in columns(&self.factor).zip(&projection).skip(self.active) {
+            for (column, &part) in columns(&self.factor).zip(projection.as_slice()).skip(self.active) {
                 add_scaled(direction.as_mut_slice(), part, column);
             }
             add_scaled(self.solution.as_mut_slice(), step, direction.as_slice());
@@ -239,9 +239,8 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
 
     /// The row violated most, if any is.
     fn most_violated(&self, rows: &impl Rows<N, M>) -> Option<PendingRow> {
-        let [lower, upper] = rows.bounds().map(|bounds| bounds.as_slice());
-        let given_up = self.given_up.as_slice();
-        let mut search = Search { lower, upper, given_up, worst: FEASIBLE, found: None };
+        let [lower, upper] = rows.bounds();
+        let mut search = Search { lower, upper, given_up: &self.given_up, worst: FEASIBLE, found: None };
         rows.evaluate(&self.solution, &mut search);
         search.found
     }
@@ -249,8 +248,9 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     /// Sets `projection` to J' times a row's normal, which points inwards on this side.
     fn project(&self, normal: &[f64], side: f64, projection: &mut [f64]) {
         let used = span(normal);
+        let normal = &normal[used.clone()];
         for (value, column) in projection.iter_mut().zip(columns(&self.factor)) {
-            *value = side * dot(&column[used.clone()], &normal[used.clone()]);
+            *value = side * dot(&column[used.clone()], normal);
         }
     }
 
@@ -289,8 +289,9 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         for (value, column) in reflected.iter_mut().zip(&self.factor.as_slice()[first * N..]) {
             *value = (*value - length * column) / half_squared;
         }
-        for (k, column) in self.factor.as_mut_slice().chunks_exact_mut(N).enumerate().skip(first) {
-            let part = if k == first { projection[k] - length } else { projection[k] };
+        let columns = self.factor.as_mut_slice().as_chunks_mut::<N>().0;
+        for (k, (column, &projected)) in columns.iter_mut().zip(projection).enumerate().skip(first) {
+            let part = if k == first { projected - length } else { projected };
             add_scaled(column, -part, reflected);
         }
         let column = &mut self.triangle.as_mut_slice()[first * N..];
@@ -314,22 +315,22 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
                 continue;
             }
             let (cos, sin) = (a / length, b / length);
-            for column in k..self.active {
-                let (above, below) = (self.triangle[(k, column)], self.triangle[(k + 1, column)]);
-                self.triangle[(k, column)] = cos * above + sin * below;
-                self.triangle[(k + 1, column)] = cos * below - sin * above;
+            for column in self.triangle.as_mut_slice().chunks_exact_mut(N).take(self.active).skip(k) {
+                let (above, below) = (column[k], column[k + 1]);
+                (column[k], column[k + 1]) = (cos * above + sin * below, cos * below - sin * above);
             }
-            for i in 0..N {
-                let (left, right) = (self.factor[(i, k)], self.factor[(i, k + 1)]);
-                self.factor[(i, k)] = cos * left + sin * right;
-                self.factor[(i, k + 1)] = cos * right - sin * left;
+            let (left, right) = self.factor.as_mut_slice()[k * N..(k + 2) * N].split_at_mut(N);
+            for (left, right) in left.iter_mut().zip(right) {
+                (*left, *right) = (cos * *left + sin * *right, cos * *right - sin * *left);
             }
         }
     }
 }
 
-fn columns<const N: usize>(matrix: &SMatrix<f64, N, N>) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSizeIterator {
-    matrix.as_slice().chunks_exact(N)
+fn columns<const N: usize>(
+    matrix: &SMatrix<f64, N, N>,
+) -> impl DoubleEndedIterator<Item = &[f64; N]> + ExactSizeIterator {
+    matrix.as_slice().as_chunks::<N>().0.iter()
 }
 
 /// From the first to the last value that is not zero.
@@ -342,7 +343,13 @@ fn span(values: &[f64]) -> Range<usize> {
 /// Adds `factor` times `other`. A factor of zero is frequent: the axes of a plan hardly meet.
 fn add_scaled(values: &mut [f64], factor: f64, other: &[f64]) {
     if factor != 0.0 {
-        for (value, other) in values.iter_mut().zip(other) {
+        // Fours of values stay in registers.
+        let ((fours, rest), (others, others_rest)) = (values.as_chunks_mut::<4>(), other.as_chunks::<4>());
+        for (four, other) in fours.iter_mut().zip(others) {
+            let [a, b, c, d] = *four;
+            *four = [a + factor * other[0], b + factor * other[1], c + factor * other[2], d + factor * other[3]];
+        }
+        for (value, other) in rest.iter_mut().zip(others_rest) {
             *value += factor * other;
         }
     }

@@ -28,7 +28,7 @@ impl<const N: usize, const M: usize> DenseRows<N, M> {
 }
 
 impl<const N: usize, const M: usize> Rows<N, M> for DenseRows<N, M> {
-    fn evaluate(&self, point: &SVector<f64, N>, search: &mut Search) {
+    fn evaluate(&self, point: &SVector<f64, N>, search: &mut Search<M>) {
         for (row, normal) in self.normals.iter().enumerate().take(M) {
             search.see(row, normal.dot(point));
         }

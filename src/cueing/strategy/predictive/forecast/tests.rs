@@ -56,7 +56,7 @@ fn over_a_longer_horizon_a_forecast_keeps_its_integral_and_fades() {
     let forecast = Forecast { means: SVector::from_fn(|k, _| 1.0 + k as f64), end: [2.0, 0.5] };
     assert!((forecast.over(Horizon::Near).means - forecast.means).amax() < 1e-12);
     let far = forecast.over(Horizon::Far);
-    let sum = |means: &SVector<f64, BLOCKS>, horizon: Horizon| means.dot(&SVector::from(horizon.durations()));
+    let sum = |means: &SVector<f64, BLOCKS>, horizon: Horizon| means.dot(&SVector::from(*horizon.durations()));
     let [slow, fast] = FADE_DECAY;
     let tail = 2.0 * (1.0 - (-slow * FORECAST).exp()) / slow + 0.5 * (1.0 - (-fast * FORECAST).exp()) / fast;
     let expected = sum(&forecast.means, Horizon::Near) + tail;
