@@ -54,7 +54,7 @@ def run(moris, args, cwd=None):
             result["json"] = json.loads(said)
         for file in sorted(path for path in Path(folder).rglob("*") if path.is_file()):
             name = str(file.relative_to(folder))
-            tables = column_digests(file) if name.endswith(".csv") else {"": digest(file.read_bytes())}
+            tables = column_digests(file) if name.endswith(".csv") else {"": digest(file.read_bytes().replace(folder.encode(), b"{out}"))}
             result |= {f"file {name} {column}": value for column, value in tables.items()}
         return result
 

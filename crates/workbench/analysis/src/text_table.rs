@@ -37,6 +37,16 @@ impl TextTable {
         self.rows.push(row);
     }
 
+    /// The table in Markdown, with columns aligned for those who read it as text.
+    pub fn markdown(&self) -> String {
+        let widths: Vec<usize> = (0..self.rows[0].len()).map(|column| self.width(column).max(3)).collect();
+        let cell = |(cell, &width): (&String, &usize)| format!("| {cell:<width$} ");
+        let line = |row: &Vec<String>| row.iter().zip(&widths).map(cell).collect::<String>() + "|\n";
+        let rule = widths.iter().map(|width| format!("|{}", "-".repeat(width + 2))).collect::<String>() + "|\n";
+        let lines: Vec<String> = self.rows.iter().map(line).collect();
+        [&lines[..1], &[rule], &lines[1..]].concat().concat()
+    }
+
     fn width(&self, column: usize) -> usize {
         self.rows.iter().map(|row| row[column].chars().count()).fold(0, usize::max)
     }

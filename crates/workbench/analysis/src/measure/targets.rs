@@ -1,9 +1,13 @@
 //! Figures that a set of parameters is to reach, and those that it misses.
 
+use moris_simulation::capitalised;
 use moris_simulation::channels::ChannelFigures;
+use moris_simulation::frequency_response::channel::name;
 use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
+use crate::message::Message;
+use crate::texts::text;
 
 /// A force on which less than this is desired does not count; an error below it
 /// counts as this \[m/s2\].
@@ -74,48 +78,39 @@ pub fn wrong_cues(recordings: &[MeasuredRecording], axis: Axis) -> [f64; 2] {
     wrong
 }
 
-/// A target that is missed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Missed<'a> {
-    /// The geometric mean over so many channels \[m/s2\].
-    GeometricMean { channels: usize, mean: f64 },
-    /// The ratio on a channel.
-    Ratio { recording: &'a MeasuredRecording, channel: &'a ChannelFigures },
-    /// The error of heave.
-    Heave { recording: &'a MeasuredRecording, channel: &'a ChannelFigures },
-    /// The fraction of a recording's steps with a limit.
-    Limited { recording: &'a MeasuredRecording },
-    /// The fractions of the time of [`wrong_cues`].
-    Cues { axis: Axis, wrong: f64, at_rest: f64 },
-}
-
 impl Targets {
-    /// The targets that are missed.
-    pub fn missed<'a>(&self, recordings: &'a [MeasuredRecording]) -> Vec<Missed<'a>> {
+    /// The targets that are missed, in sentences with the options that set them.
+    pub fn missed(&self, recordings: &[MeasuredRecording]) -> Vec<Message> {
         let (mean, channels) = geometric_mean(recordings);
-        let mean = (mean > self.geometric_mean).then_some(Missed::GeometricMean { channels, mean });
+        let allowed = self.geometric_mean;
+        let mean = (mean > allowed).then(|| text!["mean-above-target", channels, mean, allowed]);
         let of_axis = |axis: Axis| {
             let [wrong, at_rest] = wrong_cues(recordings, axis);
-            (wrong > at_rest + self.cues).then_some(Missed::Cues { axis, wrong, at_rest })
+            let (channel, percent) = (capitalised(name(axis)), [100.0 * wrong, 100.0 * at_rest]);
+            let is_missed = wrong > at_rest + self.cues;
+            is_missed.then(|| text!["cues-above-target", channel, wrong = percent[0], at_rest = percent[1]])
         };
         let cues = [Axis::Roll, Axis::Pitch, Axis::Yaw].into_iter().filter_map(of_axis);
         let on_recordings = recordings.iter().flat_map(|recording| self.missed_on(recording));
         mean.into_iter().chain(on_recordings).chain(cues).collect()
     }
 
-    fn missed_on<'a>(&self, recording: &'a MeasuredRecording) -> Vec<Missed<'a>> {
+    fn missed_on(&self, recording: &MeasuredRecording) -> Vec<Message> {
         let mut missed = Vec::new();
-        let excepted = self.ratio_except.contains(&recording.name);
+        let recorded = &recording.name;
         for channel in &recording.channels {
-            if counts(channel) && !excepted && channel.ratio() > self.ratio {
-                missed.push(Missed::Ratio { recording, channel });
+            let (error, ratio, at_rest) = (channel.felt.rms_error, channel.ratio(), channel.at_rest);
+            if counts(channel) && !self.ratio_except.contains(recorded) && ratio > self.ratio {
+                let (channel, allowed) = (name(channel.axis), self.ratio);
+                missed.push(text!["ratio-above-target", recorded, channel, error, ratio, at_rest, allowed]);
             }
-            if channel.axis == Axis::Heave && channel.felt.rms_error > channel.at_rest + self.heave {
-                missed.push(Missed::Heave { recording, channel });
+            if channel.axis == Axis::Heave && error > at_rest + self.heave {
+                missed.push(text!["heave-above-target", recorded, error, allowed = self.heave, at_rest]);
             }
         }
         if recording.limited > self.limited {
-            missed.push(Missed::Limited { recording });
+            let (percent, allowed) = (100.0 * recording.limited, 100.0 * self.limited);
+            missed.push(text!["limits-above-target", recorded, percent, allowed]);
         }
         missed
     }

@@ -9,8 +9,9 @@ use moris_washout::platform::reach::Axis;
 
 use super::cost::{Channels, Cost, Objective};
 use super::tuner::WORST_RATIO;
-use crate::message::{Words, given, named};
-use crate::text_table::or_undefined;
+use crate::message::{Message, Words};
+use crate::text_table::{TextTable, or_undefined};
+use crate::texts::text;
 
 /// A recording before and after.
 #[derive(Clone, Debug)]
@@ -101,21 +102,14 @@ fn recording_losses(before: &Cost, after: &Cost) -> Vec<String> {
 
 /// The most important result in a sentence. `fraction` is that of [`super::tested::Tested`].
 pub fn first_line(results: &[RecordingResult], fraction: f64, words: Words) -> String {
-    match Verdict::of(results, fraction) {
-        Verdict::Unchanged => format!(
-            "UNCHANGED: no fraction of the way to the best parameters for these recordings is better on recordings left out. \
-             With {} the result goes all the way.",
-            words(&given("folds", 0))
-        ),
-        Verdict::Unknown => "No recording was held out: nothing is known of other recordings.".to_owned(),
-        Verdict::Worse => worse_line(results),
-        Verdict::Better => {
-            format!("Better than before on recordings that it was not tuned on: {}.", mean_figures(results))
-        }
-        Verdict::NotClear => {
-            format!("Not clearly better than before on recordings that it was not tuned on: {}.", mean_figures(results))
-        }
-    }
+    let line = match Verdict::of(results, fraction) {
+        Verdict::Unchanged => text!["tuning-unchanged"],
+        Verdict::Unknown => text!["tuning-unknown"],
+        Verdict::Worse => worse_line(results).into(),
+        Verdict::Better => text!["tuning-better", figures = mean_figures(results)],
+        Verdict::NotClear => text!["tuning-not-clear", figures = mean_figures(results)],
+    };
+    line.worded(words)
 }
 
 /// The recordings on which it is worse, with what is worse on each.
@@ -166,14 +160,9 @@ pub fn text(
         text.push_str("The search was interrupted; this is the best result so far.\n\n");
     }
     if 0.0 < fraction && fraction < 1.0 {
-        text += &format!(
-            "The result goes {:.0} % of the way to the best parameters for these recordings: that is best for recordings left out. \
-             With {} it goes all the way.\n\n",
-            100.0 * fraction,
-            words(&given("folds", 0))
-        );
+        text += &text!["tuning-part-of-the-way", percent = 100.0 * fraction].worded(words);
     }
-    let verdict = verdict_text(results, &before.parameters_name, words);
+    let verdict = verdict_text(results, &before.parameters_name).worded(words);
     let tables = [
         error_table(results),
         shape_table(results),
@@ -185,58 +174,31 @@ pub fn text(
 }
 
 /// The mean errors before and after in a few sentences, on recordings tuned on and on others.
-fn verdict_text(results: &[RecordingResult], before_name: &str, words: Words) -> String {
+fn verdict_text(results: &[RecordingResult], name: &str) -> Message {
     let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
-    let unseen = Comparison::unseen(results);
-    let mut text = String::new();
-    if let Some(tuned) = tuned {
-        text += &format!(
-            "On the recordings that it was tuned on, the mean error goes from {:.3} to {:.3}",
-            tuned.before, tuned.after
-        );
-        match tuned.limited_before {
-            _ if tuned.before == tuned.after => text.push('.'),
-            0 => text.push('.'),
-            count => {
-                text += &format!(
-                    "; limits were active or the reserve was used on {count} of {} with {before_name}, on none when tuned.",
-                    tuned.recordings
-                )
-            }
-        }
-    }
-    text.push_str(&without_result(results, words));
-    let Some(unseen) = unseen else {
-        text.push_str(if results.iter().any(|result| result.infeasible_without) {
-            " Nothing is known of other recordings."
-        } else {
-            " No recording was held out: nothing is known of other recordings."
+    let mut text = Message::default();
+    if let Some(Comparison { recordings, before, after, limited_before, .. }) = tuned {
+        text.push(text!["tuning-errors", before, after]);
+        text.push(match limited_before {
+            count if count > 0 && before != after => text!["tuning-limits", count, recordings, name],
+            _ => ".".into(),
         });
+    }
+    let without = results.iter().filter(|result| result.infeasible_without).map(|result| result.name.as_str());
+    let without = without.collect::<Vec<_>>().join(", or ");
+    if !without.is_empty() {
+        text.push(text!["tuning-without", recordings = &without]);
+    }
+    let Some(unseen) = Comparison::unseen(results) else {
+        let other = if without.is_empty() { text!["tuning-unknown"] } else { text!["tuning-unknown-without"] };
+        text.push(" ");
+        text.push(other);
         return text;
     };
     let Comparison { recordings, before, after, better, .. } = unseen;
-    text += &format!(
-        "\n\nOn recordings that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {recordings}. \
-         Limits are active, or the reserve of stroke is used, for {:.2} % of their time, with {before_name} for {:.2} %.",
-        100.0 * unseen.violated_after,
-        100.0 * unseen.violated_before
-    );
+    let (limited, limited_before) = (100.0 * unseen.violated_after, 100.0 * unseen.violated_before);
+    text.push(text!["tuning-errors-unseen", before, after, better, recordings, limited, name, limited_before]);
     text
-}
-
-/// Without which recordings nothing was found; empty where there are none.
-fn without_result(results: &[RecordingResult], words: Words) -> String {
-    let recordings: Vec<&str> =
-        results.iter().filter(|result| result.infeasible_without).map(|result| result.name.as_str()).collect();
-    if recordings.is_empty() {
-        return String::new();
-    }
-    format!(
-        "\n\nTuned without {}, no parameters were found that keep the limits on the others: nothing is known of it as a recording not tuned on. \
-         More {} may find some.",
-        recordings.join(", or "),
-        words(&named("evaluations"))
-    )
 }
 
 /// Errors before and after over some recordings.
@@ -424,24 +386,10 @@ fn unit_of(name: &str) -> &'static str {
     }
 }
 
-/// A Markdown table whose columns are aligned for those who read it as text.
 fn markdown_table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
-    let mut all = vec![header.map(str::to_owned)];
-    all.extend(rows);
-    let widths: [usize; N] =
-        std::array::from_fn(|k| all.iter().map(|row| row[k].chars().count()).max().unwrap_or(0).max(3));
-    let mut text = String::new();
-    for (index, row) in all.iter().enumerate() {
-        for (cell, &width) in row.iter().zip(&widths) {
-            text += &format!("| {cell:<width$} ");
-        }
-        text.push_str("|\n");
-        if index == 0 {
-            widths.iter().for_each(|width| text.push_str(&format!("|{}", "-".repeat(width + 2))));
-            text.push_str("|\n");
-        }
-    }
-    text
+    let mut table = TextTable::new(header);
+    rows.for_each(|row| table.push(row.into()));
+    table.markdown()
 }
 
 #[cfg(test)]
@@ -511,7 +459,11 @@ mod tests {
         let (found, line) = judged(&results);
         assert_eq!(found, Verdict::Better);
         assert!(line.ends_with("mean error 0.733 → 0.607, smaller on 2 of 3, no limit active."), "{line}");
-        assert!(verdict_text(&results, "default", words).contains("goes from 0.733 to 0.607; it is better on 2 of 3"));
+        assert!(
+            verdict_text(&results, "default")
+                .worded(words)
+                .contains("goes from 0.733 to 0.607; it is better on 2 of 3")
+        );
     }
 
     #[test]
@@ -521,7 +473,7 @@ mod tests {
 
     #[test]
     fn what_was_not_held_out_is_not_claimed() {
-        let text = verdict_text(&[result(cost(0.8, 0.02), None)], "default", words);
+        let text = verdict_text(&[result(cost(0.8, 0.02), None)], "default").worded(words);
         assert!(text.contains("No recording was held out: nothing is known of other recordings."), "{text}");
         assert!(text.contains("limits were active or the reserve was used on 1 of 1 with default"), "{text}");
     }
@@ -530,13 +482,13 @@ mod tests {
     fn a_ride_without_which_nothing_was_found_is_named_and_does_not_count() {
         let found = result(cost(0.8, 0.0), Some(cost(0.6, 0.0)));
         let not = RecordingResult { name: "wild".to_owned(), infeasible_without: true, ..result(cost(0.9, 0.0), None) };
-        let text = verdict_text(&[found.clone(), not.clone()], "default", words);
+        let text = verdict_text(&[found.clone(), not.clone()], "default").worded(words);
         assert!(text.contains("Tuned without wild, no parameters were found"), "{text}");
         assert!(text.contains("better on 1 of 1"), "{text}");
         assert!(
             error_table(&[found, not.clone()]).lines().any(|line| line.contains("wild") && line.contains("none found"))
         );
-        let text = verdict_text(&[not], "default", words);
+        let text = verdict_text(&[not], "default").worded(words);
         assert!(text.ends_with("Nothing is known of other recordings.") && !text.contains("held out"), "{text}");
     }
 

@@ -2,7 +2,8 @@
 
 use moris_analysis::host::{Host, Inputs};
 use moris_analysis::measure::MeasuredRecording;
-use moris_analysis::measure::targets::{Missed, Targets, geometric_mean, wrong_cues};
+use moris_analysis::measure::targets::{geometric_mean, wrong_cues};
+use moris_analysis::message::Message;
 use moris_setup::Setup;
 use moris_simulation::capitalised;
 use moris_simulation::channels::ChannelFigures;
@@ -11,55 +12,15 @@ use moris_simulation::measures::comfort::{Comfort, Excess};
 use moris_washout::platform::reach::Axis;
 
 use crate::text_table::{Column, TextTable, or_undefined};
+use crate::words::option;
 
 /// Everything: the channels, the limits, the summary and the targets missed.
-pub fn text(
-    setup: &Setup,
-    host: &Host,
-    recordings: &[MeasuredRecording],
-    targets: &Targets,
-    missed: &[Missed],
-) -> String {
+pub fn text(setup: &Setup, host: &Host, recordings: &[MeasuredRecording], missed: &[Message]) -> String {
     let mut text = format!("{}, parameters {}, {}\n\n", setup.rig_name, setup.parameters_name, host_text(host));
     text += &format!("{}\n{}\n{}", channel_table(recordings), limit_table(recordings), summary_text(recordings));
     text += if missed.is_empty() { "All targets are met.\n" } else { "Targets missed:\n" };
-    text.extend(missed.iter().map(|missed| format!("  {}\n", missed_sentence(targets, missed))));
+    text.extend(missed.iter().map(|missed| format!("  {}\n", missed.worded(option))));
     text
-}
-
-/// A missed target with the option that sets it.
-fn missed_sentence(targets: &Targets, missed: &Missed) -> String {
-    match missed {
-        Missed::GeometricMean { channels, mean } => format!(
-            "The geometric mean over {channels} channels, {mean:.3} m/s², exceeds {:.3} m/s² (--geometric-mean).",
-            targets.geometric_mean
-        ),
-        Missed::Ratio { recording, channel } => format!(
-            "{}, {}: {:.3} m/s² is {:.2} times the {:.3} m/s² of a platform at rest and exceeds {:.2} times (--ratio).",
-            recording.name,
-            name(channel.axis),
-            channel.felt.rms_error,
-            channel.ratio(),
-            channel.at_rest,
-            targets.ratio
-        ),
-        Missed::Heave { recording, channel } => format!(
-            "{}, heave: {:.3} m/s² exceeds by more than {:.2} m/s² (--heave) the {:.3} m/s² of a platform at rest.",
-            recording.name, channel.felt.rms_error, targets.heave, channel.at_rest
-        ),
-        Missed::Limited { recording } => format!(
-            "{}: limits are active in {:.1} % of the steps, above {:.1} % (--limited).",
-            recording.name,
-            100.0 * recording.limited,
-            100.0 * targets.limited
-        ),
-        Missed::Cues { axis, wrong, at_rest } => format!(
-            "{}: false or missing cues for {:.1} % of the time exceed the {:.1} % of a platform at rest (--cues).",
-            capitalised(name(*axis)),
-            100.0 * wrong,
-            100.0 * at_rest
-        ),
-    }
 }
 
 fn host_text(host: &Host) -> String {
