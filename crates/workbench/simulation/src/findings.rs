@@ -95,10 +95,8 @@ fn fit_finding(outcome: &Evaluated) -> Finding {
         ),
         (hard, soft) => {
             let soft = soft.map_or_else(String::new, |soft| format!(" {soft} {GIVEN_UP}"));
-            new_finding(
-                Weight::Warning,
-                format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" ")),
-            )
+            let text = format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" "));
+            new_finding(Weight::Warning, text)
         }
     }
 }
@@ -154,15 +152,11 @@ fn sickness_finding(measures: &Measures) -> Option<Finding> {
     const SICKNESS_RATIO: f64 = 2.0;
     let [vehicle, platform] = measures.rider.sick;
     let weight = if platform > vehicle + SICKNESS_RATIO { Weight::Warning } else { Weight::Note };
-    (vehicle.max(platform) >= LEAST_SICK).then(|| {
-        new_finding(
-            weight,
-            format!(
-                "Motion sickness: half an hour of this ride makes {vehicle:.0} % of people sick, the same of the platform's motion \
-                 {platform:.0} % (a model of passengers, without vision)."
-            ),
-        )
-    })
+    let text = format!(
+        "Motion sickness: half an hour of this ride makes {vehicle:.0} % of people sick, the same of the platform's motion \
+         {platform:.0} % (a model of passengers, without vision)."
+    );
+    (vehicle.max(platform) >= LEAST_SICK).then(|| new_finding(weight, text))
 }
 
 /// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.
@@ -197,11 +191,10 @@ fn shape_finding(outcome: &Evaluated) -> Option<Finding> {
     let shape = &outcome.measures.shape;
     let (most, inverted) = shape.most_inverted()?;
     let of_axes = |value: &dyn Fn(&AxisShape) -> String| {
-        let axes =
-            shape.axes.iter().zip(FORCE_AXIS_NAMES).filter_map(|(axis, name)| {
-                axis.as_ref().map(|axis| format!("{} in {}", value(axis), name.to_lowercase()))
-            });
-        axes.collect::<Vec<_>>().join(", ")
+        let named = |(axis, name): (&Option<AxisShape>, &str)| {
+            Some(format!("{} in {}", value(axis.as_ref()?), name.to_lowercase()))
+        };
+        shape.axes.iter().zip(FORCE_AXIS_NAMES).filter_map(named).collect::<Vec<_>>().join(", ")
     };
     let shapes = of_axes(&|axis| format!("{:.2}", axis.shape));
     let sizes = of_axes(&|axis| format!("{:.0} %", 100.0 * axis.size));
@@ -301,14 +294,8 @@ impl ChannelFigures {
             return None;
         }
         let (weight, verdict) = if self.is_worse_than_rest() {
-            (
-                Weight::Warning,
-                if is_desired {
-                    "has a larger error than a platform at rest"
-                } else {
-                    "is felt though hardly any is desired"
-                },
-            )
+            let (larger, felt) = ("has a larger error than a platform at rest", "is felt though hardly any is desired");
+            (Weight::Warning, if is_desired { larger } else { felt })
         } else if rms_error <= FAITHFUL_ERROR * self.at_rest {
             (Weight::Good, "is reproduced well")
         } else if rms_error > WORSE_THAN_REST * self.at_rest {

@@ -33,11 +33,8 @@ impl Evaluation {
     /// There are too few poses.
     pub fn of(poses: &[[f64; 6]], inputs: &[Input], step: f64, parameters: &Parameters) -> Result<Self, ForeignError> {
         if poses.len() < MIN_DERIVATIVE_SAMPLES {
-            return Err(ForeignError::TooShort {
-                argument: "pose",
-                found: poses.len(),
-                fewest: MIN_DERIVATIVE_SAMPLES,
-            });
+            let (found, fewest) = (poses.len(), MIN_DERIVATIVE_SAMPLES);
+            return Err(ForeignError::TooShort { argument: "pose", found, fewest });
         }
         let parts = (poses.len() - 1) / (inputs.len() - 1);
         let step = step / parts as f64;

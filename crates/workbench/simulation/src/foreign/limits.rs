@@ -47,7 +47,8 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
     // Excesses up to these count as none: of a length [m], and relative of speed and acceleration.
     const LENGTH_TOLERANCE: f64 = 1e-6;
     const LIMIT_TOLERANCE: f64 = 1e-3;
-    let [start, end] = rig.stroke();
+    let (tolerance, [start, end]) = (1.0 + LIMIT_TOLERANCE, rig.stroke());
+    let (speed_limit, acceleration_limit) = (rig.velocity_limit, rig.acceleration_limit);
     let parts = (legs.len() - 1) / (outputs.len() - 1);
     let step = step / parts as f64;
     let mut exceeds = vec![false; legs.len()];
@@ -55,22 +56,13 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
     for leg in 0..6 {
         let lengths: Vec<f64> = legs.iter().map(|lengths| lengths[leg]).collect();
         let rates = means(&lengths, step);
-        for (k, (&length, [speed, acceleration])) in lengths.iter().zip(rates).enumerate() {
+        for (k, (&length, rates)) in lengths.iter().zip(rates).enumerate() {
+            let [speed, acceleration] = rates.map(f64::abs);
             let beyond = [
                 (Limit::Shortest, length, start, start - length - LENGTH_TOLERANCE),
                 (Limit::Longest, length, end, length - end - LENGTH_TOLERANCE),
-                (
-                    Limit::Speed,
-                    speed.abs(),
-                    rig.velocity_limit,
-                    speed.abs() - (1.0 + LIMIT_TOLERANCE) * rig.velocity_limit,
-                ),
-                (
-                    Limit::Acceleration,
-                    acceleration.abs(),
-                    rig.acceleration_limit,
-                    acceleration.abs() - (1.0 + LIMIT_TOLERANCE) * rig.acceleration_limit,
-                ),
+                (Limit::Speed, speed, speed_limit, speed - tolerance * speed_limit),
+                (Limit::Acceleration, acceleration, acceleration_limit, acceleration - tolerance * acceleration_limit),
             ];
             for (limit, value, allowed, beyond) in beyond.into_iter().filter(|(.., beyond)| *beyond > 0.0) {
                 exceeds[k] = true;

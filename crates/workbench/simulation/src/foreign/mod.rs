@@ -121,18 +121,17 @@ impl ForeignMotion {
         if let (Some(legs), Some(_), Some(moved)) = (legs, pose, &moved) {
             foreign.suspicions.extend(plausible::other_legs(legs, &moved.legs));
         }
+        let mut write = |series: &[[f64; 3]], of: fn(&mut Output) -> &mut Vector3<f64>| {
+            let parts = (series.len() - 1) / (samples - 1);
+            let at_samples = outputs.iter_mut().zip(series.iter().step_by(parts));
+            at_samples.for_each(|(output, felt)| *of(output) = (*felt).into());
+        };
         if let Some(force) = force {
-            let parts = (force.len() - 1) / (samples - 1);
-            for (output, felt) in outputs.iter_mut().zip(force.iter().step_by(parts)) {
-                output.felt_specific_force = (*felt).into();
-            }
+            write(force, |output| &mut output.felt_specific_force);
             felt_within_steps.clone_from(force);
         }
         if let Some(rate) = rate {
-            let parts = (rate.len() - 1) / (samples - 1);
-            for (output, felt) in outputs.iter_mut().zip(rate.iter().step_by(parts)) {
-                output.felt_angular_velocity = (*felt).into();
-            }
+            write(rate, |output| &mut output.felt_angular_velocity);
         }
         let felt_within_steps = felt_within_steps.into_iter().map(Into::into).collect();
         let mut simulation = Simulation {

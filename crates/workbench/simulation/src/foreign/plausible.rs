@@ -22,8 +22,9 @@ pub fn check(
     // Lengths and heights beyond this multiple of the rig's cannot be meant.
     const MAX_SIZE_RATIO: f64 = 5.0;
     let rig = &parameters.rig;
+    let refused = |argument, reason: String| Err(ForeignError::Implausible { argument, reason });
     if let Some(pose) = pose {
-        let refused = |reason: String| Err(ForeignError::Implausible { argument: "pose", reason });
+        let refused = |reason: String| refused("pose", reason);
         let neutral = rig.neutral_height;
         let height = median(pose.iter().map(|pose| pose[2]));
         if height.abs() > MAX_SIZE_RATIO * neutral {
@@ -45,22 +46,18 @@ pub fn check(
         }
     }
     if legs.is_some() && rig.has_cranks() {
-        return Err(ForeignError::Implausible {
-            argument: "legs",
-            reason: "the rig has cranks, whose lengths follow from the pose; give the pose in their place".to_owned(),
-        });
+        let reason = "the rig has cranks, whose lengths follow from the pose; give the pose in their place";
+        return refused("legs", reason.to_owned());
     }
     if let Some(legs) = legs {
         let length = median(legs.iter().flatten().copied());
         if !(rig.min_length / MAX_SIZE_RATIO..rig.max_length * MAX_SIZE_RATIO).contains(&length) {
-            return Err(ForeignError::Implausible {
-                argument: "legs",
-                reason: format!(
-                    "the lengths are {length:.3} m at the median, but an actuator has {} to {} m from joint to joint; check the unit \
-                     (m), and add the shortest length to strokes",
-                    rig.min_length, rig.max_length
-                ),
-            });
+            let (least, greatest) = (rig.min_length, rig.max_length);
+            let reason = format!(
+                "the lengths are {length:.3} m at the median, but an actuator has {least} to {greatest} m from joint to joint; check the \
+                 unit (m), and add the shortest length to strokes"
+            );
+            return refused("legs", reason);
         }
     }
     Ok(())
@@ -163,13 +160,9 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
     }
     let mut found = Vec::new();
     for (axis, name) in ["Surge", "Sway"].into_iter().enumerate() {
-        let pairs = || {
-            simulation
-                .inputs
-                .iter()
-                .zip(&simulation.outputs)
-                .map(move |(input, output)| [input.specific_force[axis], output.felt_specific_force[axis]])
-        };
+        let samples = || simulation.inputs.iter().zip(&simulation.outputs);
+        let pairs =
+            || samples().map(move |(input, output)| [input.specific_force[axis], output.felt_specific_force[axis]]);
         let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RMS[0]) else { continue };
         if correlation < OPPOSED_CORRELATION {
             found.push(format!(
@@ -187,12 +180,8 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
     }
     let rates = if has_rate { simulation.desired_rates() } else { Vec::new() };
     for (axis, name) in ["Roll rate", "Pitch rate", "Yaw rate"].into_iter().enumerate() {
-        let pairs = || {
-            rates
-                .iter()
-                .zip(&simulation.outputs)
-                .map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]])
-        };
+        let samples = || rates.iter().zip(&simulation.outputs);
+        let pairs = || samples().map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]]);
         let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RMS[1]) else { continue };
         if correlation > -OPPOSED_CORRELATION && size > 10.0 {
             found.push(format!(

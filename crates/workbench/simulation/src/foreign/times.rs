@@ -25,19 +25,12 @@ pub fn on_samples<const N: usize>(
     const COUNT_ROUNDING: f64 = 1e-6;
     let refused = |reason: String| ForeignError::Implausible { argument, reason };
     if times.len() < 2 || times.len() != values.len() {
-        return Err(refused(format!(
-            "has {} times for {} rows; give a time for each of at least two",
-            times.len(),
-            values.len()
-        )));
+        let (times, rows) = (times.len(), values.len());
+        return Err(refused(format!("has {times} times for {rows} rows; give a time for each of at least two")));
     }
     if let Some(k) = times.windows(2).position(|pair| pair[1].is_nan() || pair[1] <= pair[0]) {
-        return Err(refused(format!(
-            "time {} s of row {} follows {} s; time must increase",
-            times[k + 1],
-            k + 1,
-            times[k]
-        )));
+        let (before, after) = (times[k], times[k + 1]);
+        return Err(refused(format!("time {after} s of row {} follows {before} s; time must increase", k + 1)));
     }
     if let Some(k) = times.iter().position(|time| !time.is_finite()) {
         return Err(refused(format!("time of row {k} is {}; every time must be a finite number", times[k])));
@@ -51,10 +44,9 @@ pub fn on_samples<const N: usize>(
     let mean = (times[last] - times[0]) / last as f64;
     let tolerance = TIME_TOLERANCE * step + mean;
     if time(0) > tolerance || time(last) < end - tolerance {
+        let (from, to) = (time(0), time(last));
         return Err(refused(format!(
-            "covers {} to {} s, but the recording 0 to {end} s; compute the whole recording, on its times",
-            time(0),
-            time(last)
+            "covers {from} to {to} s, but the recording 0 to {end} s; compute the whole recording, on its times"
         )));
     }
     let parts = (step / mean).round().max(1.0) as usize;

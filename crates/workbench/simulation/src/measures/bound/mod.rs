@@ -183,12 +183,8 @@ fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
     limit("velocity", velocity, velocity > 0.0, "above 0")?;
     limit("acceleration", acceleration, acceleration > 0.0, "above 0")?;
     let Some(TiltLimits { angle, rate, acceleration, head_height, gravity }) = tilt else { return Ok(()) };
-    limit(
-        "tilt angle",
-        angle,
-        angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2,
-        "above 0 and at most a right angle",
-    )?;
+    let is_acute = angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2;
+    limit("tilt angle", angle, is_acute, "above 0 and at most a right angle")?;
     limit("tilt rate", rate, rate > 0.0, "above 0")?;
     limit("tilt acceleration", acceleration, acceleration > 0.0, "above 0")?;
     limit("head height", head_height, true, "a finite number")?;
