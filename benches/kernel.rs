@@ -1,7 +1,7 @@
 //! Benchmarks of the kernel without FMI: a step of the classical strategy, and its parts.
 //!
 //! `cargo bench --bench kernel`. Instruction counts, which do not depend on what else the machine
-//! does, come from `examples/steps.rs` under callgrind (see docs/performance.md).
+//! does, come from `benches/programs/steps.rs` under callgrind (see docs/performance.md).
 
 use std::hint::black_box;
 

@@ -1,7 +1,7 @@
-"""What a step of the kernel is made of: the instructions of `examples/steps.rs`, by kind, as callgrind counts them.
+"""What a step of the kernel is made of: the instructions of `benches/programs/steps.rs`, by kind, as callgrind counts them.
 
     python3 benches/operations.py            # the default parameters
-    python3 benches/operations.py classical  # another ride of `examples/steps.rs`
+    python3 benches/operations.py classical  # another ride of `benches/programs/steps.rs`
 
 Needs valgrind and objdump, and an x86-64 machine. The figures do not depend on what else the machine does.
 """

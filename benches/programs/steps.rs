@@ -18,13 +18,13 @@ use std::hint::black_box;
 
 use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
 
-#[path = "../tests/washout/common/crank_rigs.rs"]
+#[path = "../../tests/washout/common/crank_rigs.rs"]
 #[allow(dead_code)]
 mod crank_rigs;
-#[path = "../tests/washout/common/random.rs"]
+#[path = "../../tests/washout/common/random.rs"]
 #[allow(dead_code)] // The tests use the rest of it.
 mod random;
-#[path = "../benches/common/ride.rs"]
+#[path = "../common/ride.rs"]
 mod ride;
 
 use crank_rigs::{on, person};
