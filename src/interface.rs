@@ -251,13 +251,13 @@ enumeration! {
     pub enum TuningGroup {
         /// The splitter's break frequencies and dampings, twelve in all
         "splitter" Splitter,
-        /// The angular channel's, twelve in all
+        /// The angular channel's break frequencies and dampings, twelve in all
         "angular" Angular,
         /// The scales of specific force and angular velocity, six in all
         "scale" Scale,
         /// The low-passes on the input and on its rates, for recordings with strong vibration
         "cutoff" Cutoff,
-        /// Tilt's limits of rate (to 3 deg/s), acceleration and angle
+        /// Limits of the tilt's rate (to 3 deg/s), acceleration and angle
         "tilt" Tilt,
         /// Weights, gains and poles of the strategy in use; the classical one has none
         "strategy" Strategy,

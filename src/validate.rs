@@ -76,7 +76,7 @@ fn near_an_end(rig: &Rig) -> Option<String> {
     (room < MIN_ROOM_FRACTION * stroke).then(|| {
         format!(
             "rig.neutralHeight is {} m, where a leg is only {room:.4} m from an end of its stroke of {stroke:.3} m: the \
-             platform can hardly move; choose a height at which the legs are near the middle of their stroke",
+             platform can move by little more than that; choose a height at which the legs are near the middle of their stroke",
             rig.neutral_height
         )
     })
@@ -176,7 +176,7 @@ fn unusual_value(row: &Row, name: &str, value: f64) -> Option<String> {
     } else {
         String::new()
     };
-    Some(format!("{name} is {}, but usual are {} to {}{degrees}", with_unit(value), shown(least), with_unit(greatest)))
+    Some(format!("{name} is {}, but the usual range is {} to {}{degrees}", with_unit(value), shown(least), with_unit(greatest)))
 }
 
 /// A value to four digits behind the point.

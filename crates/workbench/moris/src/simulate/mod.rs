@@ -46,7 +46,7 @@ pub(crate) use moris_analysis::page::simulator;
 pub use moris_simulation::findings::{fit, fits_the_rig, is_better_than_rest};
 pub use moris_simulation::{Simulation, measures};
 
-/// Simulate recordings on a rig and report how well they are felt
+/// Simulate recordings on a rig and report the quality of the cues
 ///
 /// Prints the measures of each recording and writes files. NAME.outputs.csv has every input and
 /// output at every sample, by the names of the FMU's variables. NAME.html is a self-contained page

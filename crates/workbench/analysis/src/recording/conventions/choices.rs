@@ -63,9 +63,9 @@ choices! {
 choices! {
     /// Fields that are empty.
     EmptyFields {
-        /// They are errors
+        /// An error
         "error" Error,
-        /// They are interpolated between their neighbours: the channels are
+        /// Interpolated between their neighbours: the channels are
         /// sampled at different rates
         "interpolate" Interpolate,
     }
@@ -74,9 +74,9 @@ choices! {
 choices! {
     /// Columns of specific force and angular velocity that a recording lacks.
     Missing {
-        /// They are errors
+        /// An error
         "error" Error,
-        /// They are as at rest: zero, and g along z
+        /// Values at rest: zero, and g along z
         "rest" Rest,
     }
 }

@@ -24,7 +24,7 @@ pub struct ConventionOptions {
     pub format: Option<Format>,
 
     /// Names of columns that are not called time, ax ay az, wx wy wz: time=t,ax=accel_x. Further
-    /// keys are roll pitch yaw or qw qx qy qz, speed, lean, x y. A sign turns an axis round:
+    /// keys are roll pitch yaw or qw qx qy qz, speed, lean, x y. A minus sign reverses an axis:
     /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
     /// A number scales a column: "ax=counts_x / 16384".
     /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
@@ -89,7 +89,7 @@ pub struct ConventionOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "MISSING"))]
     pub missing: Option<Missing>,
 
-    /// The lap of a recording whose time starts again with each, from 1
+    /// Lap to read, from 1, of a recording whose time restarts with each lap
     #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER"))]
     pub lap: Option<f64>,
 
@@ -102,11 +102,11 @@ pub struct ConventionOptions {
     #[cfg_attr(feature = "clap", arg(long))]
     pub repair: bool,
 
-    /// Samples a second of a recording without a column of time, or in place of its times
+    /// Sample rate of a recording without a time column, or in place of its times
     #[cfg_attr(feature = "clap", arg(long, value_name = "HERTZ"))]
     pub rate: Option<f64>,
 
-    /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
+    /// Resample a recording with unequal steps to this rate, by linear interpolation
     #[cfg_attr(feature = "clap", arg(long, value_name = "HERTZ"))]
     pub resample: Option<f64>,
 
@@ -114,8 +114,8 @@ pub struct ConventionOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "SECONDS", allow_negative_numbers = true))]
     pub fade_in: Option<f64>,
 
-    /// TOML file with these options by the same names (force-unit = "g"), the names of
-    /// columns under columns
+    /// TOML file with these options by the same names (force-unit = "g"); names of columns
+    /// are in its table columns
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE"))]
     #[serde(skip)]
     pub conventions: Option<PathBuf>,
