@@ -176,7 +176,12 @@ fn unusual_value(row: &Row, name: &str, value: f64) -> Option<String> {
     } else {
         String::new()
     };
-    Some(format!("{name} is {}, but the usual range is {} to {}{degrees}", with_unit(value), shown(least), with_unit(greatest)))
+    Some(format!(
+        "{name} is {}, but the usual range is {} to {}{degrees}",
+        with_unit(value),
+        shown(least),
+        with_unit(greatest)
+    ))
 }
 
 /// A value to four digits behind the point.

@@ -56,7 +56,10 @@ fn a_parameter_without_effect_or_beyond_the_usual_range_is_named() {
         of(&[("tilt.rateLimit", 3.0)]),
         ["tilt.rateLimit is 3 rad/s, but the usual range is 0.02 to 0.053 rad/s; in degrees it would be 0.0524 rad/s"]
     );
-    assert_eq!(of(&[("scale.specificForce.x", -1.0)]), ["scale.specificForce.x is -1, but the usual range is 0.01 to 1"]);
+    assert_eq!(
+        of(&[("scale.specificForce.x", -1.0)]),
+        ["scale.specificForce.x is -1, but the usual range is 0.01 to 1"]
+    );
     assert!(of(&[("scale.specificForce.x", 0.0), ("input.rateCutoff", 0.0)]).is_empty(), "0 switches off");
     assert!(of(&[("automaticScale.start", 1.0)]).is_empty(), "files of a fit have it");
     assert_eq!(of(&[("automaticScale.start", 0.5)]).len(), 1);

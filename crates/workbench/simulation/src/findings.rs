@@ -294,12 +294,13 @@ impl ChannelFigures {
             return None;
         }
         let (weight, verdict) = if self.is_worse_than_rest() {
-            let (larger, felt) = ("has a larger error than a platform at rest", "is felt though hardly any is desired");
+            let (larger, felt) =
+                ("has a larger error than a platform at rest", "is felt although nearly none is desired");
             (Weight::Warning, if is_desired { larger } else { felt })
         } else if rms_error <= FAITHFUL_ERROR * self.at_rest {
             (Weight::Good, "is reproduced well")
         } else if rms_error > WORSE_THAN_REST * self.at_rest {
-            (Weight::Note, "has a larger error than a platform at rest, which is hardly sensed")
+            (Weight::Note, "has a larger error than a platform at rest, which is rarely sensed")
         } else {
             (Weight::Note, "is reproduced in part")
         };
@@ -376,7 +377,7 @@ mod tests {
         );
         // It must be sensed as false, too.
         let (weight, text) = of(4.0, 5.8, 0.0);
-        assert!(weight == Weight::Note && text.contains("at rest, which is hardly sensed: "), "{text}");
+        assert!(weight == Weight::Note && text.contains("at rest, which is rarely sensed: "), "{text}");
         let (weight, text) = of(4.0, 3.0, 0.22);
         assert!(
             weight == Weight::Warning
@@ -385,7 +386,7 @@ mod tests {
         assert_eq!(of(4.0, 3.0, 0.06).0, Weight::Note);
         assert_eq!(of(4.0, 0.9, 0.01).0, Weight::Good);
         let (weight, text) = of(0.0, 2.0, 0.08);
-        assert!(weight == Weight::Warning && text.contains("is felt though hardly any is desired"), "{text}");
+        assert!(weight == Weight::Warning && text.contains("is felt although nearly none is desired"), "{text}");
     }
 
     #[test]

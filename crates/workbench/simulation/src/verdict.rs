@@ -68,7 +68,10 @@ impl Evaluated<'_> {
         let soft = if fits_freely(self.measures) { "" } else { " Soft limits take a part of the cues." };
         let Some(fault) = self.fault() else {
             let (weight, text) = match size.as_str() {
-                "" => (Weight::Note, format!("Surge and sway are hardly asked for: there is little to judge.{soft}")),
+                "" => (
+                    Weight::Note,
+                    format!("The recording has nearly no surge or sway: there is little to judge.{soft}"),
+                ),
                 size => (Weight::Good, format!("Felt the right way round{size}.{soft}")),
             };
             return Finding { weight, text };

@@ -250,7 +250,7 @@ fn candidate_words(best: &Candidate) -> String {
     let shape = &best.shape;
     let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
     else {
-        return format!("scale {:.2}: hardly any surge or sway is asked{heave}", factors.scale);
+        return format!("scale {:.2}: nearly no surge or sway is desired{heave}", factors.scale);
     };
     format!(
         "scale {:.2}{breaks}{heave}: shape {least:.2}, felt the wrong way round for {:.1} % of the time, size {size:.2}",

@@ -189,26 +189,26 @@ const ROWS: &[Row] = rows! {
     QUATERNION, "", |k, ride| ride[k] => [], "";
     // Rates of two axes that are exchanged: by the angles, or by bends.
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(0, 1); s }
-        => ["Roll goes with the angular velocity wy, and pitch with wx"], "columns = { wx = 'wy', wy = 'wx' }";
+        => ["Roll follows the angular velocity wy, and pitch follows wx"], "columns = { wx = 'wy', wy = 'wx' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(0, 2); s }
-        => ["Roll goes with the angular velocity wz, and yaw with wx"], "columns = { wx = 'wz', wz = 'wx' }";
+        => ["Roll follows the angular velocity wz, and yaw follows wx"], "columns = { wx = 'wz', wz = 'wx' }";
     ANGLES, "", |k, ride| { let s = ride[k]; Sample { rate: Vector3::new(-s.rate.z, s.rate.y, s.rate.x), ..s } }
         => ["use --columns wx=wz,wz=-wx."], "columns = { wx = 'wz', wz = '-wx' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(1, 2); s }
-        => ["Pitch goes with the angular velocity wz, and yaw with wy"], "columns = { wy = 'wz', wz = 'wy' }";
+        => ["Pitch follows the angular velocity wz, and yaw follows wy"], "columns = { wy = 'wz', wz = 'wy' }";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(0, 2); s }
-        => ["is speed by the angular velocity wx, and not by wz"], "columns = { wx = 'wz', wz = 'wx' }";
+        => ["is speed times the angular velocity wx, not times wz"], "columns = { wx = 'wz', wz = 'wx' }";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.rate.swap_rows(1, 2); s }
-        => ["is speed by the angular velocity wy, and not by wz"], "columns = { wy = 'wz', wz = 'wy' }";
+        => ["is speed times the angular velocity wy, not times wz"], "columns = { wy = 'wz', wz = 'wy' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.force.swap_rows(0, 1); s }
         => ["use --columns ax=ay,ay=ax"], "columns = { ax = 'ay', ay = 'ax' }";
     // Channels that do not show what others do.
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.y -= s.speed * s.rate.z; s }
-        => ["Column ay does not go with speed by yaw rate"], "";
+        => ["Column ay does not follow speed times yaw rate"], "";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.x = 0.003 * noise(k); s }
-        => ["Column ax hardly changes while the speed changes"], "";
+        => ["Column ax is nearly constant while the speed changes"], "";
     SPEED, "", |k, ride| { let mut s = ride[k]; s.rate.z = 0.001 * noise(k); s }
-        => ["Column wz hardly changes while the lateral force is that of bends"], "";
+        => ["Column wz is nearly constant while the lateral force is that of bends"], "";
     SPEED, "", |k, ride| Sample { speed: 9.0, ..ride[k] }
         => ["Column speed is constant, 9, while the force along x changes it"], "";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.force.y = -s.force.x; s }
