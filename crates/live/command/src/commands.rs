@@ -8,8 +8,8 @@ use moris_live::{Event, Legs};
 use rtrb::Producer;
 
 use super::console;
+use super::leg_position::PLACE_COMMANDS;
 use super::page::Order;
-use super::place::PLACE_COMMANDS;
 
 /// Names of the commands.
 pub const COMMAND_NAMES: &str = "start, engage, disengage, park, stop, clear";

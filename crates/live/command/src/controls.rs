@@ -29,7 +29,7 @@ pub struct Controls {
 #[derive(Clone, Copy, Debug, Default)]
 struct Held {
     command: RiderCommand,
-    /// Time of [`super::pace::now`] until which it counts.
+    /// Time of [`super::loop_clock::now`] until which it counts.
     until: Duration,
     begins_again: bool,
 }

@@ -3,17 +3,17 @@
 //! `moris_live` decides; here are its clock, its sockets and its threads:
 //!
 //! - `priority` asks for real time, `lateness` counts how late steps and frames are.
-//! - `console` prints without waiting, `watch` sees the ends of threads, `signals` those of the
-//!   system.
+//! - `console` prints without waiting, `thread_monitor` sees the ends of threads,
+//!   `signals` those of the system.
 //! - `commands` reads lines; `parking` says how long it takes.
-//! - `place` has where the legs are at a start.
+//! - `leg_position` has where the legs are at a start.
 //! - `telemetry_watch` tells what is wrong with it; `terminal` knows whose the terminal is.
 //! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU or a motorcycle.
 //! - `controls` has what the page holds of a vehicle's controls.
-//! - `steps` is the loop of 1 kHz; `pace` its clock.
-//! - `frames` sends frames; `wire` keeps them within the speed of actuators, `contact` sees a
-//!   controller that is gone, `occupied` one that another session has.
-//! - `sender` follows one sender of telemetry and explains what it sends; `journal` prints what
+//! - `steps` is the loop of 1 kHz; `loop_clock` its clock.
+//! - `frames` sends frames; `actuator_limits` keeps them within the speed of actuators,
+//!   `connection` sees a controller that is gone, `controller_lock` one that another session has.
+//! - `sender` follows one sender of telemetry and explains what it sends; `event_log` prints what
 //!   happens; `recorder` records the session.
 //! - `page` serves the page in a browser.
 //! - `tables` lists formats and templates.
@@ -22,18 +22,19 @@
 
 #![forbid(unsafe_code)]
 
+mod actuator_limits;
 mod commands;
-mod contact;
+mod connection;
+mod controller_lock;
 mod controls;
+mod event_log;
 mod frames;
-mod journal;
 mod lateness;
+mod leg_position;
 mod lines;
-mod occupied;
-mod pace;
+mod loop_clock;
 mod page;
 mod parking;
-mod place;
 mod priority;
 mod recorder;
 mod sender;
@@ -44,9 +45,8 @@ mod telemetry;
 mod telemetry_watch;
 #[cfg(unix)]
 mod terminal;
+mod thread_monitor;
 mod vehicle;
-mod watch;
-mod wire;
 
 use std::fs::File;
 use std::io::Write;
@@ -66,21 +66,21 @@ use moris_setup::Setup;
 use moris_washout::interface::AutomaticScale;
 use rtrb::RingBuffer;
 
+use actuator_limits::Actuators;
 use commands::COMMAND_NAMES;
+use controller_lock::Occupied;
 use controls::{Controls, Handling};
 use frames::{Device, Sender, Sent, Sink};
+use leg_position::LegPosition;
 use moris_analysis::learned_road;
 use moris_analysis::option_values::number_in;
 use moris_command_line::console;
 use moris_command_line::setup_options::SetupOptions;
-use occupied::Occupied;
-use page::{Desk, Server, Start};
-use place::LegPlace;
+use page::{ControlBroker, Server, Start};
 use recorder::Recorder;
 use signals::{Interrupts, Signals};
 use telemetry::{Features, Input};
-use watch::{Failed, Part, watch};
-use wire::Actuators;
+use thread_monitor::{Failed, Part, watch};
 
 /// Step the washout beside a running vehicle, and command a platform
 ///
@@ -283,13 +283,13 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (device, interval, time_out, place) = if options.frames == moog::FRAME_NAME {
         sink.listen()?;
         // The base itself goes from its home to neutral.
-        (Device::moog(rig), moog::PACKET_INTERVAL, None, LegPlace::own())
+        (Device::moog(rig), moog::PACKET_INTERVAL, None, LegPosition::own())
     } else {
         let template = tables::frames(&options.frames)?;
         let encoder = Encoder::new(&template, rig).with_context(|| format!("--frames {}", options.frames))?;
         let place = match options.dry {
-            true => LegPlace::own(),
-            false => LegPlace::of(&template, &encoder, options.settled && !was_left, options.slow_start),
+            true => LegPosition::own(),
+            false => LegPosition::of(&template, &encoder, options.settled && !was_left, options.slow_start),
         };
         // Also where a person has said it: after a loss the controller is asked.
         if encoder.asks() {
@@ -339,9 +339,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (to_loop, asked) = RingBuffer::new(1024);
     let (urgent, asked_at_once) = RingBuffer::new(64);
     let controls = features.handling.map(|handling| Arc::new(Controls::new(handling)));
-    let desk = Arc::new(Desk::new(&setup, [to_loop, urgent], controls.clone(), options.allow_control)?);
+    let broker = Arc::new(ControlBroker::new(&setup, [to_loop, urgent], controls.clone(), options.allow_control)?);
     let page = Start::of(&setup, features, track);
-    let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
+    let open = |port| Server::open(port, options.listen, &page, Arc::clone(&broker), Arc::clone(&shared));
     let server = options.page.map(open).transpose()?;
     let (shown, showing) = RingBuffer::new(256);
     let (refused, refusals) = RingBuffer::new(8);
@@ -364,8 +364,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let actuators = Actuators { speed: rig.velocity_limit, acceleration: rig.acceleration_limit, stroke: rig.stroke() };
     occupied.iter_mut().for_each(|occupied| occupied.leave(true));
     let summary = thread::scope(|scope| {
-        let (shared, desk) = (&*shared, &desk);
-        let page = server.as_ref().map(|_| &**desk);
+        let (shared, broker) = (&*shared, &broker);
+        let page = server.as_ref().map(|_| &**broker);
         let sender = scope.spawn(move || {
             prepare_helper(options);
             let mut sender = Sender::new(to_send, device, sink, from_device, (interval, actuators), shared);
@@ -373,10 +373,10 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             sender.run()
         });
         let printer =
-            scope.spawn(move || watch(&shared.failed, Part::Journal, || journal::keep(journal, record, page)));
+            scope.spawn(move || watch(&shared.failed, Part::Journal, || event_log::keep(journal, record, page)));
         if let Some(server) = &server {
             scope.spawn(|| watch(&shared.failed, Part::Page, || server.run(shared)));
-            scope.spawn(|| watch(&shared.failed, Part::Page, || desk.show(showing, refusals, shared)));
+            scope.spawn(|| watch(&shared.failed, Part::Page, || broker.show(showing, refusals, shared)));
         }
         scope.spawn(move || watch(&shared.failed, Part::Page, || parking::forecast(parking, page, shared)));
         let controls = controls.as_deref();
@@ -540,7 +540,7 @@ fn replay(options: &Options, text: &str, out: &mut dyn Write) -> Result<ExitCode
     let replayed = log::replay(text, |session| {
         let commands = session.commands();
         if state.replace(commands.state) != Some(commands.state) {
-            lines += &format!("{}\n", journal::state_line(commands.time, commands.state));
+            lines += &format!("{}\n", event_log::state_line(commands.time, commands.state));
         }
         if options.dry && ((commands.time / STEP).round() as u64).is_multiple_of(100) {
             encoder.frame(&Values::from(commands), &mut bytes);

@@ -8,11 +8,11 @@ use moris_live::{STEP, Session, State};
 use rtrb::Consumer;
 
 use super::Shared;
-use super::journal::say;
-use super::page::Desk;
+use super::event_log::say;
+use super::page::ControlBroker;
 
 /// Says how long parking takes, for each copy of the session that begins to park.
-pub fn forecast(mut parking: Consumer<Session>, page: Option<&Desk>, shared: &Shared) {
+pub fn forecast(mut parking: Consumer<Session>, page: Option<&ControlBroker>, shared: &Shared) {
     // Time between looks for a session that parks.
     const PARKING_POLL_INTERVAL: Duration = Duration::from_millis(20);
     while !parking.is_abandoned() {

@@ -10,16 +10,16 @@ use moris_washout::Parameters;
 use rtrb::{Consumer, Producer};
 
 use super::Shared;
+use super::event_log::Note;
 use super::frames::{Frames, Loss};
-use super::journal::Note;
 use super::lateness::Lateness;
-use super::pace;
+use super::leg_position::LegPosition;
+use super::loop_clock;
 use super::page::{Order, SHOWN_INTERVAL_STEPS, Shown};
-use super::place::LegPlace;
 use super::signals::Interrupts;
 use super::telemetry::Received;
 use super::telemetry_watch::TelemetryWatch;
-use super::watch::Part;
+use super::thread_monitor::Part;
 
 /// The loop of a live session.
 pub struct Steps<'a> {
@@ -33,7 +33,7 @@ pub struct Steps<'a> {
     pub parking: Producer<Session>,
     /// The controller does not follow any more.
     pub is_lost: bool,
-    pub place: LegPlace,
+    pub place: LegPosition,
     /// Threads whose failure is known.
     pub known: [bool; Part::ALL.len()],
     pub frames: Frames,
@@ -77,11 +77,11 @@ impl Display for Summary {
 /// Waits for so many steps, and does nothing in them.
 pub fn empty(steps: u64) -> Lateness {
     let mut lateness = Lateness::default();
-    let zero = pace::now();
+    let zero = loop_clock::now();
     for step in 1..=steps {
         let deadline = zero + Duration::from_secs_f64(step as f64 * STEP);
-        pace::wait_until(deadline);
-        lateness.take(pace::now().saturating_sub(deadline));
+        loop_clock::wait_until(deadline);
+        lateness.take(loop_clock::now().saturating_sub(deadline));
     }
     lateness
 }
@@ -98,13 +98,13 @@ impl Steps<'_> {
         let mut state = self.session.state();
         let mut health = self.session.source().health();
         // The time of the clock at the session's time 0.
-        let mut zero = pace::now();
+        let mut zero = loop_clock::now();
         let mut ending = false;
         let mut watch = TelemetryWatch::default();
         loop {
             let deadline = zero + Duration::from_secs_f64((summary.steps + 1) as f64 * STEP);
-            pace::wait_until(deadline);
-            let late = pace::now().saturating_sub(deadline);
+            loop_clock::wait_until(deadline);
+            let late = loop_clock::now().saturating_sub(deadline);
             summary.lateness.take(late);
             if late.as_secs_f64() > MAX_CATCH_UP_LATENESS {
                 zero += late;
@@ -115,7 +115,7 @@ impl Steps<'_> {
             }
             while let Ok(Received { arrival, sample }) = self.received.pop() {
                 // Samples of a source inside come before their time.
-                self.frames.newest = Some(arrival.min(pace::now()));
+                self.frames.newest = Some(arrival.min(loop_clock::now()));
                 let arrival = arrival.as_secs_f64() - zero.as_secs_f64();
                 self.record(Happening::Sample(arrival, sample), &mut summary);
                 self.session.receive(arrival, &sample);
@@ -125,7 +125,7 @@ impl Steps<'_> {
                     self.obey(order, &mut summary);
                 }
             }
-            self.interrupts.look(pace::now());
+            self.interrupts.look(loop_clock::now());
             ending |= self.fails(&mut summary)
                 || self.ends_at.is_some_and(|end| self.session.time() >= end)
                 || self.shared.played.load(Ordering::Relaxed)
@@ -325,8 +325,8 @@ mod tests {
     use rtrb::RingBuffer;
 
     use super::*;
+    use crate::actuator_limits::{Actuators, Wire};
     use crate::frames::{Message, Sending};
-    use crate::wire::{Actuators, Wire};
 
     /// The loop's parts on a computed clock, and what it has noted.
     struct Computed<'a> {
@@ -340,12 +340,12 @@ mod tests {
         said: Vec<String>,
     }
 
-    fn place(frames: &str, settled: bool) -> LegPlace {
+    fn place(frames: &str, settled: bool) -> LegPosition {
         let template = shipped(frames).unwrap().parse().unwrap();
-        LegPlace::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, None)
+        LegPosition::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, None)
     }
 
-    fn with_place<T>(place: LegPlace, test: impl FnOnce(&mut Computed) -> T) -> T {
+    fn with_place<T>(place: LegPosition, test: impl FnOnce(&mut Computed) -> T) -> T {
         let settings =
             Settings { starts_settled: place.starts_settled(), slow_speed: place.slow_speed(), ..Settings::default() };
         let mut session = Session::new(&Parameters::default(), &settings).unwrap();
@@ -632,7 +632,7 @@ mod tests {
 
     #[test]
     fn a_base_that_goes_its_own_way_is_started_again_at_once() {
-        with_place(LegPlace::own(), |live| {
+        with_place(LegPosition::own(), |live| {
             live.ask(Event::Start);
             live.until(State::Neutral);
             live.obey(Order::Lost(Loss::Device));

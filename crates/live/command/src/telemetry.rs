@@ -18,11 +18,11 @@ use nalgebra::Vector3;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
-use super::journal::say;
-use super::page::Desk;
+use super::event_log::say;
+use super::page::ControlBroker;
 use super::sender::{Dropped, Followed};
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
-use super::{Options, Shared, pace, tables};
+use super::{Options, Shared, loop_clock, tables};
 use moris_analysis::page::vehicle as drawn;
 use moris_analysis::recording::formats::Format as Logger;
 use moris_analysis::recording::{ConventionOptions, FADE_IN, Recording};
@@ -33,7 +33,7 @@ pub const SAMPLE_LEAD_TIME: Duration = Duration::from_millis(5);
 /// A sample, and when it arrived.
 #[derive(Clone, Copy, Debug)]
 pub struct Received {
-    /// Time of [`pace::now`]; of a source inside that for which the sample is.
+    /// Time of [`loop_clock::now`]; of a source inside that for which the sample is.
     pub arrival: Duration,
     /// Motion of the vehicle.
     pub sample: Sample,
@@ -123,7 +123,13 @@ impl Input {
     }
 
     /// Passes samples on until all has ended. `controls` are those that its features name.
-    pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
+    pub fn run(
+        self,
+        controls: Option<&Controls>,
+        samples: Producer<Received>,
+        shared: &Shared,
+        page: Option<&ControlBroker>,
+    ) {
         match self.source {
             Source::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
             Source::Played(recording) => play(&recording, samples, shared),
@@ -137,7 +143,13 @@ pub fn shape(format: &Format) -> Option<Shape> {
     (format.vehicle == Kind::Car).then_some(Shape::Car)
 }
 
-fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
+fn receive(
+    socket: &UdpSocket,
+    format: &Format,
+    mut samples: Producer<Received>,
+    shared: &Shared,
+    page: Option<&ControlBroker>,
+) {
     // Largest packet [bytes].
     const LARGEST: usize = 65_536;
     let mut packet = vec![0; LARGEST];
@@ -158,7 +170,7 @@ fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>,
             quiet += 1;
             continue;
         };
-        let arrival = pace::now();
+        let arrival = loop_clock::now();
         quiet = 0;
         decoded.clear();
         match format.decode_all(&packet[..length], |sample| decoded.push(sample)) {
@@ -190,7 +202,7 @@ pub fn engages(shared: &Shared) -> bool {
 /// Plays a recording once the platform engages; until then it repeats the first sample.
 fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared) {
     let step = Duration::from_secs_f64(recording.step());
-    let begin = pace::now();
+    let begin = loop_clock::now();
     let (mut sent, mut played) = (0_u32, 0);
     while !shared.done.load(Ordering::Relaxed) {
         let Some(input) = recording.inputs().get(played) else {
@@ -198,7 +210,7 @@ fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared)
             return;
         };
         let time = step * sent;
-        pace::wait_until(begin + time);
+        loop_clock::wait_until(begin + time);
         let sample = sample(input, recording, played, time.as_secs_f64());
         let _ = samples.push(Received { arrival: begin + time + step + SAMPLE_LEAD_TIME, sample });
         sent += 1;

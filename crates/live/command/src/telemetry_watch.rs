@@ -4,7 +4,7 @@ use moris_live::Session;
 use moris_live::session::Objection;
 use moris_live::signs::{Check, Verdict};
 
-use super::journal::Note;
+use super::event_log::Note;
 
 /// The lines that have been told.
 #[derive(Clone, Copy, Debug)]

@@ -117,7 +117,7 @@ mod tests {
     use moris_live::moog::PACKET_INTERVAL;
 
     use super::*;
-    use crate::wire::{Actuators, Wire};
+    use crate::actuator_limits::{Actuators, Wire};
 
     /// Commands that jump by 0.3 m, as by an error somewhere before: what the base is sent.
     #[test]

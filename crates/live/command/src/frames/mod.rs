@@ -14,7 +14,7 @@ use moris_live::motion::turns;
 use moris_live::{Commands, STEP, State};
 use rtrb::Producer;
 
-use super::pace;
+use super::loop_clock;
 pub use device::Device;
 pub use sender::{Sender, Sent};
 pub use sink::{Sink, shown};
@@ -41,7 +41,7 @@ pub struct Sending {
     pub message: Message,
     pub values: Values,
     pub arrival: Option<Duration>,
-    /// Time of [`pace::now`] at which the loop passed it on.
+    /// Time of [`loop_clock::now`] at which the loop passed it on.
     pub made: Duration,
 }
 
@@ -161,7 +161,7 @@ impl Frames {
     }
 
     fn push(&mut self, message: Message, values: Values) {
-        let sending = Sending { message, values, arrival: self.newest.take(), made: pace::now() };
+        let sending = Sending { message, values, arrival: self.newest.take(), made: loop_clock::now() };
         self.push_sending(sending);
     }
 

@@ -9,13 +9,13 @@ use moris_live::Event;
 use moris_live::frame::Values;
 use rtrb::{Consumer, Producer};
 
-use super::super::contact::Contact;
+use super::super::actuator_limits::{Actuators, Wire};
+use super::super::connection::Contact;
 use super::super::lateness::Lateness;
 use super::super::lines::Lines;
 use super::super::page::Order;
-use super::super::watch::Part;
-use super::super::wire::{Actuators, Wire};
-use super::super::{Shared, pace};
+use super::super::thread_monitor::Part;
+use super::super::{Shared, loop_clock};
 use super::{Device, Loss, Message, Sending, Sink};
 
 /// Numbers of frames.
@@ -123,7 +123,7 @@ impl<'a> Sender<'a> {
                     self.arrive(&values, &mut packet);
                 }
                 let fault = self.take(message, &values);
-                let now = pace::now();
+                let now = loop_clock::now();
                 self.sent.late.take(now.saturating_sub(made));
                 self.shared.show_late(now.saturating_sub(made));
                 if let Some(arrival) = arrival {
@@ -151,8 +151,8 @@ impl<'a> Sender<'a> {
         const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
         let mut values = *values;
         let interval = self.wire.interval();
-        let end = pace::now() + LONGEST_ARRIVAL;
-        while !self.wire.is_at(&self.device.followed(&values)) && !self.contact.is_lost() && pace::now() < end {
+        let end = loop_clock::now() + LONGEST_ARRIVAL;
+        while !self.wire.is_at(&self.device.followed(&values)) && !self.contact.is_lost() && loop_clock::now() < end {
             std::thread::sleep(Duration::from_secs_f64(interval));
             values.time += interval;
             let fault = self.take(Message::Frame, &values);
@@ -163,7 +163,7 @@ impl<'a> Sender<'a> {
     /// Sends a message. A fault, if the device reports one.
     fn take(&mut self, message: Message, values: &Values) -> Option<Event> {
         self.running = message != Message::Stop;
-        let now = pace::now();
+        let now = loop_clock::now();
         if matches!(message, Message::Start | Message::Begin) {
             self.contact.renew();
             self.sink.reopen();
@@ -215,7 +215,7 @@ impl<'a> Sender<'a> {
         self.sent.failed += u64::from(taken.is_err());
         // Nobody follows what is printed.
         if !matches!(self.sink, Sink::Dry)
-            && let Some(kind) = self.contact.take(&taken, pace::now())
+            && let Some(kind) = self.contact.take(&taken, loop_clock::now())
         {
             self.wire.lose();
             // A line that is only slow stays open: opening one resets many controllers.
@@ -234,7 +234,7 @@ impl<'a> Sender<'a> {
         if !self.device.asks() {
             return;
         }
-        let now = pace::now();
+        let now = loop_clock::now();
         if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= POSITION_REQUEST_INTERVAL) {
             self.asked = Some(now);
             self.sink.reopen();

@@ -1,8 +1,8 @@
 //! The page: shows the session in a browser, and takes commands and parameters from it.
 //!
 //! - `http` reads requests, bounded, and checks where they come from.
-//! - `shown` is what the loop passes on, and the messages made of it.
-//! - `desk` knows who controls, and checks what is asked.
+//! - `snapshot` is what the loop passes on, and the messages made of it.
+//! - `control_broker` knows who controls, and checks what is asked.
 //! - `refusal` is the answer to a request that is refused.
 //! - `track` has the road that is known at first.
 //! - `server` answers requests, each on a thread of its own.
@@ -10,14 +10,14 @@
 //! A browser gets messages as server-sent events, and sends orders by POST. A browser that reads
 //! slowly misses messages. The loop waits for nobody: its ring drops what the page does not take.
 
-mod desk;
+mod control_broker;
 mod http;
 mod refusal;
 mod server;
-mod shown;
+mod snapshot;
 mod track;
 
-pub use desk::{Desk, Order};
+pub use control_broker::{ControlBroker, Order};
 pub use server::{Server, Start};
-pub use shown::{SHOWN_INTERVAL_STEPS, Shown};
+pub use snapshot::{SHOWN_INTERVAL_STEPS, Shown};
 pub use track::track;

@@ -15,14 +15,14 @@ use moris_pages::ride::RoadMap;
 use moris_setup::Setup;
 use serde::Serialize;
 
-use super::desk::Desk;
+use super::control_broker::ControlBroker;
 use super::http::{self, Access, Incoming, Request};
 use super::refusal::{Refusal, Status};
 use super::track::Track;
 use crate::Shared;
 use crate::controls::Handling;
 use crate::telemetry::Features;
-use crate::watch::{Part, watch};
+use crate::thread_monitor::{Part, watch};
 use moris_analysis::page::simulator::parameters;
 
 /// Connections that the system keeps until they are taken: more than a flood makes meanwhile.
@@ -71,7 +71,7 @@ pub struct Server {
 struct Site {
     page: String,
     access: Access,
-    desk: Arc<Desk>,
+    broker: Arc<ControlBroker>,
     pages: AtomicUsize,
     requests: AtomicUsize,
     shared: Arc<Shared>,
@@ -82,7 +82,13 @@ impl Server {
     ///
     /// # Errors
     /// The port is taken.
-    pub fn open(port: u16, listen: bool, start: &Start, desk: Arc<Desk>, shared: Arc<Shared>) -> Result<Self> {
+    pub fn open(
+        port: u16,
+        listen: bool,
+        start: &Start,
+        broker: Arc<ControlBroker>,
+        shared: Arc<Shared>,
+    ) -> Result<Self> {
         let address = if listen { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST };
         let listener = TcpListener::bind(SocketAddr::new(IpAddr::V4(address), port))
             .with_context(|| format!("cannot serve the page at {address}:{port}"))?;
@@ -91,7 +97,7 @@ impl Server {
         rustix::net::listen(&listener, WAITING_CONNECTIONS)?;
         let access = Access { token: secret()?, port: listener.local_addr()?.port() };
         let [pages, requests] = [0, 0].map(AtomicUsize::new);
-        let site = Site { page: start.html(), access, desk, pages, requests, shared };
+        let site = Site { page: start.html(), access, broker, pages, requests, shared };
         Ok(Server { listener, site: Arc::new(site) })
     }
 
@@ -192,7 +198,7 @@ impl Site {
             ("GET", "/") => http::answer(stream, 200, "text/html", &self.page),
             ("GET", "/events") => self.send_events(stream)?,
             ("POST", "/ask") => {
-                self.desk.ask(&request.body)?;
+                self.broker.ask(&request.body)?;
                 http::answer(stream, 200, "text/plain", "");
             }
             _ => return Err(Refusal::new(Status::NotFound, "there is nothing here")),
@@ -202,11 +208,11 @@ impl Site {
 
     fn send_events(&self, stream: &mut TcpStream) -> Result<(), Refusal> {
         let client = secret().map_err(|error| Refusal::new(Status::Internal, error.to_string()))?;
-        let welcome = serde_json::to_string(&self.desk.enter(&client)).unwrap_or_default();
+        let welcome = serde_json::to_string(&self.broker.enter(&client)).unwrap_or_default();
         if http::begin_events(stream) && http::send_event(stream, "welcome", &welcome) {
             let mut number = 0;
             // What has come while a slow browser was reading is left out.
-            while let Some((next, text)) = self.desk.message_after(number) {
+            while let Some((next, text)) = self.broker.message_after(number) {
                 number = next;
                 if !http::send_event(stream, "message", &text) {
                     break;
@@ -214,7 +220,7 @@ impl Site {
             }
             http::send_event(stream, "end", "");
         }
-        self.desk.leave(&client);
+        self.broker.leave(&client);
         Ok(())
     }
 }

@@ -13,7 +13,7 @@ use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
 use super::telemetry::{Features, Received, SAMPLE_LEAD_TIME, engages, shape};
-use super::{Shared, console, pace};
+use super::{Shared, console, loop_clock};
 pub use fmu::Fmu;
 pub use motorcycle::Motorcycle;
 
@@ -54,11 +54,11 @@ pub fn drive(
     shared: &Shared,
 ) {
     let step = Duration::from_secs_f64(vehicle.step());
-    let begin = pace::now();
+    let begin = loop_clock::now();
     let mut drives = false;
     for sent in 0.. {
         let time = step * sent;
-        pace::wait_until(begin + time);
+        loop_clock::wait_until(begin + time);
         if shared.done.load(Ordering::Relaxed) {
             return;
         }
@@ -66,7 +66,7 @@ pub fn drive(
         if controls.is_some_and(Controls::begins_again) {
             vehicle.begin_again();
         }
-        let command = controls.map(|controls| controls.at(pace::now())).unwrap_or_default();
+        let command = controls.map(|controls| controls.at(loop_clock::now())).unwrap_or_default();
         let advanced = if drives { vehicle.advance(&command) } else { Ok(()) };
         let sample = advanced.and_then(|()| vehicle.sample());
         let Ok(sample) = sample.inspect_err(|error| console::line(&format!("the vehicle has ended: {error:#}"))) else {

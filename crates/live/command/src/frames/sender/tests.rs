@@ -42,7 +42,7 @@ fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     let panicking = std::thread::spawn(move || {
         let moving = Values { length: [1.3; 6], velocity: [0.4; 6], ..Values::default() };
         for message in [Message::Start, Message::Frame] {
-            ring.push(Sending { message, values: moving, arrival: None, made: pace::now() }).unwrap();
+            ring.push(Sending { message, values: moving, arrival: None, made: loop_clock::now() }).unwrap();
         }
         panic!("deliberate");
     });
@@ -69,7 +69,7 @@ fn received(messages: &[(Message, Values)], pause: Duration) -> Vec<String> {
         Sender::new(to_send, csv(), sink, orders, (0.01, actuators), &Shared::default()).run();
     });
     for (message, values) in messages {
-        ring.push(Sending { message: *message, values: *values, arrival: None, made: pace::now() }).unwrap();
+        ring.push(Sending { message: *message, values: *values, arrival: None, made: loop_clock::now() }).unwrap();
         sender.thread().unpark();
         std::thread::sleep(pause);
     }
@@ -157,7 +157,7 @@ fn sent_to(sink: Sink, device: Device, frames: u32, shared: &Shared) -> (Sent, V
             .run()
         });
         let send = |ring: &mut Producer<Sending>, message| {
-            ring.push(Sending { message, values: Values::default(), arrival: None, made: pace::now() }).unwrap();
+            ring.push(Sending { message, values: Values::default(), arrival: None, made: loop_clock::now() }).unwrap();
             sender.thread().unpark();
             std::thread::sleep(Duration::from_millis(10));
             // On a busy computer a frame that waits would be skipped for the next.
@@ -217,13 +217,18 @@ fn a_gap_on_the_wire_is_reported_from_the_time_out_of_the_controller_on() {
         let sent = std::thread::scope(|scope| {
             let sender = scope.spawn(move || sender.run());
             for (message, wait) in [(Message::Start, 1), (Message::Frame, pause), (Message::Frame, 1)] {
-                let made = pace::now();
+                let made = loop_clock::now();
                 ring.push(Sending { message, values: Values::default(), arrival: None, made }).unwrap();
                 sender.thread().unpark();
                 std::thread::sleep(Duration::from_millis(wait));
             }
-            ring.push(Sending { message: Message::Stop, values: Values::default(), arrival: None, made: pace::now() })
-                .unwrap();
+            ring.push(Sending {
+                message: Message::Stop,
+                values: Values::default(),
+                arrival: None,
+                made: loop_clock::now(),
+            })
+            .unwrap();
             drop(ring);
             sender.join().unwrap()
         });
@@ -266,12 +271,12 @@ fn the_controller_is_asked_where_the_legs_are_while_that_is_unknown() {
         assert_eq!(&packet[..length], b"legs?\n");
         device.send_to(b"what?\n", from).unwrap();
         device.send_to(b"legs,1.1,1.2,1.3,1.4,1.5,1.6\n", from).unwrap();
-        let begin = pace::now();
+        let begin = loop_clock::now();
         let order = loop {
             if let Ok(order) = reported.pop() {
                 break order;
             }
-            assert!(pace::now() - begin < Duration::from_secs(10));
+            assert!(loop_clock::now() - begin < Duration::from_secs(10));
             std::thread::sleep(Duration::from_millis(5));
         };
         assert_eq!(order, Order::Report([1.1, 1.2, 1.3, 1.4, 1.5, 1.6]));

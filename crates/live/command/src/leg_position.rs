@@ -12,7 +12,7 @@ pub const PLACE_COMMANDS: &str = "settled, slow";
 
 /// All that is known of the legs' place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LegPlace {
+pub struct LegPosition {
     /// The device goes to the first frame by itself, or has no actuators, or nobody follows.
     is_own: bool,
     /// The place that a person has given for the next start.
@@ -33,23 +33,23 @@ pub struct LegPlace {
     rest: Option<(f64, [f64; 6])>,
 }
 
-impl LegPlace {
+impl LegPosition {
     /// A device that goes to the first frame by itself, or frames that nobody follows.
     pub fn own() -> Self {
-        LegPlace { is_own: true, ..LegPlace::default() }
+        LegPosition { is_own: true, ..LegPosition::default() }
     }
 
     /// The place with a controller that a template describes. A person may have seen the platform
     /// settled, or may know the speed with which it starts from anywhere.
     pub fn of(template: &Frames, encoder: &Encoder, settled: bool, slow_start: Option<f64>) -> Self {
-        LegPlace {
+        LegPosition {
             is_own: !encoder.moves_actuators(),
             given: settled.then_some(Legs::Settled),
             is_given_before: settled,
             slow_speed: slow_start.or(template.slow_start),
             stroke: encoder.stroke_length(),
             asks: encoder.asks(),
-            ..LegPlace::default()
+            ..LegPosition::default()
         }
     }
 
@@ -195,9 +195,9 @@ mod tests {
 
     use super::*;
 
-    fn of(name: &str, settled: bool, slow_start: Option<f64>) -> LegPlace {
+    fn of(name: &str, settled: bool, slow_start: Option<f64>) -> LegPosition {
         let template = shipped(name).unwrap().parse().unwrap();
-        LegPlace::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, slow_start)
+        LegPosition::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, slow_start)
     }
 
     #[test]

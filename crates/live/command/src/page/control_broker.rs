@@ -1,4 +1,4 @@
-//! The desk between the browsers and the loop: who controls, what is asked, and what is shown.
+//! The broker between the browsers and the loop: who controls, what is asked, and what is shown.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::Ordering;
@@ -15,10 +15,10 @@ use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
 use super::refusal::{Refusal, Status};
-use super::shown::{self, ROW_NAMES, Shown};
+use super::snapshot::{self, ROW_NAMES, Shown};
 use crate::controls::Controls;
 use crate::frames::Loss;
-use crate::{Shared, pace};
+use crate::{Shared, loop_clock};
 
 /// An order to the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,7 @@ struct Asked {
 }
 
 /// All that the threads of the page share. The loop has no part in it.
-pub struct Desk {
+pub struct ControlBroker {
     inner: Mutex<Inner>,
     /// Stop and park, which wait for nothing else.
     urgent: Mutex<Producer<Order>>,
@@ -117,8 +117,8 @@ pub struct Welcome {
     names: Vec<&'static str>,
 }
 
-impl Desk {
-    /// A desk for a session that starts with these parameters.
+impl ControlBroker {
+    /// A broker for a session that starts with these parameters.
     ///
     /// # Errors
     /// They cannot be used.
@@ -142,7 +142,7 @@ impl Desk {
             ended: false,
         };
         inner.renew_status();
-        Ok(Desk {
+        Ok(ControlBroker {
             inner: Mutex::new(inner),
             urgent: Mutex::new(urgent),
             lines: Mutex::default(),
@@ -187,7 +187,7 @@ impl Desk {
             let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
             let status =
                 format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}", inner.status);
-            if let Some(text) = shown::message(&taken, &lines, &status) {
+            if let Some(text) = snapshot::message(&taken, &lines, &status) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, |shown| shown.state);
             }
@@ -277,7 +277,7 @@ impl Desk {
             return Err(Refusal::new(Status::Forbidden, "another page controls; Stop and Park work here, too"));
         }
         match asked.ask {
-            Ask::Drive(command) => self.drive(|controls| controls.hold(&command, pace::now())),
+            Ask::Drive(command) => self.drive(|controls| controls.hold(&command, loop_clock::now())),
             Ask::BeginAgain => self.drive(Controls::begin_again),
             Ask::Event(name) => {
                 let event = Event::of_person(&name)
@@ -376,9 +376,9 @@ mod tests {
         Setup::load(None, &[]).unwrap()
     }
 
-    fn desk(shared_control: bool) -> (Desk, Consumer<Order>) {
+    fn broker(shared_control: bool) -> (ControlBroker, Consumer<Order>) {
         let (orders, asked) = RingBuffer::new(64);
-        (Desk::new(&setup(), [orders, RingBuffer::new(8).0], None, shared_control).unwrap(), asked)
+        (ControlBroker::new(&setup(), [orders, RingBuffer::new(8).0], None, shared_control).unwrap(), asked)
     }
 
     fn taken(orders: &mut Consumer<Order>) -> Vec<Order> {
@@ -387,21 +387,22 @@ mod tests {
 
     #[test]
     fn control_passes_to_the_next_browser_that_asks() {
-        let (desk, mut orders) = desk(false);
-        let start =
-            |client: &str| desk.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"start\"}}}}").as_bytes());
+        let (broker, mut orders) = broker(false);
+        let start = |client: &str| {
+            broker.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"start\"}}}}").as_bytes())
+        };
         // Somebody who has not come.
         assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
-        assert!(desk.enter("one").controls && !desk.enter("two").controls && !desk.enter("three").controls);
+        assert!(broker.enter("one").controls && !broker.enter("two").controls && !broker.enter("three").controls);
         assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
         start("one").unwrap();
-        desk.leave("three");
+        broker.leave("three");
         assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
-        desk.leave("one");
+        broker.leave("one");
         assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
         assert_eq!(start("three").unwrap_err().status, Status::Forbidden);
         start("two").unwrap();
-        assert!(!desk.enter("four").controls);
+        assert!(!broker.enter("four").controls);
         assert_eq!(start("four").unwrap_err().status, Status::Forbidden);
         assert_eq!(taken(&mut orders), [Order::Event(Event::Start); 2]);
     }
@@ -412,32 +413,32 @@ mod tests {
             let ((orders, asked), (urgent, at_once)) = (RingBuffer::new(1), RingBuffer::new(8));
             ([orders, urgent], [asked, at_once])
         };
-        let desk = Desk::new(&setup(), [orders, urgent], None, false).unwrap();
-        desk.enter("one");
-        desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
+        let broker = ControlBroker::new(&setup(), [orders, urgent], None, false).unwrap();
+        broker.enter("one");
+        broker.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
         assert_eq!(
-            desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().status,
+            broker.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().status,
             Status::Unavailable
         );
-        let busy = desk.lock();
-        desk.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"stop\"}}").unwrap();
-        desk.ask(b"{\"client\":\"\",\"ask\":{\"event\":\"park\"}}").unwrap();
+        let busy = broker.lock();
+        broker.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"stop\"}}").unwrap();
+        broker.ask(b"{\"client\":\"\",\"ask\":{\"event\":\"park\"}}").unwrap();
         drop(busy);
         assert_eq!(taken(&mut at_once), [Event::Stop, Event::Park].map(Order::Event));
     }
 
     #[test]
     fn all_browsers_control_if_they_may() {
-        let (desk, mut orders) = desk(true);
-        assert!(desk.enter("one").controls && desk.enter("two").controls);
-        desk.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"engage\"}}").unwrap();
+        let (broker, mut orders) = broker(true);
+        assert!(broker.enter("one").controls && broker.enter("two").controls);
+        broker.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"engage\"}}").unwrap();
         assert_eq!(taken(&mut orders), [Order::Event(Event::Engage)]);
     }
 
     #[test]
     fn parameters_are_tried_before_the_loop_gets_them() {
-        let (desk, mut orders) = desk(true);
-        let set = |text: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
+        let (broker, mut orders) = broker(true);
+        let set = |text: &str| broker.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
         set("{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}").unwrap();
         let slot = |name: &str| log::slot_of(name).unwrap() as u16;
         let expected = [
@@ -446,7 +447,7 @@ mod tests {
             Order::Retune,
         ];
         assert_eq!(taken(&mut orders), expected);
-        let text = desk.lock().status.clone();
+        let text = broker.lock().status.clone();
         assert!(text.starts_with("\"changed\":{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
         for (wrong, status) in [
             ("{\"tilt.angleLimit\":1e300}", Status::Unprocessable),
@@ -464,18 +465,18 @@ mod tests {
         }
         for wrong in ["fault", "arrived", "explode", ""] {
             let text = format!("{{\"client\":\"\",\"ask\":{{\"event\":\"{wrong}\"}}}}");
-            assert_eq!(desk.ask(text.as_bytes()).unwrap_err().status, Status::Unprocessable, "{wrong}");
+            assert_eq!(broker.ask(text.as_bytes()).unwrap_err().status, Status::Unprocessable, "{wrong}");
         }
         assert!(taken(&mut orders).is_empty());
-        assert_eq!(desk.lock().status, text);
+        assert_eq!(broker.lock().status, text);
     }
 
     #[test]
     fn what_needs_a_settled_platform_is_said_as_park_first() {
-        let (desk, mut orders) = desk(true);
-        let set = |text: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
+        let (broker, mut orders) = broker(true);
+        let set = |text: &str| broker.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
         for state in [State::Neutral, State::Engaged, State::Fault] {
-            desk.lock().state = state;
+            broker.lock().state = state;
             for (change, name) in
                 [("{\"strategy\":2}", "strategy"), ("{\"scale.specificForce.x\":-1}", "scale.specificForce.x")]
             {
@@ -488,28 +489,28 @@ mod tests {
             assert!(why.contains("tilt.angleLimit") && !why.contains("Park first"), "{why}");
         }
         assert!(taken(&mut orders).is_empty());
-        desk.lock().state = State::Settled;
+        broker.lock().state = State::Settled;
         set("{\"strategy\":2}").unwrap();
     }
 
     #[test]
     fn a_strategy_that_the_loop_has_refused_is_not_shown() {
-        let (desk, _asked) = desk(true);
-        let before = *desk.lock().trial.parameters();
-        desk.lock().state = State::Settled;
-        desk.ask(b"{\"client\":\"\",\"ask\":{\"set\":{\"strategy\":2}}}").unwrap();
-        assert!(desk.lock().status.contains("\"strategy\":2"));
-        desk.lock().return_to(&before);
-        assert_eq!(desk.lock().status, "\"changed\":{}");
+        let (broker, _asked) = broker(true);
+        let before = *broker.lock().trial.parameters();
+        broker.lock().state = State::Settled;
+        broker.ask(b"{\"client\":\"\",\"ask\":{\"set\":{\"strategy\":2}}}").unwrap();
+        assert!(broker.lock().status.contains("\"strategy\":2"));
+        broker.lock().return_to(&before);
+        assert_eq!(broker.lock().status, "\"changed\":{}");
     }
 
     #[test]
     fn orders_that_the_loop_does_not_take_are_refused_as_a_whole() {
         let (orders, mut asked) = RingBuffer::new(4);
-        let desk = Desk::new(&setup(), [orders, RingBuffer::new(8).0], None, true).unwrap();
+        let broker = ControlBroker::new(&setup(), [orders, RingBuffer::new(8).0], None, true).unwrap();
         let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
-        desk.ask(set).unwrap();
-        assert_eq!(desk.ask(set).unwrap_err().status, Status::Unavailable);
+        broker.ask(set).unwrap();
+        assert_eq!(broker.ask(set).unwrap_err().status, Status::Unavailable);
         assert_eq!(taken(&mut asked).len(), 3);
     }
 }

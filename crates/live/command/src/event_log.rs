@@ -12,9 +12,9 @@ use rtrb::Consumer;
 
 use super::console;
 use super::frames::Loss;
-use super::page::Desk;
+use super::page::ControlBroker;
 use super::recorder::Recorder;
-use super::watch::Part;
+use super::thread_monitor::Part;
 
 /// Something that happened at a time \[s\].
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +97,7 @@ fn line(note: &Note) -> Option<String> {
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep(mut notes: Consumer<Note>, mut record: Option<Recorder>, page: Option<&Desk>) -> io::Result<()> {
+pub fn keep(mut notes: Consumer<Note>, mut record: Option<Recorder>, page: Option<&ControlBroker>) -> io::Result<()> {
     let mut recorded = Ok(());
     loop {
         let ended = notes.is_abandoned();
@@ -123,7 +123,7 @@ pub fn keep(mut notes: Consumer<Note>, mut record: Option<Recorder>, page: Optio
 }
 
 /// Prints a line, and shows it in the page.
-pub fn say(line: &str, page: Option<&Desk>) {
+pub fn say(line: &str, page: Option<&ControlBroker>) {
     console::line(line);
     page.inspect(|page| page.log_line(line));
 }
