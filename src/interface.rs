@@ -239,7 +239,7 @@ enumeration! {
         "adaptive" Adaptive,
         /// A linear-quadratic regulator (LQR).
         "optimal" Optimal,
-        /// Model predictive control (MPC): a plan of the next seconds within all limits, renewed 50 times a second.
+        /// Model predictive control (MPC): a plan within all limits, renewed 50 times a second.
         "predictive" Predictive,
         /// An H-infinity regulator: least cost for the worst reference.
         "robust" Robust,
