@@ -9,8 +9,8 @@ use super::MeasuredRecording;
 use crate::message::Message;
 use crate::texts::text;
 
-/// A force on which less than this is desired does not count; an error below it
-/// counts as this \[m/s2\].
+/// A force on which less than this is desired does not count. An error below it counts as
+/// this \[m/s2\].
 pub const LEAST_FORCE: f64 = 0.03;
 
 /// Targets for a set of parameters.
