@@ -146,7 +146,9 @@ impl Alternative {
         if self.severities.iter().all(|(_, severity)| *severity < 1.0) {
             return 0.0;
         }
-        self.severity(fault).max(1.0)
+        // A fault begins at a severity of 1.
+        let severity = self.severity(fault);
+        if severity < 1.0 { 1.0 } else { 1.0 + severity }
     }
 
     /// The changes with the figures that were simulated.
@@ -232,6 +234,8 @@ pub struct Advisor<'a> {
     parameters: Parameters,
     preview: f64,
     before: Vec<(Fault, f64)>,
+    /// True where shaking is what is rough, and no jolt.
+    shakes: bool,
 }
 
 /// Changes to begin with, and what is searched for on top of them.
@@ -245,7 +249,7 @@ impl<'a> Advisor<'a> {
         let before = evaluated.severities();
         let fault = evaluated.fault().filter(|_| evaluated.simulation.foreign.is_none())?;
         let (parameters, part) = (evaluated.simulation.parameters, hardest_part(manoeuvre));
-        Some(Advisor { fault, manoeuvre, part, parameters, preview, before })
+        Some(Advisor { fault, manoeuvre, part, parameters, preview, before, shakes: evaluated.shakes() })
     }
 
     /// The changes that are tried, simplest first.
@@ -353,12 +357,16 @@ impl<'a> Advisor<'a> {
         let simulation = Simulation::previewed(&Replay::new(self.manoeuvre), &parameters, previewer, || ())?;
         let Ok(measures) = measures(&simulation) else { return Ok(None) };
         let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds: [None; 3], advice: None };
+        let result = match self.fault {
+            Fault::Rough => evaluated.roughness(self.shakes),
+            fault => evaluated.result(fault),
+        };
         Ok(Some(Alternative {
             changes,
             parameters,
             preview,
             severities: evaluated.severities(),
-            result: format!("{}{}", evaluated.result(self.fault), evaluated.size_clause()),
+            result: format!("{result}{}", evaluated.size_clause()),
             size: measures.shape.size(),
             shape: measures.shape.least_shape(),
         }))
@@ -393,4 +401,24 @@ fn hardest_part(manoeuvre: &Manoeuvre) -> Option<Manoeuvre> {
     let last = inputs.len().checked_sub(count).filter(|last| *last > 0)?;
     let start = (0..=last).max_by(|one, other| of(*one).total_cmp(&of(*other)))?;
     Some(Manoeuvre::new(manoeuvre.step(), inputs[start..start + count].to_vec()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_that_is_just_one_ranks_behind_none() {
+        let alternative = |inverted: f64| Alternative {
+            changes: Changes::NONE,
+            parameters: Parameters::default(),
+            preview: 0.0,
+            severities: vec![(Fault::Inverted, inverted), (Fault::Rough, 1.3)],
+            result: String::new(),
+            size: None,
+            shape: None,
+        };
+        let ranks = [0.99, 1.0, 1.1].map(|inverted| alternative(inverted).rank(Fault::Inverted));
+        assert!(ranks.is_sorted_by(|one, other| one < other), "{ranks:?}");
+    }
 }

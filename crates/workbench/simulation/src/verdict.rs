@@ -112,6 +112,19 @@ impl Evaluated<'_> {
         }
     }
 
+    /// True where shaking is further beyond its limit than jolts are.
+    pub(crate) fn shakes(&self) -> bool {
+        let [shake, jolt] = [0, 1].map(|which| self.roughest(which).unwrap_or_default().1);
+        jolt / MAX_SMOOTH_JOLT < shake / MAX_SMOOTH_SHAKE
+    }
+
+    /// The largest shaking, or the largest jolt.
+    pub(crate) fn roughness(&self, shakes: bool) -> String {
+        let (axis, value) = self.roughest(usize::from(!shakes)).unwrap_or_default();
+        let name = FORCE_AXIS_NAMES[axis].to_lowercase();
+        if shakes { format!("{name} shakes by {value:.2} m/s²") } else { format!("{name} jolts by {value:.1} m/s²") }
+    }
+
     /// The figure of a fault.
     pub(crate) fn result(&self, fault: Fault) -> String {
         let shape = &self.measures.shape;
@@ -119,13 +132,7 @@ impl Evaluated<'_> {
             Fault::Limits if fits_the_rig(self.measures) => "no limit stops the platform".to_owned(),
             Fault::Limits => format!("its limits stop the platform for {}", percent(self.limited())),
             Fault::Inverted => percent(shape.most_inverted().map_or(0.0, |(_, inverted)| inverted)),
-            Fault::Rough => {
-                let [shake, jolt] = [0, 1].map(|which| self.roughest(which).unwrap_or_default());
-                match jolt.1 / MAX_SMOOTH_JOLT >= shake.1 / MAX_SMOOTH_SHAKE {
-                    true => format!("{} jolts by {:.1} m/s²", FORCE_AXIS_NAMES[jolt.0].to_lowercase(), jolt.1),
-                    false => format!("{} shakes by {:.2} m/s²", FORCE_AXIS_NAMES[shake.0].to_lowercase(), shake.1),
-                }
-            }
+            Fault::Rough => self.roughness(self.shakes()),
             Fault::WorseThanRest(axis) => {
                 let channels = channels(self);
                 let channel = channels.iter().find(|channel| channel.axis == axis);
