@@ -256,8 +256,11 @@ impl Washout {
         if step < SHORTEST_STEP || step.is_nan() {
             return;
         }
-        let (start, end) = match course {
-            InputCourse::Held(input) => (self.cued(input.sanitized()), None),
+        let end = match course {
+            InputCourse::Held(input) => {
+                self.last = self.cued(input.sanitized());
+                None
+            }
             InputCourse::Ramp(end) => {
                 let end = end.sanitized();
                 self.last.input.engaged = end.engaged;
@@ -265,11 +268,14 @@ impl Washout {
                     law.delay_preview(step);
                     self.scale.delay_preview(step);
                 }
-                (self.last, Some(end))
+                Some(end)
             }
-            InputCourse::Between(start, end) => (self.cued(start.sanitized()), Some(end.sanitized())),
+            InputCourse::Between(start, end) => {
+                self.last = self.cued(start.sanitized());
+                Some(end.sanitized())
+            }
         };
-        self.last = start;
+        let start = self.last;
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited = ActiveLimits::default();
