@@ -284,13 +284,14 @@ impl AxisProgram {
         let solved = cholesky.l_dirty().solve_lower_triangular_mut(&mut inverse);
         let factor = inverse.transpose();
         let scales = RowScales::new(model, horizon);
-        let mut effects = [[[0.0; 4]; AXIS_CONTROLS]; BLOCKS];
+        // Filled in place: another copy of it would be 4 kB of stack.
+        let effects = [[[0.0; 4]; AXIS_CONTROLS]; BLOCKS];
+        let mut program = AxisProgram { model: *model, horizon, from_data, effects, gradient, hessian, factor, scales };
         for (control, column) in from_controls.column_iter().enumerate() {
-            for (node, effects) in effects.iter_mut().enumerate() {
+            for (node, effects) in program.effects.iter_mut().enumerate() {
                 effects[control].copy_from_slice(&column.as_slice()[4 * node..4 * node + 4]);
             }
         }
-        let program = AxisProgram { model: *model, horizon, from_data, effects, gradient, hessian, factor, scales };
         solved.then_some(program).ok_or(Unsolvable::Program)
     }
 
