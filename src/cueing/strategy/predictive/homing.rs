@@ -14,14 +14,14 @@ use serde::{Deserialize, Serialize};
 use super::super::law::AxisState;
 
 /// Pace p of the return \[rad/s\].
-const PACE: f64 = 1.2;
+const RETURN_PACE: f64 = 1.2;
 /// Largest force of the return, well below the threshold of 0.17 m/s2 \[m/s2\].
-const UNNOTICED: f64 = 0.08;
+const MAX_RETURN_FORCE: f64 = 0.08;
 /// A cue of up to this magnitude is still \[m/s2\].
-const STILL: f64 = 0.05;
+const MAX_STILL_CUE: f64 = 0.05;
 /// Stillness after which the return begins, the time in which it fades in, and that in which it
 /// fades out \[s\].
-const PATIENCE: f64 = 1.0;
+const RETURN_DELAY: f64 = 1.0;
 const FADE_IN: f64 = 3.0;
 const FADE_OUT: f64 = 0.5;
 
@@ -38,15 +38,15 @@ impl Homing {
     /// Advances by `step` seconds with this cue; `unknown` is true if nothing is known of the time
     /// ahead.
     pub fn advance(&mut self, cue: f64, unknown: bool, step: f64) {
-        let is_still = unknown && cue.abs() <= STILL;
-        self.still = if is_still { (self.still + step).min(PATIENCE) } else { 0.0 };
-        let change = if self.still >= PATIENCE { step / FADE_IN } else { -step / FADE_OUT };
+        let is_still = unknown && cue.abs() <= MAX_STILL_CUE;
+        self.still = if is_still { (self.still + step).min(RETURN_DELAY) } else { 0.0 };
+        let change = if self.still >= RETURN_DELAY { step / FADE_IN } else { -step / FADE_OUT };
         self.part = (self.part + change).clamp(0.0, 1.0);
     }
 
     /// The force to be felt beside the plan in this state of the axis \[m/s2\].
     pub fn force(&self, axis: &AxisState) -> f64 {
-        let returning = -PACE * (PACE * axis.position + 2.0 * axis.velocity);
-        self.part * returning.clamp(-UNNOTICED, UNNOTICED)
+        let returning = -RETURN_PACE * (RETURN_PACE * axis.position + 2.0 * axis.velocity);
+        self.part * returning.clamp(-MAX_RETURN_FORCE, MAX_RETURN_FORCE)
     }
 }

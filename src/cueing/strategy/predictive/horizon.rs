@@ -8,7 +8,7 @@ use crate::motion::min_max::min;
 /// Number of blocks.
 pub const BLOCKS: usize = 8;
 /// Time between two samples of the reference, and between two plans \[s\].
-pub const SAMPLE: f64 = 0.02;
+pub const PLAN_INTERVAL: f64 = 0.02;
 /// Time over which the reference is forecast: the near horizon's \[s\] ...
 pub const FORECAST: f64 = 3.0;
 /// ... and in samples.
@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn blocks_of_the_near_horizon_are_whole_numbers_of_samples_and_fill_the_forecast() {
         for (duration, samples) in Horizon::Near.durations().iter().zip(SAMPLES) {
-            assert!((duration - samples as f64 * SAMPLE).abs() < 1e-15);
+            assert!((duration - samples as f64 * PLAN_INTERVAL).abs() < 1e-15);
         }
         assert!((Horizon::Near.ends()[BLOCKS - 1] - FORECAST).abs() < 1e-15);
         assert_eq!(end_samples()[BLOCKS - 1], FORECAST_SAMPLES);

@@ -28,20 +28,21 @@ use serde::{Deserialize, Serialize};
 use self::dual_active_set::{DualActiveSet, Status};
 use self::forecast::{Forecaster, Memory, Tables};
 use self::homing::Homing;
-use self::horizon::{BLOCKS, Horizon, SAMPLE, reserved};
+use self::horizon::{BLOCKS, Horizon, PLAN_INTERVAL, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::PreviewedCue;
 use self::program::{
-    AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, RAMP, ROWS,
+    AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, ROWS, TILT_RAMP_TIME,
 };
 use super::law::{AxisState, Decision, Jump, Law, PlanStatus, Previewed, Situation, Unsolvable};
 use super::regulator::{AxisModel, Weights};
 use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
 
-/// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
+/// Iterations of an internal step of up to [`REFERENCE_STEP`] seconds; longer steps
+/// do more in proportion.
 const ITERATIONS_PER_STEP: f64 = 8.0;
-const PACE: f64 = 0.001;
+const REFERENCE_STEP: f64 = 0.001;
 /// Length of a preview below which nothing counts as known: the host's own step may be one \[s\].
 const SHORTEST_PREVIEW: f64 = 0.1;
 /// Length of a preview above which the far horizon is used \[s\].
@@ -53,7 +54,7 @@ const MAX_ITERATIONS: u32 = 120;
 /// keep.
 const MAX_DROPPED_SLOPE: f64 = 25.0;
 /// Differences of time below this are rounding \[s\].
-const INSTANT: f64 = 1e-9;
+const TIME_ROUNDING: f64 = 1e-9;
 
 /// The tunable parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -203,7 +204,7 @@ impl Predictive {
             tuning: *tuning,
             forecasters: [0, 1].map(|_| Box::new(Forecaster::new(&tables))),
             tables,
-            until_sample: SAMPLE,
+            until_sample: PLAN_INTERVAL,
             limits: Box::default(),
             programs,
             solver: Box::new(DualActiveSet::new()),
@@ -309,20 +310,20 @@ impl Predictive {
         }
         let mut left = step;
         loop {
-            let chunk = if left <= self.until_sample + INSTANT { left } else { self.until_sample };
+            let chunk = if left <= self.until_sample + TIME_ROUNDING { left } else { self.until_sample };
             for (forecaster, reference) in self.forecasters.iter_mut().zip(references) {
                 forecaster.advance(reference, chunk);
             }
             left -= chunk;
             self.until_sample -= chunk;
-            if self.until_sample <= INSTANT {
-                self.until_sample = SAMPLE;
+            if self.until_sample <= TIME_ROUNDING {
+                self.until_sample = PLAN_INTERVAL;
                 self.due = true;
                 for forecaster in &mut self.forecasters {
                     forecaster.sample(&self.tables, self.tuning.forecast, &self.tuning.memory);
                 }
             }
-            if left <= INSTANT {
+            if left <= TIME_ROUNDING {
                 break;
             }
         }
@@ -392,7 +393,7 @@ impl Predictive {
         if self.solver.status() != Status::Running {
             return;
         }
-        let pace = (ITERATIONS_PER_STEP * step / PACE).clamp(ITERATIONS_PER_STEP, f64::from(MAX_ITERATIONS));
+        let pace = (ITERATIONS_PER_STEP * step / REFERENCE_STEP).clamp(ITERATIONS_PER_STEP, f64::from(MAX_ITERATIONS));
         let rows = PlanRows { program: self.programs.over(self.horizon), limits: &self.limits };
         match self.solver.advance(&rows, pace as u32) {
             Status::Running if self.solver.iterations() < MAX_ITERATIONS => {}
@@ -451,7 +452,7 @@ impl Plan {
     fn tilting_after(&self, blocks: &[f64], value: f64, step: f64) -> f64 {
         let end = self.age + step;
         let Some(block) = self.horizon.block_at(self.age) else { return blocks[BLOCKS - 1] };
-        let ramped = self.horizon.ends()[block] - self.horizon.durations()[block] + RAMP;
+        let ramped = self.horizon.ends()[block] - self.horizon.durations()[block] + TILT_RAMP_TIME;
         if end >= ramped { blocks[block] } else { value + (blocks[block] - value) * step / (ramped - self.age) }
     }
 }

@@ -11,7 +11,7 @@ use crate::interface::{PREVIEW_SAMPLES, Preview};
 /// Time constant with which the angular channel's part of the reference is expected to fade \[s\].
 const BESIDE_TIME: f64 = 1.0;
 /// Differences of time below this are rounding \[s\].
-const INSTANT: f64 = 1e-9;
+const TIME_ROUNDING: f64 = 1e-9;
 
 /// The cue of one axis at points of time to come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -74,14 +74,14 @@ impl PreviewedCue {
 pub struct PreviewedCues {
     latest: PreviewedCue,
     /// A ring, with the oldest at `next`.
-    before: [PreviewedCue; REMEMBERED],
+    before: [PreviewedCue; KEPT_COURSES],
     next: u8,
 }
 
 /// Number of courses kept beside the latest.
-const REMEMBERED: usize = 9;
+const KEPT_COURSES: usize = 9;
 /// Corners of all of them, and the reference now.
-const CORNERS: usize = (REMEMBERED + 1) * PREVIEW_SAMPLES + 1;
+const CORNERS: usize = (KEPT_COURSES + 1) * PREVIEW_SAMPLES + 1;
 
 impl PreviewedCues {
     /// Takes a new course. One without values, or with another step, removes those before.
@@ -92,18 +92,18 @@ impl PreviewedCues {
                 *self = PreviewedCues::default();
             }
         } else if self.latest.begun && self.is_apart() {
-            let next = usize::from(self.next) % REMEMBERED;
+            let next = usize::from(self.next) % KEPT_COURSES;
             self.before[next] = self.latest;
-            self.next = ((next + 1) % REMEMBERED) as u8;
+            self.next = ((next + 1) % KEPT_COURSES) as u8;
         }
         self.latest = *course;
     }
 
     /// True if the latest course is far enough from the one kept before for both to be kept.
     fn is_apart(&self) -> bool {
-        let newest = &self.before[(usize::from(self.next) + REMEMBERED - 1) % REMEMBERED];
-        let spacing = self.latest.step / (REMEMBERED + 1) as f64;
-        newest.count == 0 || newest.age - self.latest.age >= spacing - INSTANT
+        let newest = &self.before[(usize::from(self.next) + KEPT_COURSES - 1) % KEPT_COURSES];
+        let spacing = self.latest.step / (KEPT_COURSES + 1) as f64;
+        newest.count == 0 || newest.age - self.latest.age >= spacing - TIME_ROUNDING
     }
 
     /// Advances by `step` seconds.
@@ -129,7 +129,7 @@ impl PreviewedCues {
     /// Times and values of all courses' points, by time. Of a course a step old, the latest gives
     /// the same points anew.
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
-        let next = usize::from(self.next) % REMEMBERED;
+        let next = usize::from(self.next) % KEPT_COURSES;
         let oldest_first = move || self.before[next..].iter().chain(&self.before[..next]).chain([&self.latest]);
         (0..self.latest.count).flat_map(move |k| {
             oldest_first()
@@ -163,7 +163,7 @@ impl Ahead {
     pub fn set(&mut self, courses: &PreviewedCues, (lag, low): (f64, f64), beside: f64) -> bool {
         (self.times[0], self.count) = (0.0, 1);
         for (time, value) in courses.points() {
-            if time > self.times[self.count - 1] + INSTANT {
+            if time > self.times[self.count - 1] + TIME_ROUNDING {
                 let fading = if beside == 0.0 { 0.0 } else { beside * libm::exp(-time / BESIDE_TIME) };
                 self.times[self.count] = time;
                 self.values[self.count] = value + fading;

@@ -83,15 +83,15 @@ const RATE_FRACTION: f64 = 0.999;
 /// times this time must be inside them \[s\].
 const STOPPING_TIME: f64 = 0.3;
 /// Gravity along the tilt relative to the sine's tangent.
-pub const CHORD: f64 = 0.985;
+pub const GRAVITY_ALONG_TILT: f64 = 0.985;
 /// A small weight of tilt acceleration keeps the program strictly convex.
 const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
 /// Weight of the dropped force's slope, relative to that of the dropped force \[s2\].
 const SLOPE_WEIGHT: f64 = 6e-2;
 /// Weights of position and velocity over the far horizon, relative to those over the near one.
-const FORESEEN: [f64; 2] = [0.25, 0.043];
+const FAR_WEIGHTS: [f64; 2] = [0.25, 0.043];
 /// Time in which the tilt's acceleration goes from one block's value to the next \[s\].
-pub const RAMP: f64 = 0.04;
+pub const TILT_RAMP_TIME: f64 = 0.04;
 /// Weight of the slope of the tilt's acceleration, relative to that of the dropped force, with the
 /// acceleration relative to its limit \[s2\].
 const TILT_SLOPE_WEIGHT: f64 = 1e-5;
@@ -178,7 +178,7 @@ impl Program {
 fn over_horizon(weights: &Weights, horizon: Horizon) -> Weights {
     let [position, velocity] = match horizon {
         Horizon::Near => [1.0; 2],
-        Horizon::Far => FORESEEN,
+        Horizon::Far => FAR_WEIGHTS,
     };
     Weights { position: position * weights.position, velocity: velocity * weights.velocity, ..*weights }
 }
@@ -258,8 +258,8 @@ impl AxisProgram {
             [2.0 * square + slope, square - slope, 2.0 * square + slope]
         };
         let tilt_square = |duration: f64| {
-            let (square, slope) = (tilting * RAMP / 6.0, TILT_SLOPE_WEIGHT / RAMP);
-            [2.0 * square + slope, square - slope, 2.0 * square + slope + tilting * (duration - RAMP)]
+            let (square, slope) = (tilting * TILT_RAMP_TIME / 6.0, TILT_SLOPE_WEIGHT / TILT_RAMP_TIME);
+            [2.0 * square + slope, square - slope, 2.0 * square + slope + tilting * (duration - TILT_RAMP_TIME)]
         };
         for (block, &duration) in horizon.durations().iter().enumerate() {
             for (first, start, [before, mixed, after]) in
@@ -402,7 +402,7 @@ impl AxisProgram {
 }
 
 /// Part by which a tilt or its rate has to be beyond its limit for the rows to give way.
-const BEYOND: f64 = 0.01;
+const GIVE_WAY_PART: f64 = 0.01;
 /// Times after which a tilt and its rate return to their limits \[s\], with half of what the limits
 /// of rate and acceleration allow.
 const TURN_TIMES: [f64; 2] = [0.3, 0.1];
@@ -420,12 +420,12 @@ impl AxisProgram {
         let rate = max(approached[1].abs(), tilt_rate.abs()) / (RATE_FRACTION * rate_limit);
         let returns = [(2, angle, rate_limit / angle_limit), (3, rate, acceleration_limit / rate_limit)];
         for ((row, beyond, fastest), turn_time) in returns.into_iter().zip(TURN_TIMES) {
-            if beyond <= 1.0 + BEYOND {
+            if beyond <= 1.0 + GIVE_WAY_PART {
                 continue;
             }
             for (node, time) in self.horizon.ends().into_iter().enumerate() {
                 let returned = RETURN_PART * fastest * max(time - turn_time, 0.0);
-                bounds[4 * node + row] = max(beyond + BEYOND - returned, 1.0);
+                bounds[4 * node + row] = max(beyond + GIVE_WAY_PART - returned, 1.0);
             }
         }
         bounds[AXIS_ROWS - 1] = bounds[4 * (BLOCKS - 1) + 2];
@@ -448,7 +448,7 @@ impl AxisProgram {
         let t = self.horizon.durations()[block];
         let AxisModel { gravity, acceleration_limit, .. } = self.model;
         let cubic = 0.5 * (x + next_x) + 0.125 * t * (v - next_v);
-        cubic - CHORD * gravity * acceleration_limit * tilting * (t * t * (t * t)) / 384.0
+        cubic - GRAVITY_ALONG_TILT * gravity * acceleration_limit * tilting * (t * t * (t * t)) / 384.0
     }
 }
 
@@ -465,9 +465,9 @@ impl AxisProgram {
     }
 }
 
-/// A ramp from 1 to 0 over [`RAMP`], once to four times integrated over a block.
+/// A ramp from 1 to 0 over [`TILT_RAMP_TIME`], once to four times integrated over a block.
 fn ramp_integrals(duration: f64) -> [f64; 4] {
-    let (ramp, after) = (RAMP, duration - RAMP);
+    let (ramp, after) = (TILT_RAMP_TIME, duration - TILT_RAMP_TIME);
     let square = ramp * ramp;
     [
         ramp / 2.0,
@@ -500,7 +500,7 @@ fn responses<const K: usize>(
 fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisControls) -> Nodes {
     let mut nodes = Nodes::at_rest();
     let [mut x, mut v, mut q, mut w] = [data[0], data[1], data[2], data[3]];
-    let gravity = CHORD * model.gravity;
+    let gravity = GRAVITY_ALONG_TILT * model.gravity;
     let (mut dropped, mut alpha) = (data[DROPPED], model.acceleration_limit * data[TILTING]);
     for (block, &t) in horizon.durations().iter().enumerate() {
         let (next_dropped, next_alpha) = (controls[block], model.acceleration_limit * controls[BLOCKS + block]);
@@ -677,9 +677,9 @@ mod tests {
             cost += SLOPE_WEIGHT * (dropped - dropped_before).powi(2) / duration;
             // The tilt's acceleration is a line on the ramp and constant after it.
             let middle = 0.5 * (tilting_before + tilting);
-            let ramp = RAMP / 6.0 * (tilting_before.powi(2) + 4.0 * middle * middle + tilting * tilting);
-            cost += (WEIGHTS.tilt_acceleration + 1e-5) * (ramp + (duration - RAMP) * tilting * tilting);
-            cost += TILT_SLOPE_WEIGHT * (tilting - tilting_before).powi(2) / RAMP;
+            let ramp = TILT_RAMP_TIME / 6.0 * (tilting_before.powi(2) + 4.0 * middle * middle + tilting * tilting);
+            cost += (WEIGHTS.tilt_acceleration + 1e-5) * (ramp + (duration - TILT_RAMP_TIME) * tilting * tilting);
+            cost += TILT_SLOPE_WEIGHT * (tilting - tilting_before).powi(2) / TILT_RAMP_TIME;
             (dropped_before, tilting_before) = (dropped, tilting);
             cost += 0.5 * duration * (running(&before) + running(&after));
             before = after;
@@ -748,7 +748,7 @@ mod tests {
                     let t = Horizon::Near.durations()[node + 1];
                     let [next_x, next_v, ..] = state(node + 1);
                     let alpha = acceleration_limit * 0.01 * (BLOCKS + node + 1) as f64;
-                    let gravity = CHORD * model.gravity;
+                    let gravity = GRAVITY_ALONG_TILT * model.gravity;
                     let middle = 0.5 * (x + next_x) + t / 8.0 * (v - next_v) - gravity * alpha * t.powi(4) / 384.0;
                     close(rows[5 * BLOCKS + node], middle / farthest(in_middle));
                 }

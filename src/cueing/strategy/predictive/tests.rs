@@ -124,7 +124,7 @@ fn a_decision_is_on_the_line_to_the_next_node_and_on_the_ramp_to_the_block_that_
             let expected = before[axis] + (controls[axis][block] - before[axis]) * 0.001 / left;
             assert!((decisions[axis].dropped_force - expected).abs() < 1e-9, "{expected} in block {block}");
             // The tilt does not move here, so that each step begins a ramp at zero.
-            let ramp_left = RAMP - (horizon.durations()[block] - left);
+            let ramp_left = TILT_RAMP_TIME - (horizon.durations()[block] - left);
             let tilting = MODEL.acceleration_limit * controls[axis][BLOCKS + block];
             let expected = if ramp_left > 0.001 { tilting * 0.001 / ramp_left } else { tilting };
             assert!((decisions[axis].tilt_acceleration - expected).abs() < 1e-9, "{expected} in block {block}");
@@ -461,15 +461,15 @@ fn condensed_nodes_are_those_of_the_block_equations() {
                 let found = axis.middle(&before, &after, block, controls[BLOCKS + block]);
                 // The ramp's part is left out.
                 let lever = MODEL.head_height + MODEL.gravity * duration * duration;
-                let ramp = lever * RAMP * duration * (alpha_after - alpha_before).abs();
+                let ramp = lever * TILT_RAMP_TIME * duration * (alpha_after - alpha_before).abs();
                 assert!((found - x).abs() < 1e-8 + ramp / 16.0, "middle of block {block}: {found}, {x}");
             }
             let fraction = (f64::from(k) + 0.5) / f64::from(steps);
             let dropped = dropped_before + fraction * (controls[block] - dropped_before);
-            let ramped = (duration * fraction / RAMP).min(1.0);
+            let ramped = (duration * fraction / TILT_RAMP_TIME).min(1.0);
             let alpha = alpha_before + ramped * (alpha_after - alpha_before);
             let middle = q + 0.5 * step * (w + step * alpha / 3.0);
-            let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + dropped;
+            let a = 0.7 + MODEL.head_height * alpha - program::GRAVITY_ALONG_TILT * MODEL.gravity * middle + dropped;
             x += step * (v + 0.5 * step * a);
             v += step * a;
             q += step * (w + 0.5 * step * alpha);

@@ -40,5 +40,5 @@ fn a_thread_with_a_small_stack_will_do() {
             assert_eq!(instance.free_state(state), moris_fmu_host::Status::Ok);
         }
     };
-    thread::Builder::new().stack_size(256 * 1024).spawn(small).unwrap().join().unwrap();
+    thread::Builder::new().stack_size(320 * 1024).spawn(small).unwrap().join().unwrap();
 }

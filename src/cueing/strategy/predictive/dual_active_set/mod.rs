@@ -105,9 +105,9 @@ pub enum Status {
 }
 
 /// A row is violated beyond this; rows are to be scaled to bounds of about 1.
-const FEASIBLE: f64 = 1e-10;
+const FEASIBILITY_TOLERANCE: f64 = 1e-10;
 /// A row whose normal lies in the active rows' span to this fraction depends on them.
-const DEPENDENT: f64 = 1e-11;
+const DEPENDENCE_TOLERANCE: f64 = 1e-11;
 
 impl<const N: usize, const M: usize> Default for DualActiveSet<N, M> {
     fn default() -> Self {
@@ -209,7 +209,8 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         let (blocking, longest) = self.blocking(change.as_slice());
 
         let free_squared = sum_of_squares(&projection.as_slice()[self.active..]);
-        let independent = free_squared > DEPENDENT * DEPENDENT * sum_of_squares(projection.as_slice());
+        let independent =
+            free_squared > DEPENDENCE_TOLERANCE * DEPENDENCE_TOLERANCE * sum_of_squares(projection.as_slice());
         let (value, [lower, upper]) = (dot(normal.as_slice(), self.solution.as_slice()), rows.bounds());
         let violation = if pending.side > 0.0 { lower[row] - value } else { value - upper[row] };
         let full = if independent { violation / free_squared } else { f64::INFINITY };
@@ -240,7 +241,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     /// The row violated most, if any is.
     fn most_violated(&self, rows: &impl Rows<N, M>) -> Option<PendingRow> {
         let [lower, upper] = rows.bounds();
-        let mut search = Search { lower, upper, given_up: &self.given_up, worst: FEASIBLE, found: None };
+        let mut search = Search { lower, upper, given_up: &self.given_up, worst: FEASIBILITY_TOLERANCE, found: None };
         rows.evaluate(&self.solution, &mut search);
         search.found
     }

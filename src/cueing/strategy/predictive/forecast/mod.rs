@@ -23,24 +23,24 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::expected::{FADE_DECAY, Forecast};
-use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLES, end_samples};
+use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, PLAN_INTERVAL, SAMPLES, end_samples};
 use super::preview::{Ahead, Previewed, PreviewedCue, PreviewedCues};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 use regression::{Covariance, FEATURES, FORCES, Features, Regression};
 
 /// Time constants of the reference's low-passes \[s\]: the five that the fit uses, and two for
-/// [`SLOW`] and [`QUICK`].
+/// [`SLOW_LOW_PASS`] and [`QUICK_LOW_PASS`].
 const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.03, 0.1, 0.3, 1.0, 3.0, 0.6, 0.06];
 const LOW_PASSES: usize = 7;
 /// The low-pass that stands for the slow part of the reference.
-const SLOW: usize = 5;
+const SLOW_LOW_PASS: usize = 5;
 /// The one of the fit's low-passes that stands for it in the prior.
 const FIT_SLOW: usize = 3;
 /// The low-pass that leaves out vibration alone.
-const QUICK: usize = 6;
+const QUICK_LOW_PASS: usize = 6;
 /// The two low-passes for a trend.
-const TREND: [usize; 2] = [1, 2];
+const TREND_LOW_PASSES: [usize; 2] = [1, 2];
 /// Number of targets of a forecast: the means over the blocks, and the slow and the fast part
 /// at the horizon's end.
 const TARGETS: usize = BLOCKS + 2;
@@ -49,7 +49,7 @@ const EXPERTS: usize = 4;
 const RATE_VARIANCE: f64 = 0.1;
 
 /// Samples that are remembered: the horizon's and the present one.
-const MEMORY: usize = FORECAST_SAMPLES + 1;
+const REMEMBERED_SAMPLES: usize = FORECAST_SAMPLES + 1;
 
 /// Decay of the expert that holds the reference \[1/s\].
 const HOLD_DECAY: f64 = 0.02;
@@ -59,7 +59,7 @@ const TREND_TIME: f64 = 1.5;
 /// target's end.
 const PRIOR_FRACTION: f64 = 0.1;
 /// Ridge of the prior \[(m/s2)^2\].
-const RIDGE: f64 = 3e-3;
+const PRIOR_RIDGE: f64 = 3e-3;
 /// Poles \[rad/s\] and variances \[(m/s2)^2\] of the prior's reference: a sum of
 /// Ornstein-Uhlenbeck processes.
 const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
@@ -69,7 +69,7 @@ const LEAST_ERROR: f64 = 1e-4;
 /// neither the forecast nor the preview errs, but only the preview contains what comes.
 const FORECAST_FLOOR: f64 = 0.005;
 /// Squared error of a preview before any is known \[(m/s2)^2\].
-const UNPROVED: f64 = 0.002;
+const UNPROVED_PREVIEW_ERROR: f64 = 0.002;
 /// Time constants with which the squared errors beside a preview follow larger
 /// and smaller ones \[s\].
 const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
@@ -77,7 +77,7 @@ const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
 /// this factor. [`FORECAST_FLOOR`] is included in the forecast's errors.
 const UNCERTAINTY_FACTOR: f64 = 1.6;
 /// The first block that is longer than the usual time between the elements of a preview.
-const RESOLVED: usize = 4;
+const FIRST_LONG_BLOCK: usize = 4;
 /// Samples from one fit of a target to the next.
 const FIT_EVERY: usize = 5;
 
@@ -104,7 +104,7 @@ pub struct Forecaster {
     /// The step that the low-passes' decays are for \[s\].
     step: f64,
     decays: SVector<f64, LOW_PASSES>,
-    /// A ring of [`MEMORY`] samples, the latest at `latest`.
+    /// A ring of [`REMEMBERED_SAMPLES`] samples, the latest at `latest`.
     samples: Vec<StoredSample>,
     latest: u32,
     /// The fit of each target.
@@ -150,9 +150,9 @@ impl StoredSample {
 
     /// The slow and the fast part of the reference, and its slope.
     fn parts(&self) -> [f64; 3] {
-        let slow = self.low_passes[SLOW];
-        let [quick, lagging] = TREND.map(|k| self.low_passes[k]);
-        let slope = (quick - lagging) / (TIME_CONSTANTS[TREND[1]] - TIME_CONSTANTS[TREND[0]]);
+        let slow = self.low_passes[SLOW_LOW_PASS];
+        let [quick, lagging] = TREND_LOW_PASSES.map(|k| self.low_passes[k]);
+        let slope = (quick - lagging) / (TIME_CONSTANTS[TREND_LOW_PASSES[1]] - TIME_CONSTANTS[TREND_LOW_PASSES[0]]);
         [slow, self.value - slow, slope]
     }
 }
@@ -185,7 +185,7 @@ impl Default for Tables {
     fn default() -> Self {
         let [slow, fast] = FADE_DECAY;
         let fade = [exponential(slow, true), exponential(fast, false)];
-        let (covariance, linear) = (prior_covariance() + RIDGE * Covariance::identity(), from_features(&fade));
+        let (covariance, linear) = (prior_covariance() + PRIOR_RIDGE * Covariance::identity(), from_features(&fade));
         Tables {
             hold: [exponential(HOLD_DECAY, true), exponential(HOLD_DECAY, false)],
             fade,
@@ -194,7 +194,7 @@ impl Default for Tables {
                 let samples = PRIOR_FRACTION * samples_to_end(target) as f64;
                 Regression::new(samples * covariance, &linear.row(target).transpose())
             }),
-            preview_keep: PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time)),
+            preview_keep: PREVIEW_MEMORY.map(|time| libm::exp(-PLAN_INTERVAL / time)),
         }
     }
 }
@@ -266,7 +266,7 @@ impl Forecaster {
             integral: 0.0,
             step: 0.0,
             decays: SVector::zeros(),
-            samples: vec![StoredSample::default(); MEMORY],
+            samples: vec![StoredSample::default(); REMEMBERED_SAMPLES],
             latest: 0,
             fits: tables.priors,
             fitted: from_features(&tables.fade),
@@ -278,7 +278,7 @@ impl Forecaster {
             courses: PreviewedCues::default(),
             beside: 0.0,
             rates: Vector3::zeros(),
-            preview_errors: [LEAST_ERROR, UNPROVED].map(SVector::repeat),
+            preview_errors: [LEAST_ERROR, UNPROVED_PREVIEW_ERROR].map(SVector::repeat),
         }
     }
 
@@ -340,28 +340,29 @@ impl Forecaster {
     ///
     /// `ahead` is the room for it, so that the many corners are not moved.
     fn previewed<'a>(&self, ahead: &'a mut Ahead, tables: &Tables, kind: ForecastKind) -> Option<Previewed<'a>> {
-        let past = (TIME_CONSTANTS[QUICK], self.low_passes[QUICK]);
+        let past = (TIME_CONSTANTS[QUICK_LOW_PASS], self.low_passes[QUICK_LOW_PASS]);
         if !ahead.set(&self.courses, past, self.beside) {
             return None;
         }
         let mut end = StoredSample { value: ahead.last(), ..StoredSample::default() };
         // No forecast uses the last one.
-        for (low, (now, time)) in end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)).take(QUICK)
+        for (low, (now, time)) in
+            end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)).take(QUICK_LOW_PASS)
         {
             *low = ahead.low_pass(*now, time, ahead.length());
         }
         let fitted = self.fitted * end.features();
         let after = self.expected(&end, &fitted, tables, kind);
-        Some(Previewed { ahead, after, slow: self.low_passes[SLOW], slow_time: TIME_CONSTANTS[SLOW] })
+        Some(Previewed { ahead, after, slow: self.low_passes[SLOW_LOW_PASS], slow_time: TIME_CONSTANTS[SLOW_LOW_PASS] })
     }
 
     /// The weight of the preview in each block of a horizon, from 0 to 1.
     ///
     /// It follows from the ratio of the preview's error to that of the forecast without it,
-    /// [`FORECAST_FLOOR`] included. The ratio in a block is the largest of the blocks up to it,
-    /// since a preview that is worse for near blocks is not better for later ones. For later
-    /// blocks, the first [`RESOLVED`] blocks are left out: they are shorter than what a preview
-    /// resolves.
+    /// [`FORECAST_FLOOR`] included. The ratio in a block is the largest of the blocks up to
+    /// it, since a preview that is worse for near blocks is not better for later ones. For
+    /// later blocks, the first [`FIRST_LONG_BLOCK`] blocks are left out: they are shorter than
+    /// what a preview resolves.
     fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
         let [learned, previewed] = &self.preview_errors;
         let ratios = previewed.component_div(&learned.add_scalar(FORECAST_FLOOR));
@@ -369,7 +370,7 @@ impl Forecaster {
         let ends = horizon.ends();
         SVector::from_fn(|k, _| {
             let block = own_ends.iter().position(|end| *end >= ends[k]).unwrap_or(BLOCKS - 1);
-            let first = block.min(RESOLVED);
+            let first = block.min(FIRST_LONG_BLOCK);
             let ratio = UNCERTAINTY_FACTOR * ratios.rows(first, block + 1 - first).max();
             1.0 / (1.0 + ratio * ratio * ratio * ratio)
         })
@@ -380,18 +381,18 @@ impl Forecaster {
     pub fn until_stop(&self, time: f64, horizon: Horizon) -> Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let before = |k: usize| ((time - ends[k] + durations[k]) / durations[k]).clamp(0.0, 1.0);
-        let slow = self.low_passes[SLOW];
+        let slow = self.low_passes[SLOW_LOW_PASS];
         let end = if time < ends[BLOCKS - 1] { [0.0; 2] } else { [slow, self.value - slow] };
         Forecast { means: SVector::from_fn(|k, _| self.value * before(k)), end }
     }
 
     /// Updates the errors and the fit with the latest samples, and forecasts anew. To be called
-    /// once every [`SAMPLE`].
+    /// once every [`PLAN_INTERVAL`].
     pub fn sample(&mut self, tables: &Tables, kind: ForecastKind, memory: &Memory) {
         while self.unlearned < TARGETS {
             self.learn_next(tables);
         }
-        self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
+        self.latest = self.latest.wrapping_add(1) % REMEMBERED_SAMPLES as u32;
         let mut now = StoredSample {
             value: self.value,
             rates: self.rates,
@@ -430,15 +431,15 @@ impl Forecaster {
 
     /// The sample that is `count` samples old.
     fn ago(&self, count: usize) -> Option<&StoredSample> {
-        self.samples.get((self.latest as usize + MEMORY - count) % MEMORY)
+        self.samples.get((self.latest as usize + REMEMBERED_SAMPLES - count) % REMEMBERED_SAMPLES)
     }
 
     /// The sample from whose time on a target has just ended, and the target's value.
     fn ended(&self, target: usize) -> Option<(&StoredSample, f64)> {
         let (then, now) = (self.ago(samples_to_end(target))?, self.ago(0)?);
         let truth = match target {
-            BLOCKS => now.low_passes[SLOW],
-            target if target > BLOCKS => now.value - now.low_passes[SLOW],
+            BLOCKS => now.low_passes[SLOW_LOW_PASS],
+            target if target > BLOCKS => now.value - now.low_passes[SLOW_LOW_PASS],
             block => (now.integral - self.ago(SAMPLES[block])?.integral) / Horizon::Near.durations()[block],
         };
         Some((then, truth))
@@ -447,7 +448,7 @@ impl Forecaster {
     /// Updates the errors with the targets whose time has just ended. Fits a part of the targets
     /// anew; the fits of the others learn [in the steps that follow](Forecaster::learn_next).
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
-        let [keep_fit, keep_errors] = [memory.fit, memory.selection].map(|time| libm::exp(-SAMPLE / time));
+        let [keep_fit, keep_errors] = [memory.fit, memory.selection].map(|time| libm::exp(-PLAN_INTERVAL / time));
         for target in 0..TARGETS {
             self.compare(target, tables, keep_errors);
         }

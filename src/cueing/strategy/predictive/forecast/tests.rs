@@ -9,9 +9,9 @@ const MEMORY: Memory = Memory { fit: 60.0, selection: 3.0 };
 fn followed(reference: impl Fn(f64) -> f64, time: f64, kind: ForecastKind) -> Forecaster {
     let tables = Tables::default();
     let mut forecaster = Forecaster::new(&tables);
-    for k in 0..(time / SAMPLE).round() as usize {
+    for k in 0..(time / PLAN_INTERVAL).round() as usize {
         for j in 0..20 {
-            forecaster.advance(reference(k as f64 * SAMPLE + f64::from(j + 1) * 0.001), 0.001);
+            forecaster.advance(reference(k as f64 * PLAN_INTERVAL + f64::from(j + 1) * 0.001), 0.001);
         }
         forecaster.sample(&tables, kind, &MEMORY);
     }
@@ -157,7 +157,7 @@ impl Plain {
         for value in &self.values[(n - 1) * PER_SAMPLE..n * PER_SAMPLE] {
             forecaster.advance(*value, 0.001);
         }
-        forecaster.set_angular(0.0, &lively_rates(n as f64 * SAMPLE));
+        forecaster.set_angular(0.0, &lively_rates(n as f64 * PLAN_INTERVAL));
     }
 
     fn value(&self, n: usize) -> f64 {
@@ -177,7 +177,7 @@ impl Plain {
             return Features::zeros();
         }
         let n = n as usize;
-        let rates = lively_rates(n as f64 * SAMPLE);
+        let rates = lively_rates(n as f64 * PLAN_INTERVAL);
         Features::from_fn(|k, _| match k {
             0 => self.value(n),
             k if k < FORCES => self.low_passes[n][k - 1],
@@ -188,8 +188,8 @@ impl Plain {
     /// A target whose time ends at a sample.
     fn truth(&self, target: usize, now: usize) -> f64 {
         match target {
-            BLOCKS => self.low_passes[now][SLOW],
-            target if target > BLOCKS => self.value(now) - self.low_passes[now][SLOW],
+            BLOCKS => self.low_passes[now][SLOW_LOW_PASS],
+            target if target > BLOCKS => self.value(now) - self.low_passes[now][SLOW_LOW_PASS],
             block => self.mean(now as isize - SAMPLES[block] as isize, now as isize),
         }
     }
@@ -200,8 +200,8 @@ impl Plain {
             return [Targets::zeros(); 3];
         }
         let n = n as usize;
-        let (slow, fast) = (self.low_passes[n][SLOW], self.value(n) - self.low_passes[n][SLOW]);
-        let slope = (self.low_passes[n][TREND[0]] - self.low_passes[n][TREND[1]]) / 0.2;
+        let (slow, fast) = (self.low_passes[n][SLOW_LOW_PASS], self.value(n) - self.low_passes[n][SLOW_LOW_PASS]);
+        let slope = (self.low_passes[n][TREND_LOW_PASSES[0]] - self.low_passes[n][TREND_LOW_PASSES[1]]) / 0.2;
         let course = |slow_decay: f64, fast_decay: f64| {
             let part = |value: f64, decay: f64, time: f64| value * (-decay * time).exp();
             let means = means(|time| part(slow, slow_decay, time) + part(fast, fast_decay, time), 0.0);
@@ -232,7 +232,7 @@ fn plain_fit(plain: &Plain, tables: &Tables, n: usize) -> Linear {
     for (target, prior) in tables.priors.iter().enumerate() {
         let (mut squares, mut products) = (prior.squares, prior.products);
         for k in 1..=n as isize {
-            let weight = (-SAMPLE * (n as f64 - k as f64) / MEMORY.fit).exp();
+            let weight = (-PLAN_INTERVAL * (n as f64 - k as f64) / MEMORY.fit).exp();
             let start = k - samples_to_end(target) as isize;
             let x = plain.features(start);
             squares += weight * x * x.transpose();
@@ -276,8 +276,8 @@ fn the_learned_forecast_is_that_of_plain_sums() {
             age += SAMPLES[target];
         }
         for n in 1..=samples {
-            let weight =
-                (1.0 - (-SAMPLE / MEMORY.selection).exp()) * (-SAMPLE * (samples - n) as f64 / MEMORY.selection).exp();
+            let weight = (1.0 - (-PLAN_INTERVAL / MEMORY.selection).exp())
+                * (-PLAN_INTERVAL * (samples - n) as f64 / MEMORY.selection).exp();
             let start = n as isize - age as isize;
             let truth = plain.truth(target, n);
             for expert in 0..EXPERTS {
@@ -318,7 +318,7 @@ fn the_fit_begins_as_the_fading_expert_with_the_priors_weight() {
     }
     // Two low-passes are the slow part: the fit's, and that of the fixed experts.
     let mut low_passes = SVector::from_fn(|k, _| 0.2 * k as f64);
-    low_passes[SLOW] = low_passes[FIT_SLOW];
+    low_passes[SLOW_LOW_PASS] = low_passes[FIT_SLOW];
     let sample = StoredSample { value: 1.3, low_passes, rates: Vector3::new(0.3, 0.2, 0.1), ..StoredSample::default() };
     for (target, prior) in tables.priors.iter().enumerate() {
         let forecast = prior.coefficients().unwrap().dot(&sample.features());
@@ -337,7 +337,7 @@ fn a_rate_that_leads_the_reference_is_learned() {
         let mut forecaster = Forecaster::new(&tables);
         let (mut sum, mut count) = (0.0, 0.0);
         for n in 0..4000 {
-            let time = f64::from(n) * SAMPLE;
+            let time = f64::from(n) * PLAN_INTERVAL;
             for _ in 0..20 {
                 forecaster.advance(noise(time), 0.001);
             }
@@ -391,7 +391,7 @@ fn after_a_right_preview_the_forecast_is_the_one_made_then() {
     let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Decay).unwrap();
     // The forecaster holds each value for a millisecond, and knows the present one by a low-pass.
     assert!((previewed.after.means - then.forecast.means).amax() < 0.02, "{}", previewed.after.means);
-    assert!((previewed.slow - forecaster.low_passes[SLOW]).abs() < 1e-15);
+    assert!((previewed.slow - forecaster.low_passes[SLOW_LOW_PASS]).abs() < 1e-15);
     for part in 0..2 {
         assert!((previewed.after.end[part] - then.forecast.end[part]).abs() < 0.02);
     }
@@ -457,7 +457,7 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
         // At first there is no preview; then it is wrong for a while.
         let wrong = if n % 100 < 50 { 0.8 } else { 0.0 };
         if n > 20 {
-            forecaster.preview(&course(|time| lively(time) + wrong, n as f64 * SAMPLE, 20));
+            forecaster.preview(&course(|time| lively(time) + wrong, n as f64 * PLAN_INTERVAL, 20));
         }
         forecaster.sample(&tables, ForecastKind::Learned, &MEMORY);
         let previewed = forecaster.preview_over(Horizon::Near, &tables, ForecastKind::Learned);
@@ -471,7 +471,7 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
                 let squared = 1e-4 + (means[which][block] - truth).powi(2);
                 let error = &mut expected[which][block];
                 let time = if squared > *error { 1.5 } else { 10.0 };
-                *error += (1.0 - (-SAMPLE / time).exp()) * (squared - *error);
+                *error += (1.0 - (-PLAN_INTERVAL / time).exp()) * (squared - *error);
             }
         }
         for (found, expected) in forecaster.preview_errors.iter().zip(&expected) {
