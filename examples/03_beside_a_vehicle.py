@@ -77,7 +77,7 @@ def simulate(fmu="target/fmu/MorisWashout.fmu", rate=1000):
             then = car.sensors()
             washout.setReal(inputs, now.tolist())
             # The vehicle is one step ahead, so that the slopes over the step are known. Without them the inputs
-            # would be held, and jump at each communication point.
+            # would ramp from those of the step before, a step late.
             washout.setRealInputDerivatives(inputs, [1] * len(inputs), ((then - now) / step).tolist())
             washout.doStep(currentCommunicationPoint=k * step, communicationStepSize=step)
             now = then

@@ -32,7 +32,7 @@ const LARGEST_FORCE: f64 = 40.0;
 /// Mean square that is added to a reference's \[m2/s4\]: rest counts as no error.
 const MEAN_SQUARE_FLOOR: f64 = 0.1;
 /// Weight of what is felt the wrong way round, beside that of any error.
-const INVERSION_WEIGHT: f64 = 0.54;
+const WRONG_WAY_WEIGHT: f64 = 0.54;
 /// Fraction of the mean square of the references at which the factor may rise at its full rate. In
 /// a pause nothing shows that more would fit.
 const ACTIVE_FRACTION: f64 = 0.5;
@@ -178,9 +178,9 @@ impl Bank {
                     Some(forward) => tracker.control(&state.fixed_rows::<4>(0).into(), forward, scale),
                 };
                 let felt = felt.advance(platform.advance(model, &law, cued, step), &filter);
-                let inverted = if felt * desired < 0.0 { INVERSION_WEIGHT * felt * felt } else { 0.0 };
+                let wrong_way = if felt * desired < 0.0 { WRONG_WAY_WEIGHT * felt * felt } else { 0.0 };
                 let missed = felt - scale * desired;
-                *error = at_rest_if_tiny(*error + share * (missed * missed + inverted - *error));
+                *error = at_rest_if_tiny(*error + share * (missed * missed + wrong_way - *error));
                 scale *= SHADOW_SCALE_RATIO;
             }
             desired
