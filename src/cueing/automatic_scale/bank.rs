@@ -11,7 +11,7 @@ use super::platform::{Platform, REGULATOR_WEIGHTS};
 use crate::cueing::conditioning::soft_limit;
 use crate::cueing::strategy::coordinated::models;
 use crate::cueing::strategy::optimal::weighed;
-use crate::cueing::strategy::predictive::preview::PreviewedCue;
+use crate::cueing::strategy::predictive::preview::{PreviewedCue, TIME_ROUNDING};
 use crate::cueing::strategy::regulator::{AxisModel, Gains, Regulator, State};
 use crate::cueing::strategy::{Unsolvable, at_rest_if_tiny};
 use crate::interface::{AutomaticScaleParameters, Parameters};
@@ -23,8 +23,6 @@ const SHADOW_COUNT: usize = 13;
 const SHADOW_SCALE_RATIO: f64 = 0.746_6;
 /// Time between two samples of the bank \[s\].
 const SAMPLE_TIME: f64 = 0.02;
-/// Differences of time below this are rounding \[s\].
-const TIME_TOLERANCE: f64 = 1e-9;
 /// Frequency below which forces are compared \[Hz\], as in the measure of shape.
 const CUE_FREQUENCY: f64 = 2.0;
 /// Largest force that is compared \[m/s2\]: a spike does not rule the memory for minutes.
@@ -135,7 +133,7 @@ impl Bank {
             *sum += reference.clamp(-LARGEST_FORCE, LARGEST_FORCE) * step;
         }
         self.since += step;
-        if self.since < SAMPLE_TIME - TIME_TOLERANCE {
+        if self.since < SAMPLE_TIME - TIME_ROUNDING {
             return None;
         }
         let references = self.sum.map(|sum| at_rest_if_tiny(sum / self.since));

@@ -30,7 +30,7 @@ use self::forecast::{Forecaster, Memory, Tables};
 use self::homing::Homing;
 use self::horizon::{BLOCKS, Horizon, PLAN_INTERVAL, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
-use self::preview::PreviewedCue;
+use self::preview::{PreviewedCue, TIME_ROUNDING};
 use self::program::{
     AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, ROWS, TILT_RAMP_TIME,
 };
@@ -53,8 +53,6 @@ const MAX_ITERATIONS: u32 = 120;
 /// hardly leave a solution, a plan may change by tens of m/s2. What it then misses, the soft limits
 /// keep.
 const MAX_DROPPED_SLOPE: f64 = 25.0;
-/// Differences of time below this are rounding \[s\].
-const TIME_ROUNDING: f64 = 1e-9;
 
 /// The tunable parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -11,7 +11,7 @@ use crate::interface::{PREVIEW_SAMPLES, Preview};
 /// Time constant with which the angular channel's part of the reference is expected to fade \[s\].
 const BESIDE_TIME: f64 = 1.0;
 /// Differences of time below this are rounding \[s\].
-const TIME_ROUNDING: f64 = 1e-9;
+pub const TIME_ROUNDING: f64 = 1e-9;
 
 /// The cue of one axis at points of time to come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
