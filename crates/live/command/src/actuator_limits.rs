@@ -45,7 +45,7 @@ impl Actuators {
 
 /// The way of frames to the controller.
 #[derive(Clone, Debug)]
-pub struct Wire {
+pub struct FrameLimiter {
     /// Time between frames \[s\].
     interval: f64,
     actuators: Actuators,
@@ -106,16 +106,16 @@ impl Glide {
     }
 }
 
-impl Wire {
+impl FrameLimiter {
     /// A way with frames at this interval \[s\] to these actuators.
     pub fn new(interval: f64, actuators: Actuators) -> Self {
-        Wire { interval, actuators, last: None, change: [0.0; GLIDED_NUMBERS], glide: None, is_lost: false }
+        FrameLimiter { interval, actuators, last: None, change: [0.0; GLIDED_NUMBERS], glide: None, is_lost: false }
     }
 
     /// The actuators are where the next frame has them, as a person or the controller says: it has
     /// nothing to do with the last one.
     pub fn begin_anew(&mut self) {
-        *self = Wire::new(self.interval, self.actuators);
+        *self = FrameLimiter::new(self.interval, self.actuators);
     }
 
     /// The controller does not receive frames, or has stopped by itself: its actuators come to rest

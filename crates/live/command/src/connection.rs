@@ -1,11 +1,11 @@
-//! Contact with the controller: it is lost when it refuses frames, or the line is gone.
+//! Connection with the controller: it is lost when it refuses frames, or the line is gone.
 
 use std::io::{self, ErrorKind};
 use std::time::Duration;
 
 /// Failures of sending.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact {
+pub struct Connection {
     /// Failures with which it is lost.
     most: u32,
     failures: u32,
@@ -13,15 +13,15 @@ pub struct Contact {
     is_lost: bool,
 }
 
-impl Contact {
-    /// Contact with a controller that gets frames at this interval \[s\].
+impl Connection {
+    /// Connection with a controller that gets frames at this interval \[s\].
     pub fn new(interval: f64) -> Self {
         // Failures in a row that are no loss yet: a system reports each refused packet once, with a
         // later one, which may be sent.
         const TOLERATED_FAILURES: u32 = 2;
         // Within 0.5 s, of which every other frame is refused.
         let most = if interval > 0.05 { 1 } else { TOLERATED_FAILURES + 1 };
-        Contact { most, failures: 0, last: Duration::ZERO, is_lost: false }
+        Connection { most, failures: 0, last: Duration::ZERO, is_lost: false }
     }
 
     /// A person has started the controller again.
@@ -62,11 +62,11 @@ mod tests {
     /// The time of the loss \[ms\], with frames at this interval \[ms\], of
     /// which those are refused.
     fn lost(interval: u64, is_refused: impl Fn(u64) -> bool) -> Option<u64> {
-        let mut contact = Contact::new(interval as f64 * 1e-3);
+        let mut connection = Connection::new(interval as f64 * 1e-3);
         (0..5000).step_by(interval as usize).find(|time| {
             let refused = is_refused(time / interval);
             let sent = if refused { Err(ErrorKind::ConnectionRefused.into()) } else { Ok(()) };
-            contact.take(&sent, Duration::from_millis(10_000 + time)).is_some()
+            connection.take(&sent, Duration::from_millis(10_000 + time)).is_some()
         })
     }
 
@@ -87,37 +87,37 @@ mod tests {
     }
 
     /// The failure with which the controller is lost, of failures at these times \[ms\].
-    fn lost_with(contact: &mut Contact, times: &[u64]) -> Option<usize> {
+    fn lost_with(connection: &mut Connection, times: &[u64]) -> Option<usize> {
         let refused = Err(ErrorKind::ConnectionRefused.into());
         let at = |time: &u64| Duration::from_millis(10_000 + time);
-        times.iter().position(|time| contact.take(&refused, at(time)) == Some(ErrorKind::ConnectionRefused))
+        times.iter().position(|time| connection.take(&refused, at(time)) == Some(ErrorKind::ConnectionRefused))
     }
 
     #[test]
     fn failures_within_a_second_of_each_other_are_a_row() {
-        let lost = |times: &[u64]| lost_with(&mut Contact::new(0.01), times);
+        let lost = |times: &[u64]| lost_with(&mut Connection::new(0.01), times);
         assert_eq!(lost(&[0, 1000, 2000]), Some(2));
         assert_eq!(lost(&[0, 1000, 2001, 3002, 4003]), None);
         // Rare frames: each one counts from an interval of more than 50 ms on.
-        assert_eq!(lost_with(&mut Contact::new(0.05), &[0, 1, 2]), Some(2));
-        assert_eq!(lost_with(&mut Contact::new(0.051), &[0, 1, 2]), Some(0));
+        assert_eq!(lost_with(&mut Connection::new(0.05), &[0, 1, 2]), Some(2));
+        assert_eq!(lost_with(&mut Connection::new(0.051), &[0, 1, 2]), Some(0));
     }
 
     #[test]
     fn a_loss_is_said_once_until_a_person_renews_the_contact() {
-        let mut contact = Contact::new(0.01);
-        assert!(!contact.is_lost());
-        assert_eq!(lost_with(&mut contact, &[0, 1, 2, 3, 4]), Some(2));
-        assert!(contact.is_lost() && lost_with(&mut contact, &[5, 6, 7, 8]).is_none());
-        contact.renew();
-        assert!(!contact.is_lost());
-        assert_eq!(lost_with(&mut contact, &[9, 10, 11]), Some(2));
-        let mut contact = Contact::new(0.01);
-        contact.lose();
-        assert!(contact.is_lost() && lost_with(&mut contact, &[0, 1, 2, 3]).is_none());
+        let mut connection = Connection::new(0.01);
+        assert!(!connection.is_lost());
+        assert_eq!(lost_with(&mut connection, &[0, 1, 2, 3, 4]), Some(2));
+        assert!(connection.is_lost() && lost_with(&mut connection, &[5, 6, 7, 8]).is_none());
+        connection.renew();
+        assert!(!connection.is_lost());
+        assert_eq!(lost_with(&mut connection, &[9, 10, 11]), Some(2));
+        let mut connection = Connection::new(0.01);
+        connection.lose();
+        assert!(connection.is_lost() && lost_with(&mut connection, &[0, 1, 2, 3]).is_none());
         // What is sent says nothing of the failures before it.
-        let mut contact = Contact::new(0.01);
-        assert_eq!(contact.take(&Ok(()), Duration::from_secs(1)), None);
-        assert!(!contact.is_lost());
+        let mut connection = Connection::new(0.01);
+        assert_eq!(connection.take(&Ok(()), Duration::from_secs(1)), None);
+        assert!(!connection.is_lost());
     }
 }

@@ -15,7 +15,7 @@ use super::frames::{Frames, Loss};
 use super::lateness::Lateness;
 use super::leg_position::LegPosition;
 use super::loop_clock;
-use super::page::{Order, SHOWN_INTERVAL_STEPS, Shown};
+use super::page::{Order, SNAPSHOT_INTERVAL_STEPS, Snapshot};
 use super::signals::Interrupts;
 use super::telemetry::Received;
 use super::telemetry_watch::TelemetryWatch;
@@ -39,7 +39,7 @@ pub struct Steps<'a> {
     pub frames: Frames,
     pub journal: Producer<Note>,
     /// For the page; what it does not take is dropped.
-    pub shown: Option<Producer<Shown>>,
+    pub shown: Option<Producer<Snapshot>>,
     /// For the page: the parameters in force, where what it has asked for was refused.
     pub refused: Producer<Parameters>,
     /// Starts by itself, once.
@@ -163,9 +163,9 @@ impl Steps<'_> {
                 watch.check(session, |note| summary.lost_notes += u64::from(journal.push(note).is_err()));
             }
             if let Some(shown) = &mut self.shown
-                && summary.steps.is_multiple_of(SHOWN_INTERVAL_STEPS)
+                && summary.steps.is_multiple_of(SNAPSHOT_INTERVAL_STEPS)
             {
-                let _ = shown.push(Shown::of(self.session, &summary.lateness, self.is_lost));
+                let _ = shown.push(Snapshot::of(self.session, &summary.lateness, self.is_lost));
             }
             if ending && state == State::Off {
                 self.record(Happening::End(digest.0), &mut summary);
@@ -325,7 +325,7 @@ mod tests {
     use rtrb::RingBuffer;
 
     use super::*;
-    use crate::actuator_limits::{Actuators, Wire};
+    use crate::actuator_limits::{Actuators, FrameLimiter};
     use crate::frames::{Message, Sending};
 
     /// The loop's parts on a computed clock, and what it has noted.
@@ -334,7 +334,7 @@ mod tests {
         summary: Summary,
         notes: Consumer<Note>,
         sent: Consumer<Sending>,
-        wire: Wire,
+        limiter: FrameLimiter,
         digest: Digest,
         text: String,
         said: Vec<String>,
@@ -372,8 +372,8 @@ mod tests {
         };
         let text = header(&Parameters::default(), &settings, None);
         let (summary, digest) = (Summary::default(), Digest::default());
-        let wire = Wire::new(0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] });
-        test(&mut Computed { steps, summary, notes, sent, wire, digest, text, said: Vec::new() })
+        let limiter = FrameLimiter::new(0.01, Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] });
+        test(&mut Computed { steps, summary, notes, sent, limiter, digest, text, said: Vec::new() })
     }
 
     impl Computed<'_> {
@@ -428,9 +428,9 @@ mod tests {
             let mut left = None;
             while let Ok(Sending { message, values, .. }) = self.sent.pop() {
                 if message == Message::Begin {
-                    self.wire.begin_anew();
+                    self.limiter.begin_anew();
                 }
-                left = Some(self.wire.pass(Duration::from_millis(self.summary.steps), &values).length);
+                left = Some(self.limiter.pass(Duration::from_millis(self.summary.steps), &values).length);
             }
             left
         }
@@ -518,7 +518,7 @@ mod tests {
                     last = live.frame().unwrap_or(last);
                 }
                 assert_eq!(live.state(), State::Engaged);
-                live.wire.lose();
+                live.limiter.lose();
                 live.obey(Order::Lost(Loss::Refused(std::io::ErrorKind::BrokenPipe)));
                 assert!(live.state() == State::Fault && live.steps.is_lost && !live.steps.session.is_located());
                 for _ in 0..3_000 {

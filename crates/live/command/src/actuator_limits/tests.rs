@@ -13,10 +13,10 @@ fn commanded(time: f64) -> Values {
 }
 
 /// Frames that leave at these times \[ms\].
-fn passed(wire: &mut Wire, times: impl IntoIterator<Item = u32>) -> Vec<Values> {
+fn passed(limiter: &mut FrameLimiter, times: impl IntoIterator<Item = u32>) -> Vec<Values> {
     times
         .into_iter()
-        .map(|time| wire.pass(Duration::from_millis(time.into()), &commanded(f64::from(time) * 1e-3)))
+        .map(|time| limiter.pass(Duration::from_millis(time.into()), &commanded(f64::from(time) * 1e-3)))
         .collect()
 }
 
@@ -60,8 +60,8 @@ impl Commands {
 
 #[test]
 fn frames_on_time_pass_as_they_are() {
-    let mut wire = Wire::new(INTERVAL, ACTUATORS);
-    for (k, values) in passed(&mut wire, (0..3000).step_by(10)).iter().enumerate() {
+    let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
+    for (k, values) in passed(&mut limiter, (0..3000).step_by(10)).iter().enumerate() {
         assert_eq!(*values, commanded(k as f64 * 10.0 * 1e-3));
     }
 }
@@ -69,9 +69,9 @@ fn frames_on_time_pass_as_they_are() {
 #[test]
 fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
     for gap in [20, 30, 106, 219, 700, 1670, 5000] {
-        let mut wire = Wire::new(INTERVAL, ACTUATORS);
+        let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
         let times = (0..500).step_by(10).chain((490 + gap..14_000).step_by(10));
-        let frames = passed(&mut wire, times);
+        let frames = passed(&mut limiter, times);
         let steps = frames.windows(2).map(|pair| (pair[1].length[0] - pair[0].length[0]).abs());
         let most = steps.fold(0.0, f64::max);
         assert!(most <= 1.2 * SPEED * INTERVAL, "gap of {gap} ms: {most} m in a frame");
@@ -85,9 +85,9 @@ fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
 #[test]
 fn frames_left_out_within_a_glide_are_no_jolt() {
     for seed in 0..20 {
-        let (mut random, mut wire) = (Random(seed), Wire::new(INTERVAL, ACTUATORS));
+        let (mut random, mut limiter) = (Random(seed), FrameLimiter::new(INTERVAL, ACTUATORS));
         let commanded = |time: f64| Values { time, length: [1.3 + 0.08 * (1.6 * time).sin(); 6], ..Values::default() };
-        wire.pass(Duration::ZERO, &commanded(0.0));
+        limiter.pass(Duration::ZERO, &commanded(0.0));
         let mut frames = Vec::new();
         for k in 50..1000 {
             // At most every other one.
@@ -95,7 +95,7 @@ fn frames_left_out_within_a_glide_are_no_jolt() {
                 && random.next() < 0.2;
             if !is_left_out {
                 let time = f64::from(k) * INTERVAL;
-                frames.push(wire.pass(Duration::from_secs_f64(time), &commanded(time)));
+                frames.push(limiter.pass(Duration::from_secs_f64(time), &commanded(time)));
             }
         }
         let speed = |pair: &[Values]| (pair[1].length[0] - pair[0].length[0]) / (pair[1].time - pair[0].time);
@@ -118,7 +118,7 @@ fn nothing_that_happens_to_frames_makes_a_jump_or_leaves_the_stroke() {
         let actuators = rigs[seed as usize % 2];
         let interval = intervals[seed as usize % 5];
         let every = (interval / 1e-3_f64).round() as u64;
-        let mut wire = Wire::new(interval, actuators);
+        let mut limiter = FrameLimiter::new(interval, actuators);
         let middle = 0.5 * (actuators.stroke[0] + actuators.stroke[1]);
         let mut commands = Commands { actuators, length: [middle; 6], velocity: [0.0; 6], push: [0.0; 6] };
         let often = [0.0, 0.02, 0.2][seed as usize % 3];
@@ -135,7 +135,7 @@ fn nothing_that_happens_to_frames_makes_a_jump_or_leaves_the_stroke() {
                 match (3.0 * random.next()) as u32 {
                     0 => until = step + (1000.0 * seconds) as u64,
                     1 => stopped += seconds,
-                    _ => wire.lose(),
+                    _ => limiter.lose(),
                 }
                 was_late = true;
                 if step < until {
@@ -144,7 +144,7 @@ fn nothing_that_happens_to_frames_makes_a_jump_or_leaves_the_stroke() {
             }
             let Commands { length, velocity, .. } = commands;
             let values = Values { time: step as f64 * 1e-3, length, velocity, ..Values::default() };
-            frames.push((was_late, wire.pass(Duration::from_secs_f64(values.time + stopped), &values)));
+            frames.push((was_late, limiter.pass(Duration::from_secs_f64(values.time + stopped), &values)));
             was_late = false;
         }
         let inside = |values: &Values| {
@@ -176,52 +176,52 @@ fn nothing_that_happens_to_frames_makes_a_jump_or_leaves_the_stroke() {
 /// Frames that were left out near the end of the stroke, and commands that come back there.
 #[test]
 fn no_glide_leaves_the_stroke() {
-    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
     let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
-    wire.pass(Duration::ZERO, &at(0.0, 1.59));
+    limiter.pass(Duration::ZERO, &at(0.0, 1.59));
     for k in 20..1000 {
         let time = f64::from(k) * INTERVAL;
-        let now = wire.pass(Duration::from_secs_f64(time), &at(time, (1.4 + 0.2 * (time - 0.2)).min(1.6)));
+        let now = limiter.pass(Duration::from_secs_f64(time), &at(time, (1.4 + 0.2 * (time - 0.2)).min(1.6)));
         assert!((1.0..=1.6).contains(&now.length[0]), "{} m at {time} s", now.length[0]);
     }
 }
 
 #[test]
 fn a_controller_that_was_lost_is_followed_from_where_it_was() {
-    let mut wire = Wire::new(INTERVAL, ACTUATORS);
-    passed(&mut wire, (0..500).step_by(10));
-    let before = wire.last.unwrap().1.length[0];
-    wire.lose();
-    let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.0; 6], ..Values::default() });
+    let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
+    passed(&mut limiter, (0..500).step_by(10));
+    let before = limiter.last.unwrap().1.length[0];
+    limiter.lose();
+    let first = limiter.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.0; 6], ..Values::default() });
     assert!((first.length[0] - before).abs() < 1e-9);
     // The commands go up meanwhile: no frame leaves the stroke, and none jumps.
     let mut last = first.length[0];
     for k in 1..4000 {
         let time = 9.0 + 0.01 * f64::from(k);
         let up = [1.0 + 0.6 * (0.2 * (time - 9.0)).min(1.0); 6];
-        let now = wire.pass(Duration::from_secs_f64(time), &Values { time, length: up, ..Values::default() });
+        let now = limiter.pass(Duration::from_secs_f64(time), &Values { time, length: up, ..Values::default() });
         assert!((1.0..=1.6).contains(&now.length[0]) && (now.length[0] - last).abs() < 0.0026, "{time} s");
         last = now.length[0];
     }
     assert_eq!(last, 1.6);
     // Somebody knows where the platform is.
-    wire.begin_anew();
-    assert_eq!(wire.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
+    limiter.begin_anew();
+    assert_eq!(limiter.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
 }
 
 /// A person may sit there.
 #[test]
 fn a_glide_from_rest_is_gentle() {
     for interval in [1_u32, 10] {
-        let mut wire = Wire::new(f64::from(interval) * 1e-3, ACTUATORS);
+        let mut limiter = FrameLimiter::new(f64::from(interval) * 1e-3, ACTUATORS);
         let at =
             |time: u32, length: f64| Values { time: f64::from(time) * 1e-3, length: [length; 6], ..commanded(0.0) };
-        wire.pass(Duration::ZERO, &at(0, 1.35));
-        wire.lose();
+        limiter.pass(Duration::ZERO, &at(0, 1.35));
+        limiter.lose();
         let times = (9_000..40_000).step_by(interval as usize);
         let lengths: Vec<f64> =
-            times.map(|time| wire.pass(Duration::from_millis(time.into()), &at(time, 1.012)).length[0]).collect();
-        let turns = lengths.windows(3).map(|three| (three[2] - 2.0 * three[1] + three[0]) / wire.interval.powi(2));
+            times.map(|time| limiter.pass(Duration::from_millis(time.into()), &at(time, 1.012)).length[0]).collect();
+        let turns = lengths.windows(3).map(|three| (three[2] - 2.0 * three[1] + three[0]) / limiter.interval.powi(2));
         let most = turns.fold(0.0_f64, |most, turn| most.max(turn.abs()));
         assert!(most < 1.1 * GLIDE_ACCELERATION, "{interval} ms: {most} m/s2");
         assert_eq!(*lengths.last().unwrap(), 1.012);
@@ -232,12 +232,12 @@ fn a_glide_from_rest_is_gentle() {
 #[test]
 fn actuators_without_a_loop_come_to_rest_within_the_stroke() {
     for (length, velocity) in [(1.3, 0.4), (1.56, 0.99), (1.04, -0.99), (1.6, 0.0)] {
-        let mut wire = Wire::new(INTERVAL, ACTUATORS);
+        let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
         let values = Values { length: [length; 6], velocity: [velocity; 6], ..Values::default() };
-        wire.pass(Duration::ZERO, &values);
+        limiter.pass(Duration::ZERO, &values);
         let mut before = values;
         for k in 1..=100 {
-            let now = wire.at_rest_after(0.01 * f64::from(k)).unwrap();
+            let now = limiter.at_rest_after(0.01 * f64::from(k)).unwrap();
             assert!((1.0..=1.6).contains(&now.length[0]), "{} m", now.length[0]);
             assert!((now.length[0] - before.length[0]).abs() <= velocity.abs() * 0.01);
             before = now;
@@ -248,16 +248,16 @@ fn actuators_without_a_loop_come_to_rest_within_the_stroke() {
 
 /// The first frame after a gap \[s\], from where the last one was \[m\].
 fn first_after(interval: f64, gap: f64) -> f64 {
-    let mut wire = Wire::new(interval, ACTUATORS);
+    let mut limiter = FrameLimiter::new(interval, ACTUATORS);
     let last = 500.0 * interval;
-    (0..=500).for_each(|k| _ = pass(&mut wire, f64::from(k) * interval));
-    let before = wire.last.unwrap().1.length[0];
-    pass(&mut wire, last + gap) - before
+    (0..=500).for_each(|k| _ = pass(&mut limiter, f64::from(k) * interval));
+    let before = limiter.last.unwrap().1.length[0];
+    pass(&mut limiter, last + gap) - before
 }
 
 /// The length that leaves at a time \[s\].
-fn pass(wire: &mut Wire, time: f64) -> f64 {
-    wire.pass(Duration::from_secs_f64(time), &commanded(time)).length[0]
+fn pass(limiter: &mut FrameLimiter, time: f64) -> f64 {
+    limiter.pass(Duration::from_secs_f64(time), &commanded(time)).length[0]
 }
 
 /// 50 ms, or three intervals: up to there they go on at their own speed.
@@ -273,16 +273,16 @@ fn actuators_stand_after_a_gap_and_go_on_after_a_shorter_one() {
 
 /// Largest speed \[m/s\] on the way to a place that is 0.4 m away, after a gap.
 fn glide_speed(gap: f64, is_lost: bool) -> f64 {
-    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
     let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
-    wire.pass(Duration::ZERO, &at(0.0, 1.1));
+    limiter.pass(Duration::ZERO, &at(0.0, 1.1));
     if is_lost {
-        wire.lose();
+        limiter.lose();
     }
     let (mut before, mut fastest) = (1.1, 0.0_f64);
     for k in 0..3000 {
         let time = gap + f64::from(k) * INTERVAL;
-        let now = wire.pass(Duration::from_secs_f64(time), &at(time, 1.5)).length[0];
+        let now = limiter.pass(Duration::from_secs_f64(time), &at(time, 1.5)).length[0];
         fastest = fastest.max((now - before) / INTERVAL);
         before = now;
     }
@@ -305,13 +305,13 @@ fn a_glide_has_its_speed() {
 /// Frames come as ever: only the controller was away.
 #[test]
 fn a_loss_holds_for_one_frame() {
-    let mut wire = Wire::new(INTERVAL, ACTUATORS);
+    let mut limiter = FrameLimiter::new(INTERVAL, ACTUATORS);
     let mut before = 0.0;
     for k in 0..100 {
         if k == 50 {
-            wire.lose();
+            limiter.lose();
         }
-        let now = pass(&mut wire, f64::from(k) * INTERVAL);
+        let now = pass(&mut limiter, f64::from(k) * INTERVAL);
         assert_eq!(now == before, k == 50, "{k}");
         before = now;
     }

@@ -117,7 +117,7 @@ mod tests {
     use moris_live::moog::PACKET_INTERVAL;
 
     use super::*;
-    use crate::actuator_limits::{Actuators, Wire};
+    use crate::actuator_limits::{Actuators, FrameLimiter};
 
     /// Commands that jump by 0.3 m, as by an error somewhere before: what the base is sent.
     #[test]
@@ -126,7 +126,7 @@ mod tests {
         let mut device = Device::moog(&rig);
         let stroke = [rig.min_length, rig.max_length];
         let actuators = Actuators { speed: rig.velocity_limit, acceleration: rig.acceleration_limit, stroke };
-        let mut wire = Wire::new(PACKET_INTERVAL, actuators);
+        let mut limiter = FrameLimiter::new(PACKET_INTERVAL, actuators);
         let mut answer = [0; 40];
         answer[11] = 0x23;
         let (mut bytes, mut before, mut fastest) = (Vec::new(), 0.0, 0.0_f64);
@@ -136,7 +136,7 @@ mod tests {
             let heave_above = if k / 300 % 2 == 0 { 0.15 } else { -0.15 };
             let commanded = Values { time: f64::from(k) * PACKET_INTERVAL, heave_above, ..Values::default() };
             let now = Duration::from_secs_f64(commanded.time);
-            let values = wire.pass(now, &device.followed(&commanded));
+            let values = limiter.pass(now, &device.followed(&commanded));
             device.bytes(Message::Frame, &values, &mut bytes);
             let heave = f64::from(f32::from_be_bytes(bytes[12..16].try_into().unwrap()));
             fastest = fastest.max((heave - before).abs() / PACKET_INTERVAL);

@@ -9,8 +9,8 @@ use moris_live::Event;
 use moris_live::frame::Values;
 use rtrb::{Consumer, Producer};
 
-use super::super::actuator_limits::{Actuators, Wire};
-use super::super::connection::Contact;
+use super::super::actuator_limits::{Actuators, FrameLimiter};
+use super::super::connection::Connection;
 use super::super::lateness::Lateness;
 use super::super::lines::Lines;
 use super::super::page::Order;
@@ -44,8 +44,8 @@ pub struct Sender<'a> {
     pub sink: Sink,
     /// Losses of the controller, for the loop.
     pub orders: Producer<Order>,
-    pub wire: Wire,
-    pub contact: Contact,
+    pub limiter: FrameLimiter,
+    pub connection: Connection,
     /// The controller's own time-out.
     pub time_out: Option<Duration>,
     pub shared: &'a Shared,
@@ -79,8 +79,8 @@ impl<'a> Sender<'a> {
             device,
             sink,
             orders,
-            wire: Wire::new(interval, actuators),
-            contact: Contact::new(interval),
+            limiter: FrameLimiter::new(interval, actuators),
+            connection: Connection::new(interval),
             time_out: None,
             shared,
             bytes: Vec::with_capacity(4096),
@@ -150,9 +150,12 @@ impl<'a> Sender<'a> {
         // Longest time to the lowest pose: the slowest way over the longest stroke.
         const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
         let mut values = *values;
-        let interval = self.wire.interval();
+        let interval = self.limiter.interval();
         let end = loop_clock::now() + LONGEST_ARRIVAL;
-        while !self.wire.is_at(&self.device.followed(&values)) && !self.contact.is_lost() && loop_clock::now() < end {
+        while !self.limiter.is_at(&self.device.followed(&values))
+            && !self.connection.is_lost()
+            && loop_clock::now() < end
+        {
             std::thread::sleep(Duration::from_secs_f64(interval));
             values.time += interval;
             let fault = self.take(Message::Frame, &values);
@@ -165,39 +168,39 @@ impl<'a> Sender<'a> {
         self.running = message != Message::Stop;
         let now = loop_clock::now();
         if matches!(message, Message::Start | Message::Begin) {
-            self.contact.renew();
+            self.connection.renew();
             self.sink.reopen();
         }
         if message == Message::Begin {
-            self.wire.begin_anew();
+            self.limiter.begin_anew();
         }
-        if self.contact.is_lost() && message != Message::Stop {
+        if self.connection.is_lost() && message != Message::Stop {
             // What comes back without a person who clears it would jump.
             return None;
         }
         let mut values = *values;
         if message == Message::Stop {
             // The legs stay where the last frame has them.
-            values = if self.wire.gap(now).is_some() { self.last } else { values };
+            values = if self.limiter.gap(now).is_some() { self.last } else { values };
         } else {
             if message == Message::Frame
-                && let Some(gap) = self.wire.gap(now)
+                && let Some(gap) = self.limiter.gap(now)
             {
                 self.sent.gap = self.sent.gap.max(gap);
                 let loss = Loss::Gap(gap.as_secs_f64());
                 let is_long = loss.is_of_place() && !matches!(self.sink, Sink::Dry);
                 if is_long || self.time_out.is_some_and(|time_out| gap >= time_out) {
-                    self.wire.lose();
+                    self.limiter.lose();
                     self.report(loss);
                 }
                 if is_long {
-                    self.contact.lose();
+                    self.connection.lose();
                     return None;
                 }
             }
             let commanded = values.length;
             // Whatever changes values does so before their limits.
-            values = self.wire.pass(now, &self.device.followed(&values));
+            values = self.limiter.pass(now, &self.device.followed(&values));
             self.last = values;
             // A base that goes its own way parks where the commands do.
             self.sent.last = Some(if self.device.answers() { commanded } else { values.length });
@@ -215,9 +218,9 @@ impl<'a> Sender<'a> {
         self.sent.failed += u64::from(taken.is_err());
         // Nobody follows what is printed.
         if !matches!(self.sink, Sink::Dry)
-            && let Some(kind) = self.contact.take(&taken, loop_clock::now())
+            && let Some(kind) = self.connection.take(&taken, loop_clock::now())
         {
-            self.wire.lose();
+            self.limiter.lose();
             // A line that is only slow stays open: opening one resets many controllers.
             if kind != ErrorKind::TimedOut {
                 self.sink.close();
@@ -281,7 +284,7 @@ impl<'a> Sender<'a> {
         if self.running {
             let mut last = self.last;
             for frame in 1..=REST_FRAMES {
-                let Some(values) = self.wire.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
+                let Some(values) = self.limiter.at_rest_after(f64::from(frame) * REST_INTERVAL.as_secs_f64()) else {
                     break;
                 };
                 self.deliver(Message::Frame, &values);

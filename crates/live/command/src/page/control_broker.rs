@@ -15,7 +15,7 @@ use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
 use super::refusal::{Refusal, Status};
-use super::snapshot::{self, ROW_NAMES, Shown};
+use super::snapshot::{self, ROW_NAMES, Snapshot};
 use crate::controls::Controls;
 use crate::frames::Loss;
 use crate::{Shared, loop_clock};
@@ -170,12 +170,12 @@ impl ControlBroker {
 
     /// Makes messages of what the loop shows, until it has ended. `refusals`: the parameters in
     /// force where the loop has refused others.
-    pub fn show(&self, mut moments: Consumer<Shown>, mut refusals: Consumer<Parameters>, shared: &Shared) {
+    pub fn show(&self, mut moments: Consumer<Snapshot>, mut refusals: Consumer<Parameters>, shared: &Shared) {
         // Time between messages.
         const MESSAGE_INTERVAL: Duration = Duration::from_millis(40);
         loop {
             let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
-            let taken: Vec<Shown> = std::iter::from_fn(|| moments.pop().ok()).collect();
+            let taken: Vec<Snapshot> = std::iter::from_fn(|| moments.pop().ok()).collect();
             let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
             let place = self.controls.as_ref().and_then(|controls| controls.place());

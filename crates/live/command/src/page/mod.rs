@@ -19,5 +19,5 @@ mod track;
 
 pub use control_broker::{ControlBroker, Order};
 pub use server::{Server, Start};
-pub use snapshot::{SHOWN_INTERVAL_STEPS, Shown};
+pub use snapshot::{SNAPSHOT_INTERVAL_STEPS, Snapshot};
 pub use track::track;

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::lateness::{Classes, Lateness};
 
 /// Steps between what is shown.
-pub const SHOWN_INTERVAL_STEPS: u64 = 10;
+pub const SNAPSHOT_INTERVAL_STEPS: u64 = 10;
 
 /// Names of the numbers in a row, in order.
 pub const ROW_NAMES: &str = "time desired_x desired_y desired_z wx wy wz roll pitch yaw speed felt_x felt_y felt_z \
@@ -22,7 +22,7 @@ const ROW_LENGTH: usize = 33;
 
 /// A moment of the session.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown {
+pub struct Snapshot {
     numbers: [f64; ROW_LENGTH],
     pub state: State,
     health: Health,
@@ -52,7 +52,7 @@ impl Driven {
     }
 }
 
-impl Shown {
+impl Snapshot {
     /// The session now.
     pub fn of(session: &Session, lateness: &Lateness, is_lost: bool) -> Self {
         let Values { time, length, pose, force, .. } = Values::from(session.commands());
@@ -60,7 +60,7 @@ impl Shown {
         let scale = session.washout().output().scale_factor;
         let mut parts = [time].into_iter().chain(session.passed().0.iter().copied());
         let mut rest = force.into_iter().chain(pose).chain(length).chain(lamps).chain([scale]);
-        Shown {
+        Snapshot {
             numbers: std::array::from_fn(|_| parts.next().or_else(|| rest.next()).unwrap_or_default()),
             state: session.state(),
             health: session.source().health(),
@@ -74,13 +74,13 @@ impl Shown {
 }
 
 /// The message of some moments, as JSON in one line. `told` has further members of the object.
-pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Option<String> {
+pub fn message(moments: &[Snapshot], lines: &VecDeque<String>, told: &str) -> Option<String> {
     // Lines of the journal that a message has.
     const MAX_JOURNAL_LINES: usize = 8;
     let last = moments.last()?;
     // A number that is none is not JSON's.
     let number = |number: &f64| if number.is_finite() { format!("{number:.5}") } else { "0".to_owned() };
-    let row = |moment: &Shown| format!("[{}]", moment.numbers.each_ref().map(number).join(","));
+    let row = |moment: &Snapshot| format!("[{}]", moment.numbers.each_ref().map(number).join(","));
     let rows = moments.iter().map(row).collect::<Vec<_>>().join(",");
     let lines: Vec<&String> = lines.iter().rev().take(MAX_JOURNAL_LINES).collect();
     let lines = serde_json::to_string(&lines).unwrap_or_default();
@@ -105,7 +105,7 @@ mod tests {
     fn a_message_is_json_with_a_number_for_each_name() {
         let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
         session.step();
-        let moment = Shown::of(&session, &Lateness::default(), true);
+        let moment = Snapshot::of(&session, &Lateness::default(), true);
         let lines = VecDeque::from(["said \"so\"\n".to_owned()]);
         let text = message(&[moment, moment], &lines, "\"changed\":{\"tilt.angleLimit\":0.3}").unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
