@@ -6,7 +6,7 @@ use moris_interface::{Condition, Group, Kind, ParameterError, Row, check_fixed, 
 use nalgebra::Vector2;
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig};
-use crate::platform::reach::{Axis, single_axis_range, stroke_margin};
+use crate::platform::reach::{Axis, reach_margin, single_axis_range};
 use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
@@ -72,7 +72,7 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
 const MIN_ROOM_FRACTION: f64 = 0.1;
 
 fn near_an_end(rig: &Rig) -> Option<String> {
-    let (room, stroke) = (stroke_margin(rig, &Pose::neutral(rig)), rig.stroke_length());
+    let (room, stroke) = (reach_margin(rig, &Pose::neutral(rig)), rig.stroke_length());
     (room < MIN_ROOM_FRACTION * stroke).then(|| {
         format!(
             "rig.neutralHeight is {} m, where a leg is only {room:.4} m from an end of its stroke of {stroke:.3} m: the \
@@ -387,7 +387,7 @@ fn crossing_arms(rig: &Rig) -> Option<[usize; 2]> {
 /// turned by half a circle.
 fn heading_advice(rig: &Rig) -> String {
     let turned = Rig { crank_heading: rig.crank_heading.map(|angle| angle + core::f64::consts::PI), ..*rig };
-    if stroke_margin(&turned, &Pose::neutral(&turned)) > 0.0 {
+    if reach_margin(&turned, &Pose::neutral(&turned)) > 0.0 {
         return ". With the headings turned by 180 degrees it would fit".to_owned();
     }
     numbering_advice(rig)

@@ -73,7 +73,7 @@ pub struct Washout {
     resting: f64,
     guard: ActuatorGuard,
     felt: Felt,
-    limited: ActiveLimits,
+    limited_by: LimitedBy,
     /// Outputs without an exact derivative, one internal step ago.
     before: PreviousStep,
 }
@@ -107,7 +107,7 @@ impl CuedInput {
 
 /// Limits active in any internal step of the last communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct ActiveLimits {
+struct LimitedBy {
     tilt: bool,
     soft: bool,
     safety: bool,
@@ -173,7 +173,7 @@ impl Washout {
             resting: 0.0,
             guard,
             felt: at_rest,
-            limited: ActiveLimits::default(),
+            limited_by: LimitedBy::default(),
             before: PreviousStep { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
         })
     }
@@ -278,7 +278,7 @@ impl Washout {
         let start = self.last;
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
-        self.limited = ActiveLimits::default();
+        self.limited_by = LimitedBy::default();
         let mut done = 0.0;
         while done < count {
             done += 1.0;
@@ -371,30 +371,30 @@ impl Washout {
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
         self.resting = if at_rest { self.resting + step } else { 0.0 };
         let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_HOLD;
-        let making_up = if self.strategy.may_stay_beyond_limits(conditioning.compensation) {
+        let tilt_compensation = if self.strategy.allows_tilt_overshoot(conditioning.compensation) {
             let tilting = Vector3::new(tilt_roll.acceleration, tilt_pitch.acceleration, 0.0);
             -tangential(tilting, arm).component_mul(&Vector3::new(1.0, 1.0, 0.0))
         } else {
             Vector3::zeros()
         };
         if !soft {
-            self.soft_limits.let_go();
-        } else if let Some(softened) = self.soft_limits.soften(&demand, self.guard.now(), &making_up, step) {
+            self.soft_limits.release();
+        } else if let Some(softened) = self.soft_limits.soften(&demand, self.guard.now(), &tilt_compensation, step) {
             demand = self.guard.state(softened);
-            self.limited.soft = true;
+            self.limited_by.soft = true;
         }
         let linear = *self.direct_linear.advance_within_limits(&demand.coordinates.linear, safety, step);
-        if self.direct_linear.follows() {
+        if self.direct_linear.catches_up() {
             demand = self.guard.state(PlatformCoordinates { linear, ..demand.coordinates });
         }
         self.before = PreviousStep { step, acceleration: self.motion().acceleration, felt: self.felt };
         self.guard.advance(&demand, safety, at_rest, step);
         self.felt = felt(self.motion(), head_at_end, structure.gravity);
-        self.limited.tilt |= self.strategy.tilt_limited();
-        self.limited.safety |= self.direct_linear.limited();
-        self.limited.actuator |= self.guard.limited();
+        self.limited_by.tilt |= self.strategy.tilt_limited();
+        self.limited_by.safety |= self.direct_linear.limited();
+        self.limited_by.actuator |= self.guard.limited();
         if soft {
-            if self.soft_limits.active() || self.direct_linear.follows() || self.guard.limited() {
+            if self.soft_limits.limited() || self.direct_linear.catches_up() || self.guard.limited() {
                 self.continue_from_real(cue_end.rates);
             }
         } else if self.guard.limited() {
@@ -407,7 +407,7 @@ impl Washout {
     #[cold]
     fn glide_soft_limits(&mut self, step: f64) {
         let heave = self.strategy.largest_heave();
-        let idle = !self.soft_limits.active();
+        let idle = !self.soft_limits.limited();
         let next = self.soft.after(&self.parameters, idle, step);
         let limits = SoftLimits::new(&next.in_force(&self.parameters), heave);
         if !next.is_gentler_than(&self.soft) || limits.stop_from(self.guard.now(), GENTLE_PART, GENTLE_SPEED) {
@@ -421,7 +421,7 @@ impl Washout {
     #[cold]
     fn continue_from_real(&mut self, rates: Vector3<f64>) {
         let PlatformCoordinates { linear, angles } = &self.guard.now().coordinates;
-        if self.guard.limited() || self.direct_linear.follows() {
+        if self.guard.limited() || self.direct_linear.catches_up() {
             self.direct_linear.continue_from(linear);
         }
         let mut linear = *linear;
@@ -598,14 +598,14 @@ impl Washout {
             tilt_pitch: tilt_pitch.position,
             tilt_roll_rate: tilt_roll.velocity,
             tilt_pitch_rate: tilt_pitch.velocity,
-            tilt_limited: self.limited.tilt,
-            safety_active: self.limited.safety,
-            actuator_limited: self.limited.actuator,
+            tilt_limited: self.limited_by.tilt,
+            safety_active: self.limited_by.safety,
+            actuator_limited: self.limited_by.actuator,
             stroke_margin: self.guard.stroke_margin(),
             plan_kept,
             plan_age,
             plan_iterations,
-            soft_limited: self.limited.soft,
+            soft_limited: self.limited_by.soft,
             scale_factor: self.scale.factor(),
             angle: *angle,
             angular_rate: *angular_rate,

@@ -85,8 +85,8 @@ impl DirectLinearMotion {
     }
 
     /// True if a safety unit's motion is not the demanded one.
-    pub fn follows(&self) -> bool {
-        self.safety.follows()
+    pub fn catches_up(&self) -> bool {
+        self.safety.catches_up()
     }
 
     /// Continues from the platform's real motion if the safety units' own is beyond limits
@@ -99,6 +99,6 @@ impl DirectLinearMotion {
 
     /// True if a safety unit limited the motion in the last step.
     pub fn limited(&self) -> bool {
-        self.safety.active()
+        self.safety.limited()
     }
 }

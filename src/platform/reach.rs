@@ -63,7 +63,7 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
 /// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\].
 /// Negative where a leg would have to be beyond its stroke. With cranks, the stroke is the arc of
 /// the arms' ends, and what their transmission has beyond its limit counts as well, times the arm.
-pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
+pub fn reach_margin(rig: &Rig, pose: &Pose) -> f64 {
     let geometry = Geometry::from(rig);
     let [start, end] = rig.stroke();
     let lengths = leg_lengths(&geometry, pose);
@@ -112,7 +112,7 @@ const FULL_STROKE: f64 = 0.3;
 
 /// Fraction of a reserve at the ends of the stroke that a rig keeps: in proportion to a short
 /// stroke, which the whole reserve would use up.
-pub fn short_stroke(rig: &Rig) -> f64 {
+pub fn reserve_fraction(rig: &Rig) -> f64 {
     (rig.stroke_length() / FULL_STROKE).min(1.0)
 }
 
@@ -149,7 +149,7 @@ const BISECTION_STEPS: u32 = 40;
 
 fn reach_along(rig: &Rig, axis: Axis, sign: f64) -> f64 {
     let farthest = if axis.is_rotation() { SEARCH_LIMITS[1] } else { SEARCH_LIMITS[0] * rig.farthest_joint() };
-    let inside = |amount: f64| stroke_margin(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
+    let inside = |amount: f64| reach_margin(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
     let amount_at = |part: u32| farthest * f64::from(part) / f64::from(SEARCH_POINTS);
     let Some(beyond) = (1..=SEARCH_POINTS).find(|&part| !inside(amount_at(part))) else { return farthest };
     let (mut within, mut without) = (amount_at(beyond - 1), amount_at(beyond));
@@ -197,7 +197,8 @@ mod tests {
 
     #[test]
     fn short_strokes_have_smaller_reserves() {
-        let stroke = |stroke: f64| short_stroke(&Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() });
+        let stroke =
+            |stroke: f64| reserve_fraction(&Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() });
         assert!((stroke(0.1) - 1.0 / 3.0).abs() < 1e-12 && (stroke(0.15) - 0.5).abs() < 1e-12);
         assert_eq!([0.31, 0.6, 1.5].map(stroke), [1.0; 3]);
     }

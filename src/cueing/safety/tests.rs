@@ -176,7 +176,7 @@ fn a_demand_that_is_not_kept_is_followed_by_the_braking_law_on_its_axis() {
             acceleration: limits.acceleration_limit[k],
             longest_step: LONGEST_STEP,
         };
-        assert!(!units.active());
+        assert!(!units.limited());
         let mut steps = 0;
         while *units.motion() != demand {
             let expected = law.follow(&units.motion().axis(k), &demand.axis(k), 0.5 * law.acceleration, STEP);
@@ -187,7 +187,7 @@ fn a_demand_that_is_not_kept_is_followed_by_the_braking_law_on_its_axis() {
             assert!(joined || units.motion().axis(k) == expected, "{:?}, not {expected:?}", units.motion());
             // The other axes have their demand, and the flag lasts until the axis has its own.
             assert!((0..3).all(|axis| axis == k || units.motion().axis(axis) == Motion::default()));
-            assert_eq!(units.active(), !joined);
+            assert_eq!(units.limited(), !joined);
         }
         assert!(steps > 100);
     }
@@ -218,7 +218,7 @@ fn going_on_from_the_real_motion_is_not_a_limit_of_the_units() {
     units.continue_from(&real);
     assert_eq!(*units.motion(), real);
     units.advance(&Motion::default(), &limits(), STEP);
-    assert!(!units.active());
+    assert!(!units.limited());
     for k in 0..3 {
         let law = Limits::safety(&limits(), k, LONGEST_STEP);
         let expected = law.follow(&real.axis(k), &Motion::default(), 0.5 * law.acceleration, STEP);
@@ -230,7 +230,7 @@ fn going_on_from_the_real_motion_is_not_a_limit_of_the_units() {
     let limited = *units.motion();
     units.continue_from(&limited);
     units.advance(&jump(0), &limits(), STEP);
-    assert!(units.active());
+    assert!(units.limited());
 }
 
 #[test]

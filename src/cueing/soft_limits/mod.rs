@@ -19,7 +19,7 @@
 
 pub mod glide;
 pub mod nearest;
-mod retreat;
+mod relaxation;
 #[cfg(test)]
 mod tests;
 
@@ -27,14 +27,14 @@ use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
 use wide::{CmpGe, f64x2};
 
-use self::nearest::{Accelerations, ROW_COUNT, RowValues, Rows, Sides, nearest_accelerations};
-use self::retreat::Retreat;
+use self::nearest::{Accelerations, ActingRows, ROW_COUNT, RowValues, Rows, nearest_accelerations};
+use self::relaxation::Relaxation;
 use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::motion::square_root::square_root;
-use crate::platform::reach::{clear_stroke, neutral_lengths, short_stroke};
+use crate::platform::reach::{clear_stroke, neutral_lengths, reserve_fraction};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
 
 /// The soft limits with their state.
@@ -49,10 +49,10 @@ pub struct SoftLimits {
     axes: [TwoEnds; 2],
     legs: TwoEnds,
     /// The part of the retreat that there is room for.
-    retreat_part: f64,
+    relaxation_fraction: f64,
     /// The rows that acted in the last step.
-    sides: Sides,
-    retreat: Retreat,
+    acting_rows: ActingRows,
+    relaxation: Relaxation,
 }
 
 /// Weights of the changed accelerations' squares: surge, sway, heave, and the angles \[m2\].
@@ -182,7 +182,7 @@ impl SoftLimits {
     /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
     pub fn new(parameters: &Parameters, heave: f64) -> Self {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
-        let (margin, pace) = (soft_limit.margin * short_stroke(rig), soft_limit.pace);
+        let (margin, pace) = (soft_limit.margin * reserve_fraction(rig), soft_limit.pace);
         let farthest = |k: usize| if k == 2 { min(safety.position_limit[k], heave) } else { safety.position_limit[k] };
         let geometry = Geometry::from(rig);
         let axes = [0, 1, 2].map(|k: usize| {
@@ -200,23 +200,23 @@ impl SoftLimits {
             leg_ends: leg,
             axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, pace)),
             legs: TwoEnds::of([leg; 2], pace),
-            retreat_part: Retreat::part_within(
+            relaxation_fraction: Relaxation::fraction_within(
                 axes.iter().chain([&leg]).fold(f64::INFINITY, |least, ends| ends.room.into_iter().fold(least, min)),
             ),
-            sides: Sides::default(),
-            retreat: Retreat::default(),
+            acting_rows: ActingRows::default(),
+            relaxation: Relaxation::default(),
         }
     }
 
     /// Changes the limits; their retreat goes on.
     pub fn retune(&mut self, parameters: &Parameters, heave: f64) {
-        let SoftLimits { sides, retreat, .. } = *self;
-        *self = SoftLimits { sides, retreat, ..SoftLimits::new(parameters, heave) };
+        let SoftLimits { acting_rows, relaxation, .. } = *self;
+        *self = SoftLimits { acting_rows, relaxation, ..SoftLimits::new(parameters, heave) };
     }
 
     /// Ends the action of all rows, where the demand passes by the soft limits.
-    pub fn let_go(&mut self) {
-        (self.sides, self.retreat) = Default::default();
+    pub fn release(&mut self) {
+        (self.acting_rows, self.relaxation) = Default::default();
     }
 
     /// True unless they are switched off.
@@ -225,8 +225,8 @@ impl SoftLimits {
     }
 
     /// True if the demand was changed in the last step.
-    pub fn active(&self) -> bool {
-        self.sides.any()
+    pub fn limited(&self) -> bool {
+        self.acting_rows.any()
     }
 
     /// True if axes and legs come to rest before their limits at this part of the pace. Those up to
@@ -246,15 +246,15 @@ impl SoftLimits {
         &mut self,
         demand: &PlatformState,
         state: &PlatformState,
-        making_up: &Vector3<f64>,
+        tilt_compensation: &Vector3<f64>,
         step: f64,
     ) -> Option<PlatformCoordinates> {
-        if !self.retreat.acts() && self.keeps(demand, state, step) {
+        if !self.relaxation.acts() && self.keeps(demand, state, step) {
             return None;
         }
-        self.retreat = self.retreat.accelerated(&(self.retreat_part * making_up));
+        self.relaxation = self.relaxation.accelerated(&(self.relaxation_fraction * tilt_compensation));
         let softened = self.softened(&demand.coordinates, state, step);
-        self.retreat = softened.map_or(Retreat::default(), |_| self.retreat.after(step));
+        self.relaxation = softened.map_or(Relaxation::default(), |_| self.relaxation.after(step));
         softened
     }
 
@@ -291,8 +291,8 @@ impl SoftLimits {
         let demanded = Accelerations::new(change.x, change.y, change.z, turn.x, turn.y, turn.z);
         let rows = self.rows(state);
         let inverse_weights = Accelerations::from(CHANGE_WEIGHTS.map(|weight| 1.0 / weight));
-        let nearest = nearest_accelerations(&demanded, &inverse_weights, &rows, &mut self.sides);
-        if !self.sides.any() {
+        let nearest = nearest_accelerations(&demanded, &inverse_weights, &rows, &mut self.acting_rows);
+        if !self.acting_rows.any() {
             return None;
         }
         let after = |motion: &Motion<Vector3<f64>>, k: usize| {
@@ -325,7 +325,7 @@ impl SoftLimits {
         let (mut lower, mut upper) = (RowValues::zeros(), RowValues::zeros());
         let range = |row: usize, ends: &Ends, motion: [f64; 2]| {
             let direction = normals.fixed_view::<1, 3>(row, 0).transpose();
-            self.retreat.range(ends, motion, &direction, self.pace)
+            self.relaxation.range(ends, motion, &direction, self.pace)
         };
         for k in 0..3 {
             (lower[k], upper[k]) = range(k, &self.axis_ends[k], [linear.position[k], linear.velocity[k]]);

@@ -26,9 +26,9 @@ pub struct Rows {
 
 /// The side on which each row acts: 1 at its upper end, -1 at its lower end, 0 inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sides([i8; ROW_COUNT]);
+pub struct ActingRows([i8; ROW_COUNT]);
 
-impl Sides {
+impl ActingRows {
     /// True if any row acts.
     pub fn any(&self) -> bool {
         self.0 != [0; ROW_COUNT]
@@ -48,7 +48,7 @@ const MULTIPLIER_TOLERANCE: f64 = 1e-12;
 const VIOLATION_TOLERANCE: f64 = 1e-9;
 
 /// The accelerations c with the least (c - demand)' W (c - demand) + penalty of the violations.
-/// `inverse_weights` is the diagonal of W^-1; `sides` holds the rows that acted in the last step,
+/// `inverse_weights` is the diagonal of W^-1; `acting_rows` holds the rows that acted in the last step,
 /// and then those that act now.
 ///
 /// The dual is solved by principal pivoting: with the acting rows S, their multipliers solve (A
@@ -59,12 +59,13 @@ pub fn nearest_accelerations(
     demand: &Accelerations,
     inverse_weights: &Accelerations,
     rows: &Rows,
-    sides: &mut Sides,
+    acting_rows: &mut ActingRows,
 ) -> Accelerations {
     let moved = SMatrix::<f64, 6, ROW_COUNT>::from_fn(|k, row| inverse_weights[k] * rows.normals[(row, k)]);
     let gram = rows.normals * moved;
     let demanded = rows.normals * demand;
-    let multipliers = all_at_once(&gram, &demanded, rows, sides).or_else(|| one_by_one(&gram, &demanded, rows, sides));
+    let multipliers =
+        all_at_once(&gram, &demanded, rows, acting_rows).or_else(|| one_by_one(&gram, &demanded, rows, acting_rows));
     demand - moved * multipliers.unwrap_or_default()
 }
 
@@ -73,20 +74,20 @@ fn violated_side(value: f64, rows: &Rows, row: usize) -> i8 {
     i8::from(value > rows.upper[row] + VIOLATION_TOLERANCE) - i8::from(value < rows.lower[row] - VIOLATION_TOLERANCE)
 }
 
-/// Principal pivoting from these sides on. None if it does not end soon.
-fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides) -> Option<RowValues> {
+/// Principal pivoting from these acting_rows on. None if it does not end soon.
+fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, acting_rows: &mut ActingRows) -> Option<RowValues> {
     for _ in 0..TRIALS_AT_ONCE {
-        let multipliers = multipliers_of(gram, demanded, rows, sides)?;
+        let multipliers = multipliers_of(gram, demanded, rows, acting_rows)?;
         let values = demanded - gram * multipliers;
-        let before = *sides;
+        let before = *acting_rows;
         for row in 0..ROW_COUNT {
-            sides.0[row] = match sides.0[row] {
+            acting_rows.0[row] = match acting_rows.0[row] {
                 0 => violated_side(values[row], rows, row),
                 side if f64::from(side) * multipliers[row] < 0.0 => 0,
                 side => side,
             };
         }
-        if *sides == before {
+        if *acting_rows == before {
             return Some(multipliers);
         }
     }
@@ -96,22 +97,22 @@ fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides
 /// Lawson and Hanson's method: the row that is violated most enters, and rows leave
 /// whose multipliers reach zero on the way to the next ones. The dual cost falls with
 /// each change, so it ends.
-fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides) -> Option<RowValues> {
-    *sides = Sides::default();
+fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, acting_rows: &mut ActingRows) -> Option<RowValues> {
+    *acting_rows = ActingRows::default();
     let mut multipliers = RowValues::zeros();
     for _ in 0..MOST_CHANGES {
         let values = demanded - gram * multipliers;
         let beyond = |row: usize| max(values[row] - rows.upper[row], rows.lower[row] - values[row]);
-        let inside = (0..ROW_COUNT).filter(|row| sides.0[*row] == 0);
+        let inside = (0..ROW_COUNT).filter(|row| acting_rows.0[*row] == 0);
         let worst = inside.max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)));
         let Some(worst) = worst.filter(|row| violated_side(values[*row], rows, *row) != 0) else { break };
-        sides.0[worst] = violated_side(values[worst], rows, worst);
+        acting_rows.0[worst] = violated_side(values[worst], rows, worst);
         // Each round but the last takes out a row.
         for _ in 0..ROW_COUNT {
-            let next = multipliers_of(gram, demanded, rows, sides)?;
+            let next = multipliers_of(gram, demanded, rows, acting_rows)?;
             let mut fraction = 1.0;
             for row in 0..ROW_COUNT {
-                if f64::from(sides.0[row]) * next[row] < 0.0 {
+                if f64::from(acting_rows.0[row]) * next[row] < 0.0 {
                     fraction = min(multipliers[row] / (multipliers[row] - next[row]), fraction);
                 }
             }
@@ -120,8 +121,8 @@ fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides)
                 break;
             }
             for row in 0..ROW_COUNT {
-                if f64::from(sides.0[row]) * multipliers[row] <= MULTIPLIER_TOLERANCE {
-                    (sides.0[row], multipliers[row]) = (0, 0.0);
+                if f64::from(acting_rows.0[row]) * multipliers[row] <= MULTIPLIER_TOLERANCE {
+                    (acting_rows.0[row], multipliers[row]) = (0, 0.0);
                 }
             }
         }
@@ -129,20 +130,20 @@ fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides)
     Some(multipliers)
 }
 
-/// The multipliers if exactly the rows of `sides` act; zero for the others.
+/// The multipliers if exactly the rows of `acting_rows` act; zero for the others.
 fn multipliers_of(
     gram: &SMatrix<f64, ROW_COUNT, ROW_COUNT>,
     demanded: &RowValues,
     rows: &Rows,
-    sides: &Sides,
+    acting_rows: &ActingRows,
 ) -> Option<RowValues> {
-    let beyond = RowValues::from_fn(|row, _| match sides.0[row] {
+    let beyond = RowValues::from_fn(|row, _| match acting_rows.0[row] {
         0 => 0.0,
         1 => demanded[row] - rows.upper[row],
         _ => demanded[row] - rows.lower[row],
     });
     let (mut numbers, mut count) = ([0; ROW_COUNT], 0);
-    for (row, _) in sides.0.iter().enumerate().filter(|(_, side)| **side != 0) {
+    for (row, _) in acting_rows.0.iter().enumerate().filter(|(_, side)| **side != 0) {
         (numbers[count], count) = (row, count + 1);
     }
     // The Cholesky factor of the acting rows' part: the others' rows and columns stay zero.

@@ -1,4 +1,4 @@
-//! Retreat of limits beyond which a demand stays, such as the classical strategy's.
+//! Relaxation of limits beyond which a demand stays, such as the classical strategy's.
 //!
 //! Travel would not make up for a tilt that begins there, and the head would be kicked back. So the
 //! limits retreat by the surge and sway y that make up for the tilt's acceleration alpha,
@@ -23,24 +23,24 @@ use crate::motion::square_root::square_root;
 /// Frequency w at which the limits return, with a damping ratio of 1/2 \[rad/s\].
 const RETURN_RATE: f64 = 0.8;
 /// Largest retreat of an end, as a fraction of its distance from neutral.
-const LARGEST_RETREAT: f64 = 0.5;
+const MAX_RELAXATION_FRACTION: f64 = 0.5;
 /// Least room at neutral from which on the retreat is whole \[m\].
-const WHOLE_RETREAT_ROOM: f64 = 0.1;
+const FULL_RELAXATION_ROOM: f64 = 0.1;
 /// Time within which the retreat sets in, so that it does so without a jump \[s\].
-const SETTING_IN: f64 = 0.2;
+const ONSET_TIME: f64 = 0.2;
 
 /// The retreat of all limits while a row acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Retreat {
+pub struct Relaxation {
     travel: Motion<Vector3<f64>>,
-    /// Time for which a row has acted, at most [`SETTING_IN`] \[s\].
+    /// Time for which a row has acted, at most [`ONSET_TIME`] \[s\].
     acting: f64,
 }
 
-impl Retreat {
+impl Relaxation {
     /// The part of a retreat that a machine can make with this least room at neutral \[m\].
-    pub fn part_within(room: f64) -> f64 {
-        min(room / WHOLE_RETREAT_ROOM, 1.0)
+    pub fn fraction_within(room: f64) -> f64 {
+        min(room / FULL_RELAXATION_ROOM, 1.0)
     }
 
     /// True while a row acts.
@@ -50,17 +50,18 @@ impl Retreat {
 
     /// The retreat with its acceleration in this step. This surge and sway make up for the tilt's
     /// acceleration.
-    pub fn accelerated(&self, making_up: &Vector3<f64>) -> Self {
+    pub fn accelerated(&self, tilt_compensation: &Vector3<f64>) -> Self {
         let Motion { position, velocity, .. } = self.travel;
-        let acceleration = self.acting / SETTING_IN * making_up - RETURN_RATE * (RETURN_RATE * position + velocity);
-        Retreat { travel: Motion { acceleration, ..self.travel }, ..*self }
+        let acceleration =
+            self.acting / ONSET_TIME * tilt_compensation - RETURN_RATE * (RETURN_RATE * position + velocity);
+        Relaxation { travel: Motion { acceleration, ..self.travel }, ..*self }
     }
 
     /// The retreat after a step in which a row has acted.
     pub fn after(&self, step: f64) -> Self {
         let Motion { velocity, acceleration, .. } = self.travel;
         let travel = self.travel.at_velocity(velocity + step * acceleration, step);
-        Retreat { travel, acting: min(self.acting + step, SETTING_IN) }
+        Relaxation { travel, acting: min(self.acting + step, ONSET_TIME) }
     }
 
     /// The range of the acceleration of a quantity that travel changes along `direction`.
@@ -73,7 +74,7 @@ impl Retreat {
         let [position, velocity, acceleration] = [position, velocity, acceleration].map(|part| direction.dot(part));
         // The end that comes nearer: the other one stays where it is.
         let room = if position > 0.0 { ends.room[0] } else { ends.room[1] };
-        let largest = max(LARGEST_RETREAT * room, f64::MIN_POSITIVE);
+        let largest = max(MAX_RELAXATION_FRACTION * room, f64::MIN_POSITIVE);
         let part = position / largest;
         let to_fourth = 1.0 + (part * part) * (part * part);
         let root = square_root(square_root(to_fourth));

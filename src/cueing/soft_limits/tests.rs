@@ -64,17 +64,17 @@ fn the_nearest_accelerations_are_those_of_an_interior_point_method() {
         let half = RowValues::from_fn(|_, _| 1.0 + apart * random.next().abs());
         let rows = Rows { normals, lower: middle - half, upper: middle + half };
         let demand = Accelerations::from_fn(|_, _| 10.0 * random.next());
-        let mut sides = Sides::default();
-        let found = nearest_accelerations(&demand, &inverse_weights, &rows, &mut sides);
+        let mut acting_rows = ActingRows::default();
+        let found = nearest_accelerations(&demand, &inverse_weights, &rows, &mut acting_rows);
         let expected = by_interior_point(&demand, &inverse_weights, &rows);
         // The cost is strictly convex: none is less but by the solver's tolerance.
         let [least, found_by_solver] = [&found, &expected].map(|accelerations| cost(accelerations, &demand, &rows));
         assert!(least < found_by_solver * (1.0 + 1e-8), "trial {trial}: {least} beside {found_by_solver}");
         assert!((found - expected).amax() < 3e-4, "trial {trial}: {found} beside {expected}");
-        // From the sides that act, the solution is found again, to the rounding of the largest multipliers.
-        let again = (nearest_accelerations(&demand, &inverse_weights, &rows, &mut sides) - found).amax();
+        // From the acting_rows that act, the solution is found again, to the rounding of the largest multipliers.
+        let again = (nearest_accelerations(&demand, &inverse_weights, &rows, &mut acting_rows) - found).amax();
         assert!(again < 3e-16 * VIOLATION_PENALTY, "trial {trial}: {again}");
-        acted += usize::from(sides.any());
+        acted += usize::from(acting_rows.any());
     }
     assert!(acted > 1900, "{acted}");
 }
@@ -84,9 +84,9 @@ fn a_demand_within_its_ranges_is_the_nearest() {
     let normals = SMatrix::<f64, ROW_COUNT, 6>::from_fn(|row, k| f64::from(u8::from(row % 6 == k)));
     let rows = Rows { normals, lower: RowValues::repeat(-2.0), upper: RowValues::repeat(2.0) };
     let demand = Accelerations::new(1.0, -1.9, 0.3, 2.0, -2.0, 0.0);
-    let mut sides = Sides::default();
-    assert_eq!(nearest_accelerations(&demand, &Accelerations::repeat(1.0), &rows, &mut sides), demand);
-    assert!(!sides.any());
+    let mut acting_rows = ActingRows::default();
+    assert_eq!(nearest_accelerations(&demand, &Accelerations::repeat(1.0), &rows, &mut acting_rows), demand);
+    assert!(!acting_rows.any());
 }
 
 /// At the upper bound of its acceleration a quantity approaches the end of its range as a
@@ -185,18 +185,18 @@ fn what_keeps_the_ranges_is_within_them() {
 }
 
 #[test]
-fn a_retreat_leaves_neutral_within_the_limits() {
+fn a_relaxation_leaves_neutral_within_the_limits() {
     let ends = Ends::new([-0.1, 0.4], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
     let direction = Vector3::x();
     // A tilt that would make limits retreat by far more than there is room for.
     for side in [1.0, -1.0] {
-        let mut retreat = Retreat::default();
+        let mut relaxation = Relaxation::default();
         for _ in 0..3000 {
-            retreat = retreat.accelerated(&(side * direction)).after(1e-3);
+            relaxation = relaxation.accelerated(&(side * direction)).after(1e-3);
             // At rest at neutral neither limit pushes.
-            let (lower, upper) = retreat.accelerated(&Vector3::zeros()).range(&ends, [0.0; 2], &direction, 5.0);
+            let (lower, upper) = relaxation.accelerated(&Vector3::zeros()).range(&ends, [0.0; 2], &direction, 5.0);
             assert!(lower < 0.0 && upper > 0.0, "{lower}, {upper}");
         }
     }
-    assert_eq!([0.025, 0.1, 0.3].map(Retreat::part_within), [0.25, 1.0, 1.0]);
+    assert_eq!([0.025, 0.1, 0.3].map(Relaxation::fraction_within), [0.25, 1.0, 1.0]);
 }

@@ -87,8 +87,8 @@ impl Law for Adaptive {
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
         let Circumstances { parameters, guard, .. } = situation.circumstances;
         let longer = (parameters.rig.stroke_length() / NEAR_END_STROKE).max(1.0);
-        let stroke_margin = guard.stroke_margin() / longer;
-        Some(self.decide(&situation.states, situation.references, stroke_margin, step))
+        let scaled_margin = guard.stroke_margin() / longer;
+        Some(self.decide(&situation.states, situation.references, scaled_margin, step))
     }
 }
 
@@ -114,15 +114,15 @@ impl Adaptive {
     }
 
     /// Decision for a step of `step` seconds. It begins in these states and has these references at
-    /// its end. The actuators have `stroke_margin` left of their strokes \[m\].
+    /// its end. The actuators have `scaled_margin` left of their strokes \[m\].
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],
         references: [f64; 2],
-        stroke_margin: f64,
+        scaled_margin: f64,
         step: f64,
     ) -> [Decision; 2] {
-        let near_end = (1.0 - stroke_margin / NEAR_END).max(0.0);
+        let near_end = (1.0 - scaled_margin / NEAR_END).max(0.0);
         let weight_scale = 1.0 + LARGEST_INCREASE * near_end * near_end;
         let parameters = if self.glide.is_over() { self.parameters } else { self.gliding(step) };
         [0, 1].map(|k: usize| {

@@ -127,7 +127,7 @@ impl Strategy {
     /// True if travel makes up for the tilt's acceleration as a part of a demand that can stay
     /// beyond a limit. The other strategies ask from one step to the next for what the limits
     /// leave.
-    pub fn may_stay_beyond_limits(&self, compensation: Compensation) -> bool {
+    pub fn allows_tilt_overshoot(&self, compensation: Compensation) -> bool {
         matches!(self, Strategy::Classical(_)) && matches!(compensation, Compensation::Full | Compensation::Gravity)
     }
 

@@ -42,7 +42,7 @@ pub struct ActuatorGuard {
     now: PlatformState,
     /// The certified way to rest. It starts at the present state, unless the last step followed it.
     plan: StopPlan,
-    limited: Option<Deviation>,
+    deviation: Option<Deviation>,
 }
 
 /// The rest of the state while the platform is kept from its demand.
@@ -59,7 +59,7 @@ struct Deviation {
 
 /// Time for which the input rests while the platform is kept from its demand, before the platform
 /// goes straight home \[s\].
-const HOMING_DELAY: f64 = 10.0;
+const REST_BEFORE_RETURN: f64 = 10.0;
 /// Factors on the speed of the way home after a step without and with a certified candidate.
 const RETURN_SPEED_DECREASE: f64 = 1.0 / 64.0;
 const RETURN_SPEED_INCREASE: f64 = 8.0;
@@ -74,7 +74,7 @@ impl ActuatorGuard {
             pursuit: machine.pursuit_limits(),
             now: machine.state(PlatformCoordinates::default()),
             plan: StopPlan::rest(),
-            limited: None,
+            deviation: None,
         }
     }
 
@@ -93,7 +93,7 @@ impl ActuatorGuard {
     /// asks for no motion.
     #[inline(always)]
     pub fn advance(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
-        if self.limited.is_none()
+        if self.deviation.is_none()
             && let Some(duration) = self.machine.certify_home_by_bounds(&self.now, demand, safety, step)
         {
             self.now = *demand;
@@ -106,24 +106,24 @@ impl ActuatorGuard {
     /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
     fn advance_in_doubt(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
-        let joined = self.limited.is_none() || self.has_caught_up(demand, safety, step);
+        let joined = self.deviation.is_none() || self.has_caught_up(demand, safety, step);
         let followed = self.plan.advanced(step);
         let plan = if joined { self.certified_to_see_home(demand, &followed, safety, step) } else { None };
         if let Some(plan) = plan {
-            (self.now, self.plan, self.limited) = (*demand, plan, None);
+            (self.now, self.plan, self.deviation) = (*demand, plan, None);
             return;
         }
         let before = self.now.legs;
-        let (resting, homeward) = self.patience(resting, step);
+        let (resting, homeward) = self.rest_time(resting, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
-        let stops = resting > HOMING_DELAY && homeward.is_none();
+        let stops = resting > REST_BEFORE_RETURN && homeward.is_none();
         let found = if stops { None } else { self.nearest(demand, &followed, homeward, safety, step) };
         let homeward = homeward.map(|fraction| {
             if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
         });
-        let (next, plan) = found.unwrap_or_else(|| (self.following(&followed, step), followed));
+        let (next, plan) = found.unwrap_or_else(|| (self.state_on_plan(&followed, step), followed));
         (self.now, self.plan) = (next, plan);
-        self.limited = Some(Deviation {
+        self.deviation = Some(Deviation {
             demand: demand.coordinates,
             leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
             resting,
@@ -132,14 +132,14 @@ impl ActuatorGuard {
     }
 
     /// Time for which the input has been at rest, `step` seconds later. Once that is longer than
-    /// [`HOMING_DELAY`], the platform stops. From rest it goes straight home, and the fraction of
+    /// [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home, and the fraction of
     /// its speed is given. It goes on until it joins its demand or the input moves.
-    fn patience(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
-        let Some(Deviation { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
+    fn rest_time(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
+        let Some(Deviation { resting: before, homeward, .. }) = self.deviation.filter(|_| resting) else {
             return (0.0, None);
         };
         let at_rest = Speed::of(&self.now.coordinates) == Speed::default();
-        (before + step, homeward.or_else(|| (before > HOMING_DELAY && at_rest).then_some(1.0)))
+        (before + step, homeward.or_else(|| (before > REST_BEFORE_RETURN && at_rest).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
@@ -198,7 +198,7 @@ impl ActuatorGuard {
 
     /// The coordinates that were demanded last.
     pub fn demand(&self) -> &PlatformCoordinates {
-        self.limited.as_ref().map_or(&self.now.coordinates, |limited| &limited.demand)
+        self.deviation.as_ref().map_or(&self.now.coordinates, |deviation| &deviation.demand)
     }
 
     /// The accelerations of the commanded legs' lengths \[m/s2\], within their limit.
@@ -208,8 +208,8 @@ impl ActuatorGuard {
     /// keep their limit with the mean; an acceleration beyond the limit is then given as the limit.
     pub fn leg_accelerations(&self) -> [f64; 6] {
         let most = self.machine.limits.acceleration;
-        let accelerations = match &self.limited {
-            Some(limited) => limited.leg_accelerations,
+        let accelerations = match &self.deviation {
+            Some(deviation) => deviation.leg_accelerations,
             None => leg_accelerations(&self.machine.geometry, &self.now.motion),
         };
         accelerations.map(|acceleration| acceleration.clamp(-most, most))
@@ -217,7 +217,7 @@ impl ActuatorGuard {
 
     /// True if the platform was kept from its demand in the last step.
     pub fn limited(&self) -> bool {
-        self.limited.is_some()
+        self.deviation.is_some()
     }
 
     /// The smallest distance of a leg from either end of its stroke \[m\].

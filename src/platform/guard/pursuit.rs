@@ -44,7 +44,7 @@ impl ActuatorGuard {
     }
 
     /// The next state on the plan held; `followed` is that plan at the step's end.
-    pub(super) fn following(&self, followed: &StopPlan, step: f64) -> PlatformState {
+    pub(super) fn state_on_plan(&self, followed: &StopPlan, step: f64) -> PlatformState {
         let (now, mut next) = (&self.now.coordinates, followed.now());
         for (after, before) in [(&mut next.linear, &now.linear), (&mut next.angles, &now.angles)] {
             after.acceleration = (after.velocity - before.velocity) / step;

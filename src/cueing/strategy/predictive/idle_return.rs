@@ -27,14 +27,14 @@ const FADE_OUT: f64 = 0.5;
 
 /// The return of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Homing {
+pub struct IdleReturn {
     /// Time for which the cue has been still \[s\].
     still: f64,
     /// Part of the return in force, 0 to 1.
     part: f64,
 }
 
-impl Homing {
+impl IdleReturn {
     /// Advances by `step` seconds with this cue; `unknown` is true if nothing is known of the time
     /// ahead.
     pub fn advance(&mut self, cue: f64, unknown: bool, step: f64) {

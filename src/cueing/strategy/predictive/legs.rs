@@ -8,7 +8,7 @@ use super::program::Nodes;
 use crate::cueing::strategy::law::Circumstances;
 use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
-use crate::platform::reach::{neutral_lengths, short_stroke};
+use crate::platform::reach::{neutral_lengths, reserve_fraction};
 use crate::platform::{Geometry, Pose, lengths_with_jacobian};
 
 /// The rig, and the motion of the platform that is not planned.
@@ -79,7 +79,7 @@ impl<'a> Surroundings<'a> {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,
             stroke: rig.stroke(),
-            margin: predictive.leg_margin * short_stroke(rig),
+            margin: predictive.leg_margin * reserve_fraction(rig),
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,
             heave_bound: LARGEST_HEAVE,

@@ -12,8 +12,8 @@
 pub mod dual_active_set;
 pub mod expected;
 pub mod forecast;
-mod homing;
 pub mod horizon;
+mod idle_return;
 pub mod legs;
 pub mod preview;
 pub mod program;
@@ -27,8 +27,8 @@ use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Status};
 use self::forecast::{Forecaster, Memory, Tables};
-use self::homing::Homing;
 use self::horizon::{BLOCKS, Horizon, PLAN_INTERVAL, reserved};
+use self::idle_return::IdleReturn;
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::{PreviewedCue, TIME_ROUNDING};
 use self::program::{
@@ -84,7 +84,7 @@ pub struct Predictive {
     /// Dropped forces in force \[m/s2\]. They go linearly from node to node of the plan, at most at
     /// [`MAX_DROPPED_SLOPE`].
     dropped_forces: [f64; 2],
-    homing: [Homing; 2],
+    idle_return: [IdleReturn; 2],
     /// Logarithms of the weights and poles in force less those set.
     glide: GlidingOffset<6>,
     /// Time until the programs follow the glide again \[s\].
@@ -138,14 +138,14 @@ impl Law for Box<Predictive> {
         let decisions = self.decide(states, &Surroundings::of(circumstances), circumstances.time_to_stop, step);
         let cue = [0, 1].map(|k: usize| circumstances.force[k]);
         let unknown = self.preview_length() < SHORTEST_PREVIEW && circumstances.time_to_stop.is_infinite();
-        for (homing, cue) in self.homing.iter_mut().zip(cue) {
-            homing.advance(cue, unknown, step);
+        for (idle_return, cue) in self.idle_return.iter_mut().zip(cue) {
+            idle_return.advance(cue, unknown, step);
         }
         let rates = circumstances.angles.velocity;
         self.observe(*references, [0, 1].map(|k: usize| references[k] - cue[k]), &rates, step);
         decisions.map(|decisions| {
             [0, 1].map(|k: usize| Decision {
-                dropped_force: decisions[k].dropped_force + self.homing[k].force(&states[k]),
+                dropped_force: decisions[k].dropped_force + self.idle_return[k].force(&states[k]),
                 ..decisions[k]
             })
         })
@@ -212,7 +212,7 @@ impl Predictive {
             begun: 0.0,
             plan,
             dropped_forces: [0.0; 2],
-            homing: [Homing::default(); 2],
+            idle_return: [IdleReturn::default(); 2],
             glide: GlidingOffset::default(),
             until_followed: 0.0,
         })

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
-use crate::platform::guard::{ActuatorGuard, Deviation, HOMING_DELAY};
+use crate::platform::guard::{ActuatorGuard, Deviation, REST_BEFORE_RETURN};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, stroke_reserve};
 
@@ -111,7 +111,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     let mut guard = ActuatorGuard::new(&rig, STEP);
     guard.now = now;
     guard.plan = StopPlan::new(&rest, StopDurations::common(0.0));
-    guard.limited = Some(Deviation {
+    guard.deviation = Some(Deviation {
         demand: PlatformCoordinates::default(),
         leg_accelerations: [0.0; 6],
         resting: 0.0,
@@ -133,7 +133,7 @@ fn a_platform_leaves_a_corner_where_every_pursuit_of_neutral_is_refused() {
             }
             guard.now().coordinates.linear.position
         };
-        if advance(STEP) != start || advance(0.5 * HOMING_DELAY) != start {
+        if advance(STEP) != start || advance(0.5 * REST_BEFORE_RETURN) != start {
             continue;
         }
         frozen += 1;

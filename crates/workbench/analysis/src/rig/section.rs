@@ -8,7 +8,7 @@
 use moris_washout::Rig;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::Pose;
-use moris_washout::platform::reach::stroke_margin;
+use moris_washout::platform::reach::reach_margin;
 
 use super::svg::Window;
 
@@ -74,7 +74,7 @@ fn cell_section(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: 
         let mut pose = Pose::neutral(rig);
         (pose.position[plane.axes[0]], pose.position[plane.axes[1]]) =
             (pose.position[plane.axes[0]] + at[0], pose.position[plane.axes[1]] + at[1]);
-        if stroke_margin(rig, &pose) >= margin {
+        if reach_margin(rig, &pose) >= margin {
             let [x, y] = window.pixel([at[0] - 0.5 * size[0], at[1] + 0.5 * size[1]]);
             let [width, height] = size.map(|size| size * window.scale());
             path += &format!("M{x:.1} {y:.1}h{width:.1}v{height:.1}h-{width:.1}z");
