@@ -48,7 +48,7 @@ pub struct SoftLimits {
     /// The same of surge and sway, of heave twice, and of two legs.
     axes: [TwoEnds; 2],
     legs: TwoEnds,
-    /// The part of the retreat that there is room for.
+    /// The part of the relaxation that there is room for.
     relaxation_fraction: f64,
     /// The rows that acted in the last step.
     acting_rows: ActingRows,
@@ -208,7 +208,7 @@ impl SoftLimits {
         }
     }
 
-    /// Changes the limits; their retreat goes on.
+    /// Changes the limits; their relaxation goes on.
     pub fn retune(&mut self, parameters: &Parameters, heave: f64) {
         let SoftLimits { acting_rows, relaxation, .. } = *self;
         *self = SoftLimits { acting_rows, relaxation, ..SoftLimits::new(parameters, heave) };
@@ -239,7 +239,7 @@ impl SoftLimits {
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.
-    /// None if it need not be changed. `state` is that of the step's start. The limits retreat by
+    /// None if it need not be changed. `state` is that of the step's start. The limits relax by
     /// the surge and sway that make up for the tilt.
     #[inline(always)]
     pub fn soften(

@@ -48,8 +48,8 @@ const MULTIPLIER_TOLERANCE: f64 = 1e-12;
 const VIOLATION_TOLERANCE: f64 = 1e-9;
 
 /// The accelerations c with the least (c - demand)' W (c - demand) + penalty of the violations.
-/// `inverse_weights` is the diagonal of W^-1; `acting_rows` holds the rows that acted in the last step,
-/// and then those that act now.
+/// `inverse_weights` is the diagonal of W^-1; `acting_rows` holds the rows that acted in the last
+/// step, and then those that act now.
 ///
 /// The dual is solved by principal pivoting: with the acting rows S, their multipliers solve (A
 /// W^-1 A' + I/penalty)_SS lambda = (A demand - bound)_S. A row of S whose multiplier has the wrong

@@ -1,7 +1,7 @@
 //! Relaxation of limits beyond which a demand stays, such as the classical strategy's.
 //!
 //! Travel would not make up for a tilt that begins there, and the head would be kicked back. So the
-//! limits retreat by the surge and sway y that make up for the tilt's acceleration alpha,
+//! limits relax by the surge and sway y that make up for the tilt's acceleration alpha,
 //!
 //! ```text
 //!     y'' = -alpha x r - w^2 y - w y',    r from the platform's origin to the head
@@ -9,7 +9,7 @@
 //!
 //! along each row, and never beyond where they are. Where there is little room, y is a part of
 //! that: limits that come and go fast would jolt. Along a row y counts as y/(1 + (y/r)^4)^(1/4),
-//! with r a part of the room that the row has at neutral. Limits that retreated farther would
+//! with r a part of the room that the row has at neutral. Limits that relaxed farther would
 //! contradict each other, and none would be kept.
 
 use nalgebra::Vector3;
@@ -22,14 +22,14 @@ use crate::motion::square_root::square_root;
 
 /// Frequency w at which the limits return, with a damping ratio of 1/2 \[rad/s\].
 const RETURN_RATE: f64 = 0.8;
-/// Largest retreat of an end, as a fraction of its distance from neutral.
+/// Largest relaxation of an end, as a fraction of its distance from neutral.
 const MAX_RELAXATION_FRACTION: f64 = 0.5;
-/// Least room at neutral from which on the retreat is whole \[m\].
+/// Least room at neutral from which on the relaxation is whole \[m\].
 const FULL_RELAXATION_ROOM: f64 = 0.1;
-/// Time within which the retreat sets in, so that it does so without a jump \[s\].
+/// Time within which the relaxation sets in, so that it does so without a jump \[s\].
 const ONSET_TIME: f64 = 0.2;
 
-/// The retreat of all limits while a row acts.
+/// The relaxation of all limits while a row acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Relaxation {
     travel: Motion<Vector3<f64>>,
@@ -38,7 +38,7 @@ pub struct Relaxation {
 }
 
 impl Relaxation {
-    /// The part of a retreat that a machine can make with this least room at neutral \[m\].
+    /// The fraction of a relaxation that a machine can make with this least room at neutral \[m\].
     pub fn fraction_within(room: f64) -> f64 {
         min(room / FULL_RELAXATION_ROOM, 1.0)
     }
@@ -48,7 +48,7 @@ impl Relaxation {
         self.acting > 0.0
     }
 
-    /// The retreat with its acceleration in this step. This surge and sway make up for the tilt's
+    /// The relaxation with its acceleration in this step. This surge and sway make up for the tilt's
     /// acceleration.
     pub fn accelerated(&self, tilt_compensation: &Vector3<f64>) -> Self {
         let Motion { position, velocity, .. } = self.travel;
@@ -57,7 +57,7 @@ impl Relaxation {
         Relaxation { travel: Motion { acceleration, ..self.travel }, ..*self }
     }
 
-    /// The retreat after a step in which a row has acted.
+    /// The relaxation after a step in which a row has acted.
     pub fn after(&self, step: f64) -> Self {
         let Motion { velocity, acceleration, .. } = self.travel;
         let travel = self.travel.at_velocity(velocity + step * acceleration, step);

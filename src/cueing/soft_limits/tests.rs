@@ -188,7 +188,7 @@ fn what_keeps_the_ranges_is_within_them() {
 fn a_relaxation_leaves_neutral_within_the_limits() {
     let ends = Ends::new([-0.1, 0.4], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
     let direction = Vector3::x();
-    // A tilt that would make limits retreat by far more than there is room for.
+    // A tilt that would make limits relax by far more than there is room for.
     for side in [1.0, -1.0] {
         let mut relaxation = Relaxation::default();
         for _ in 0..3000 {

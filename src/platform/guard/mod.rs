@@ -132,8 +132,8 @@ impl ActuatorGuard {
     }
 
     /// Time for which the input has been at rest, `step` seconds later. Once that is longer than
-    /// [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home, and the fraction of
-    /// its speed is given. It goes on until it joins its demand or the input moves.
+    /// [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home, and the
+    /// fraction of its speed is given. It goes on until it joins its demand or the input moves.
     fn rest_time(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
         let Some(Deviation { resting: before, homeward, .. }) = self.deviation.filter(|_| resting) else {
             return (0.0, None);
