@@ -531,6 +531,7 @@ fn tables_that_make_no_sense_are_refused() {
         ("at = 8,", "at = 4096,", "below 4096"),
         ("at = 8,", "at = \"ax\",", "below 4096"),
         ("at = 8,", "at = 8, scale = 0,", "other than zero"),
+        ("at = 8,", "at = 8, unit = 'deg',", "field ax: `deg` is not a unit of a specific force: write `m/s2` or `g`"),
         ("at = 8,", "at = 8, unit = \"furlong\",", "unknown variant"),
         ("ax = ", "bx = ", "unknown variant"),
         ("ax = { at = 8, type = \"f64\" }\n", "", "ax and ay are needed"),
@@ -544,6 +545,32 @@ fn tables_that_make_no_sense_are_refused() {
         match text.parse::<Format>() {
             Err(error) => assert!(error.to_string().contains(reason) && !reason.is_empty(), "{error}"),
             Ok(_) => assert!(reason.is_empty(), "{to}"),
+        }
+    }
+}
+
+#[test]
+fn a_field_takes_units_of_its_quantity_alone() {
+    let fields = [
+        ("time", "s ms"),
+        ("az", "m/s2 g"),
+        ("wz", "rad/s deg/s"),
+        ("roll", "rad deg"),
+        ("z", "m"),
+        ("vx", "m/s km/h mph"),
+        ("speed", "m/s km/h mph"),
+        ("running", ""),
+        ("qw", ""),
+    ];
+    for (field, units) in fields {
+        for unit in "m/s2 g rad/s deg/s rad deg m/s km/h mph m s ms".split(' ') {
+            let text = format!(
+                "name = 'own'\nabout = 'own'\nnote = 'own'\nlayout = 'binary'\ngravity = 'included'\n\
+                 [fields]\nax = {{ at = 0 }}\nay = {{ at = 4 }}\n{field} = {{ at = 8, unit = '{unit}' }}"
+            );
+            let refusal = text.parse::<Format>().err().map(|error| error.to_string());
+            let is_refused = refusal.is_some_and(|text| text.starts_with(&format!("field {field}: `{unit}` is not")));
+            assert_eq!(is_refused, !units.split(' ').any(|allowed| allowed == unit), "{field} in {unit}");
         }
     }
 }

@@ -139,7 +139,7 @@ impl Format {
             let is_needed = matches!(quantity, Quantity::Ax | Quantity::Ay);
             let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed;
             match self.read(record, *quantity, field, player) {
-                Some(value) => values[*quantity as usize] = Some(value * factor(field, *quantity)),
+                Some(value) => values[*quantity as usize] = Some(value * factor(field)),
                 None if optional => (),
                 None => return Err(Dropped::Field(*quantity)),
             }
@@ -303,7 +303,7 @@ fn value(value: &Value) -> Option<f64> {
 }
 
 /// The factor from a field's number to the washout's unit.
-fn factor(field: &Field, quantity: Quantity) -> f64 {
+fn factor(field: &Field) -> f64 {
     let unit = match field.unit {
         Some(Unit::G) => STANDARD_GRAVITY,
         Some(Unit::DegreePerSecond | Unit::Degree) => std::f64::consts::PI / 180.0,
@@ -312,8 +312,5 @@ fn factor(field: &Field, quantity: Quantity) -> f64 {
         Some(Unit::Millisecond) => 1e-3,
         _ => 1.0,
     };
-    match quantity {
-        Quantity::Paused | Quantity::Running => 1.0,
-        _ => field.scale * unit,
-    }
+    field.scale * unit
 }

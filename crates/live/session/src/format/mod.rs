@@ -209,7 +209,7 @@ pub struct Field {
     /// Type of a binary number.
     #[serde(rename = "type", default)]
     pub kind: Number,
-    /// Unit; that of the washout if none is given.
+    /// Unit of the quantity; that of the washout if none is given.
     pub unit: Option<Unit>,
     /// Factor; a negative one turns the axis round.
     #[serde(default = "one")]
@@ -262,6 +262,23 @@ words! {
     }
 }
 
+impl Quantity {
+    /// The quantity's kind, and the units that its field may have: the washout's first.
+    fn kind(self) -> (&'static str, &'static [Unit]) {
+        use Quantity::*;
+        match self {
+            Time => ("a time", &[Unit::Second, Unit::Millisecond]),
+            Ax | Ay | Az => ("a specific force", &[Unit::MetrePerSecond2, Unit::G]),
+            Wx | Wy | Wz => ("an angular velocity", &[Unit::RadianPerSecond, Unit::DegreePerSecond]),
+            Roll | Pitch | Yaw => ("an angle", &[Unit::Radian, Unit::Degree]),
+            X | Y | Z => ("a position", &[Unit::Metre]),
+            Vx | Vy | Vz | Speed => ("a velocity", &[Unit::MetrePerSecond, Unit::KilometrePerHour, Unit::MilePerHour]),
+            Paused | Running => ("a flag", &[]),
+            Qw | Qx | Qy | Qz => ("a quaternion", &[]),
+        }
+    }
+}
+
 /// Number of quantities.
 const QUANTITY_COUNT: usize = Quantity::Qz as usize + 1;
 
@@ -295,11 +312,23 @@ pub enum FormatError {
     #[error("{0}")]
     Toml(#[from] toml::de::Error),
     /// A field does not fit the layout.
-    #[error("field {0:?}: {1}")]
+    #[error("field {}: {}", .0.word(), .1)]
     Field(Quantity, &'static str),
+    /// A field has a unit of another quantity.
+    #[error("{}", unit_refusal(*.0, *.1))]
+    Unit(Quantity, Unit),
     /// The whole does not fit together.
     #[error("{0}")]
     Whole(&'static str),
+}
+
+fn unit_refusal(quantity: Quantity, unit: Unit) -> String {
+    let (kind, units) = quantity.kind();
+    let remedy = match units.iter().map(|unit| format!("`{}`", unit.word())).collect::<Vec<_>>().as_slice() {
+        [] => "leave `unit` out".to_owned(),
+        allowed => format!("write {}", allowed.join(" or ")),
+    };
+    format!("field {}: `{}` is not a unit of {kind}: {remedy}", quantity.word(), unit.word())
 }
 
 impl FromStr for Format {
@@ -323,6 +352,9 @@ impl FromStr for Format {
             }
             if !field.scale.is_finite() || field.scale == 0.0 {
                 return refuse("`scale` must be a number other than zero");
+            }
+            if let Some(unit) = field.unit.filter(|unit| !quantity.kind().1.contains(unit)) {
+                return Err(FormatError::Unit(*quantity, unit));
             }
         }
         let has = |quantity| format.fields.contains_key(&quantity);
