@@ -123,7 +123,7 @@ interface! {
         "status.tiltLimited" tilt_limited: bool = false;
         /// True if a safety unit limited position, velocity or acceleration of the platform during the last communication step.
         "status.safetyActive" safety_active: bool = false;
-        /// True if the actuator guard limited stroke, speed or acceleration of an actuator during the last communication step.
+        /// True if the actuator guard changed the motion to keep an actuator's or the platform's limits during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0, starts_from(&["actuator.", "rig."]);
