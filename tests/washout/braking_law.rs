@@ -125,7 +125,7 @@ proptest! {
             units.advance(&rest, &limits, step);
         }
         prop_assert_eq!(*units.motion(), rest);
-        prop_assert!(!units.active());
+        prop_assert!(!units.limited());
     }
 
     #[test]
