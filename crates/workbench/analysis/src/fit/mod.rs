@@ -120,7 +120,7 @@ impl Common {
         let largest = |value: fn(&Shape) -> Option<f64>| shapes.iter().filter_map(value).reduce(f64::max);
         let shape = Shape {
             axes: [axis(0), axis(1)],
-            inverted: largest(|shape| shape.inverted),
+            inverted_horizontal: largest(|shape| shape.inverted_horizontal),
             error: largest(|shape| shape.error),
         };
         let fitting = shapes.iter().filter(|shape| aims.distance(shape) <= 1.0).count();
@@ -142,8 +142,10 @@ fn worse_axis(one: AxisShape, other: AxisShape) -> AxisShape {
 pub struct Means {
     /// Mean correlation of felt and desired force.
     pub shape: f64,
-    /// Mean and largest fraction of inverted time.
-    pub inverted: [f64; 2],
+    /// Mean fraction of inverted time.
+    pub mean_inverted: f64,
+    /// Largest fraction of inverted time.
+    pub most_inverted: f64,
     /// Geometric mean of the sizes.
     pub size: f64,
     /// Geometric mean of the scales.
@@ -159,10 +161,8 @@ pub fn means<'a>(fits: impl Iterator<Item = &'a Fit> + Clone) -> Means {
     let scales: Vec<f64> = fits.clone().map(|fit| fit.best.factors.scale.ln()).collect();
     Means {
         shape: axes.iter().map(|axis| axis.shape).sum::<f64>() / count,
-        inverted: [
-            axes.iter().map(|axis| axis.inverted).sum::<f64>() / count,
-            axes.iter().map(|axis| axis.inverted).fold(0.0, f64::max),
-        ],
+        mean_inverted: axes.iter().map(|axis| axis.inverted).sum::<f64>() / count,
+        most_inverted: axes.iter().map(|axis| axis.inverted).fold(0.0, f64::max),
         size: (axes.iter().map(|axis| axis.size.ln()).sum::<f64>() / count).exp(),
         scale: (scales.iter().sum::<f64>() / scales.len().max(1) as f64).exp(),
         misfits: fits.filter(|fit| !fit.fits).count(),

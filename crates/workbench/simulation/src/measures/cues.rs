@@ -7,7 +7,10 @@
 //! - angular velocity: 3.0 deg/s in roll, 3.6 deg/s in pitch, 2.6 deg/s in yaw.
 
 /// Least sensed specific force that is perceived, by axis x, y, z \[m/s2\].
-pub const FORCE_THRESHOLDS: [f64; 3] = [0.17, 0.17, 0.28];
+pub const FORCE_THRESHOLDS: [f64; 3] = [HORIZONTAL_FORCE_THRESHOLD, HORIZONTAL_FORCE_THRESHOLD, 0.28];
+
+/// The same of surge and sway \[m/s2\].
+pub const HORIZONTAL_FORCE_THRESHOLD: f64 = 0.17;
 
 /// Least sensed angular velocity that is perceived, by axis x, y, z \[rad/s\].
 pub const RATE_THRESHOLDS: [f64; 3] = [3.0_f64.to_radians(), 3.6_f64.to_radians(), 2.6_f64.to_radians()];

@@ -181,9 +181,9 @@ const SUBJECT_GROUPS: [&[Subject]; 4] = [
     &[Subject {
         name: "horizontal specific force",
         axes: 0,
-        is_present: |of, _| of.shape.inverted.is_some(),
+        is_present: |of, _| of.shape.inverted_horizontal.is_some(),
         measures: measures! { SHAPE_SOURCE;
-            "inverted" ["%"] Less: |of, _| Some(100.0 * of.shape.inverted?),
+            "inverted" ["%"] Less: |of, _| Some(100.0 * of.shape.inverted_horizontal?),
                 "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
                  force.";
             "shape error" ["%"] Less: |of, _| Some(100.0 * of.shape.error?),

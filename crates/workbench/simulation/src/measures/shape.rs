@@ -7,7 +7,7 @@
 use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::cues::FORCE_THRESHOLDS;
+use super::cues::HORIZONTAL_FORCE_THRESHOLD;
 use super::statistics::{correlation, rms};
 use super::zero_phase::zero_phase;
 
@@ -24,7 +24,8 @@ pub struct AxisShape {
     /// RMS of felt over RMS of desired.
     pub size: f64,
     /// Fraction of the time in which the felt force is above the threshold and has the opposite
-    /// sign of the desired one.
+    /// sign of the desired one. Verdict, findings and `fit` take the larger of surge's and sway's
+    /// ([`Shape::most_inverted`]); `tune` and the bench take the mean.
     pub inverted: f64,
 }
 
@@ -35,7 +36,7 @@ pub struct Shape {
     pub axes: [Option<AxisShape>; 2],
     /// Fraction of the time in which the felt force is above the threshold and more than 90 degrees
     /// from the desired one. None where no axis counts.
-    pub inverted: Option<f64>,
+    pub inverted_horizontal: Option<f64>,
     /// RMS of felt less scaled desired force over RMS of scaled desired force, of the axes that
     /// count. None where none does, or where nothing is asked of them.
     pub error: Option<f64>,
@@ -99,12 +100,12 @@ impl Desired {
         }
         Shape {
             axes,
-            inverted: pairs().next().map(|_| {
+            inverted_horizontal: pairs().next().map(|_| {
                 let at = |sample: usize| {
                     let vector =
                         pairs().map(|(_, desired, felt)| (desired[sample] * felt[sample], felt[sample].powi(2)));
                     let (product, square) = vector.fold((0.0, 0.0), |sum, next| (sum.0 + next.0, sum.1 + next.1));
-                    square.sqrt() > FORCE_THRESHOLDS[0] && product < 0.0
+                    square.sqrt() > HORIZONTAL_FORCE_THRESHOLD && product < 0.0
                 };
                 let count = pairs().map(|(_, desired, _)| desired.len()).min().unwrap_or(0);
                 (0..count).filter(|&sample| at(sample)).count() as f64 / count as f64
@@ -115,7 +116,7 @@ impl Desired {
 }
 
 fn axis_shape(desired: &[f64], felt: &[f64]) -> AxisShape {
-    let is_inverted = |(d, f): (&f64, &f64)| f.abs() > FORCE_THRESHOLDS[0] && f * d < 0.0;
+    let is_inverted = |(d, f): (&f64, &f64)| f.abs() > HORIZONTAL_FORCE_THRESHOLD && f * d < 0.0;
     AxisShape {
         shape: correlation(desired, felt).unwrap_or(0.0),
         size: rms(felt.iter().copied()) / rms(desired.iter().copied()),
@@ -205,7 +206,7 @@ mod tests {
             }
             let shape = Desired::new(&desired, step).shape(&felt, [0.4, 0.3]);
             assert_near(shape.error.unwrap(), error, 1e-9);
-            assert_near(shape.inverted.unwrap(), vector as f64 / count as f64, 1e-12);
+            assert_near(shape.inverted_horizontal.unwrap(), vector as f64 / count as f64, 1e-12);
             for (found, (correlation, size, inverted)) in shape.axes.iter().zip(axes) {
                 let found = found.unwrap();
                 assert_near(found.shape, correlation, 1e-9);
@@ -226,12 +227,12 @@ mod tests {
         assert_near(surge.size, 0.3, 1e-12);
         assert_near(sway.size, 0.6, 1e-12);
         assert_near(shape.error.unwrap(), 0.0, 1e-9);
-        assert_eq!((surge.inverted, sway.inverted, shape.inverted), (0.0, 0.0, Some(0.0)));
+        assert_eq!((surge.inverted, sway.inverted, shape.inverted_horizontal), (0.0, 0.0, Some(0.0)));
         // At rest the error is all that is asked, and nothing is inverted.
         let rest = vec![[0.0, 0.0, 9.8]; desired.len()];
         let shape = Desired::new(&desired, 0.01).shape(&rest, [0.5; 2]);
         assert_near(shape.error.unwrap(), 1.0, 1e-12);
-        assert_eq!((shape.least_shape(), shape.size(), shape.inverted), (Some(0.0), Some(0.0), Some(0.0)));
+        assert_eq!((shape.least_shape(), shape.size(), shape.inverted_horizontal), (Some(0.0), Some(0.0), Some(0.0)));
     }
 
     #[test]
