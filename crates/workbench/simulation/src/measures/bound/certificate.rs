@@ -1,8 +1,9 @@
 //! The value of a dual solution: a lower bound that does not rely on the solver.
 
-use super::barrier::Multipliers;
+use nalgebra::SVector;
+
 use super::interior_point::Solution;
-use super::program::{Program, Range};
+use super::program::Program;
 
 /// The dual value of these errors and multipliers. No motion within the program's limits has a
 /// smaller value.
@@ -19,47 +20,36 @@ use super::program::{Program, Range};
 ///
 /// Slightly inexact multipliers, such as a solver's, give a slightly lower bound that is still
 /// valid.
-pub fn lower_bound<const N: usize, const U: usize, const E: usize>(
-    program: &Program<N, U, E>,
-    solution: &Solution<N, U, E>,
+pub fn lower_bound<const N: usize, const U: usize, const R: usize>(
+    program: &Program<N, U, R>,
+    solution: &Solution<N, U, R>,
 ) -> f64 {
     let Solution { states, inputs, multipliers } = solution;
+    let Program { felt, limited, min, max, desired } = program;
+    let motion = program.motion();
+    // None below 0, and none of the inputs, whose limits count by themselves.
+    let admitted = |multipliers: &SVector<f64, R>| {
+        let mut multipliers = multipliers.map(|z| z.max(0.0));
+        multipliers.fixed_rows_mut::<U>(N).fill(0.0);
+        multipliers
+    };
     let mut value = 0.0;
-    let mut costate = [0.0; N];
-    for (k, desired) in program.desired.iter().enumerate().rev() {
+    let mut costate = SVector::<f64, N>::zeros();
+    for (k, desired) in desired.iter().enumerate().rev() {
         let y = program.error(k, &states[k], &inputs[k]);
-        let of_states = admitted_multipliers(&multipliers[k].states);
-        let of_limits = admitted_multipliers(&multipliers[k].limits);
-        value -= y.iter().zip(desired).map(|(y, desired)| y * (desired + 0.5 * y)).sum::<f64>();
-        value -= at_limits(&of_states, &program.states) + at_limits(&of_limits, &program.limits);
-        costate.iter_mut().zip(of_states.net()).for_each(|(sum, net)| *sum += net);
-
-        let (mut of_state, mut of_input) = ([0.0; N], [0.0; U]);
-        program.motion.add_transposed(&costate, &mut of_state, &mut of_input);
-        program.felt.add_transposed(&y, &mut of_state, &mut of_input);
-        program.limited.add_transposed(&of_limits.net(), &mut of_state, &mut of_input);
-        let Range { min, max } = &program.inputs;
-        value += of_input.iter().enumerate().map(|(n, c)| (c * min[n]).min(c * max[n])).sum::<f64>();
-        costate = of_state;
+        let [lower, upper] = multipliers[k].each_ref().map(admitted);
+        value -= y.dot(&(desired + 0.5 * y)) + upper.dot(max) - lower.dot(min);
+        let of = [motion.weighted(&costate), felt.weighted(&y), limited.weighted(&(upper - lower))];
+        let coefficients = of.iter().map(|(_, of_input)| of_input).sum::<SVector<f64, U>>();
+        value += coefficients.iter().enumerate().map(|(n, c)| (c * min[N + n]).min(c * max[N + n])).sum::<f64>();
+        costate = of.iter().map(|(of_state, _)| of_state).sum();
     }
     value
-}
-
-/// The multipliers, none below 0.
-fn admitted_multipliers<const M: usize>(multipliers: &Multipliers<M>) -> Multipliers<M> {
-    let Multipliers { lower, upper } = multipliers;
-    Multipliers { lower: lower.map(|z| z.max(0.0)), upper: upper.map(|z| z.max(0.0)) }
-}
-
-/// Sum of the multipliers times the limits.
-fn at_limits<const M: usize>(multipliers: &Multipliers<M>, range: &Range<M>) -> f64 {
-    (0..M).map(|k| multipliers.upper[k] * range.max[k] - multipliers.lower[k] * range.min[k]).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::AxisLimits;
-    use super::super::barrier::Multipliers;
     use super::super::interior_point::{Solution, solve};
     use super::super::program::{Program, relaxed};
     use super::super::projection::Projection;
@@ -68,15 +58,15 @@ mod tests {
     const HEAVE: AxisLimits = AxisLimits { min: -0.3, max: 0.3, velocity: 1.0, acceleration: 5.0, tilt: None };
 
     /// Program for a force that demands more travel than the limits permit.
-    fn program() -> Program<2, 2, 1> {
+    fn program() -> Program<2, 2, 5> {
         let force = |k| 2.0 * (0.05 * f64::from(k)).sin();
         let desired: Vec<_> = (0..100).map(|k| Projection::of_line(&[force(k), force(k + 1)])).collect();
         relaxed(&desired, 0.05, &HEAVE)
     }
 
-    fn value(program: &Program<2, 2, 1>, solution: &Solution<2, 2, 1>) -> f64 {
-        let errors = (0..100).flat_map(|k| program.error(k, &solution.states[k], &solution.inputs[k]));
-        0.5 * errors.map(|error| error * error).sum::<f64>()
+    fn value(program: &Program<2, 2, 5>, solution: &Solution<2, 2, 5>) -> f64 {
+        let errors = (0..100).map(|k| program.error(k, &solution.states[k], &solution.inputs[k]));
+        0.5 * errors.map(|error| error.norm_squared()).sum::<f64>()
     }
 
     #[test]
@@ -99,18 +89,11 @@ mod tests {
                 (number as f64 / 500_001.5 - 1.0) * size
             };
             let mut disturbed = solve(&program).unwrap();
-            for multipliers in &mut disturbed.multipliers {
-                disturb(&mut multipliers.states, &mut noise);
-                disturb(&mut multipliers.limits, &mut noise);
-            }
+            disturbed.multipliers.iter_mut().flatten().flatten().for_each(|z| *z += noise());
             assert!(lower_bound(&program, &disturbed) < found);
             // The errors are multipliers, too: those of inputs that do not fit the states.
             disturbed.inputs.iter_mut().flatten().for_each(|input| *input += noise());
             assert!(lower_bound(&program, &disturbed) < found);
         }
-    }
-
-    fn disturb<const M: usize>(multipliers: &mut Multipliers<M>, noise: &mut impl FnMut() -> f64) {
-        multipliers.lower.iter_mut().chain(&mut multipliers.upper).for_each(|z| *z += noise());
     }
 }

@@ -6,27 +6,19 @@
 //! keeps the limits. See Nocedal and Wright, Numerical Optimization, 2nd edition, section 16.6, for
 //! the method, and Rao, Wright and Rawlings, J. Optim. Theory Appl. 99 (1998), for the recursion.
 
-use super::barrier::{Bounded, Multipliers};
+use nalgebra::{Cholesky, SMatrix, SVector};
+
 use super::certificate;
+use super::limits::Limits;
 use super::program::{Program, Rows};
-use super::small_matrix::{
-    add, backward_substitute, cholesky, forward_substitute, forward_substitute_columns, product, transposed_product,
-};
 
 /// A motion within the limits, and multipliers.
-pub struct Solution<const N: usize, const U: usize, const E: usize> {
+pub struct Solution<const N: usize, const U: usize, const R: usize> {
     /// The states at the intervals' ends, the first at rest.
-    pub states: Vec<[f64; N]>,
-    pub inputs: Vec<[f64; U]>,
-    pub multipliers: Vec<IntervalMultipliers<N, U, E>>,
-}
-
-/// Multipliers of an interval: of the state at its end, its inputs, and its further values.
-#[derive(Clone, Copy, Debug)]
-pub struct IntervalMultipliers<const N: usize, const U: usize, const E: usize> {
-    pub states: Multipliers<N>,
-    pub inputs: Multipliers<U>,
-    pub limits: Multipliers<E>,
+    pub states: Vec<SVector<f64, N>>,
+    pub inputs: Vec<SVector<f64, U>>,
+    /// Multipliers of each interval's lower and upper limits.
+    pub multipliers: Vec<[SVector<f64, R>; 2]>,
 }
 
 /// Why no solution was found.
@@ -38,64 +30,74 @@ pub struct NotSolved {
     pub least: f64,
 }
 
-/// The same for values near 0, for an interval \[(m/s2)^2\].
-const ABSOLUTE_GAP: f64 = 1e-10;
-
 /// The recursion's result for an interval: with the state's change x, the best input's change
 /// solves L' u = -(gain x + offset).
 #[derive(Clone, Copy)]
 struct Feedback<const N: usize, const U: usize> {
-    /// Cholesky factor of the inputs' Hessian, with the inverse of its diagonal.
-    factor: [[f64; U]; U],
-    gain: [[f64; N]; U],
-    offset: [f64; U],
+    /// Cholesky factor L of the inputs' Hessian; what is above its diagonal has no meaning.
+    factor: SMatrix<f64, U, U>,
+    gain: SMatrix<f64, U, N>,
+    offset: SVector<f64, U>,
 }
 
-/// A change of all states and inputs.
-struct Change<const N: usize, const U: usize> {
-    states: Vec<[f64; N]>,
-    inputs: Vec<[f64; U]>,
+/// A change of all states and inputs, and of the values that have limits.
+struct Change<const N: usize, const U: usize, const R: usize> {
+    states: Vec<SVector<f64, N>>,
+    inputs: Vec<SVector<f64, U>>,
+    limited: Vec<SVector<f64, R>>,
 }
 
 /// The solution of the program.
 ///
 /// # Errors
 /// The value does not come near its lower bound.
-pub fn solve<const N: usize, const U: usize, const E: usize>(
-    program: &Program<N, U, E>,
-) -> Result<Solution<N, U, E>, NotSolved> {
+pub fn solve<const N: usize, const U: usize, const R: usize>(
+    program: &Program<N, U, R>,
+) -> Result<Solution<N, U, R>, NotSolved> {
     // Iterations after which the solver gives up. Rides take 10 to 50.
     const MOST_ITERATIONS: usize = 200;
     solve_within(program, MOST_ITERATIONS)
 }
 
-fn solve_within<const N: usize, const U: usize, const E: usize>(
-    program: &Program<N, U, E>,
+fn solve_within<const N: usize, const U: usize, const R: usize>(
+    program: &Program<N, U, R>,
     most_iterations: usize,
-) -> Result<Solution<N, U, E>, NotSolved> {
+) -> Result<Solution<N, U, R>, NotSolved> {
     // Distances this many times as large are accepted where rounding prevents smaller ones.
     const ACCEPTED_GAP_FACTOR: f64 = 1000.0;
     // Part of the way to the nearest limit that a step goes.
     const TO_THE_LIMIT: f64 = 0.98;
     let intervals = program.desired.len();
-    let limits = 2 * (N + U + E) * intervals;
+    let no_aims = vec![[SVector::zeros(); 2]; intervals];
     let mut solver = Solver::at_rest(program);
     for _ in 0..most_iterations {
-        let products = solver.sum_of_products();
+        let limits = solver.limits();
+        let products: f64 = limits.iter().map(Limits::products).sum();
         let tolerance = solver.tolerance();
         if products <= tolerance && solver.gap() <= tolerance {
             return Ok(solver.solution);
         }
-        let uncentred = solver.uncentred_step();
-        let part = TO_THE_LIMIT.min(TO_THE_LIMIT / solver.largest_uncentred_decrease(&uncentred));
-        let left = (1.0 - part) * products + part * part * solver.sum_of_uncentred_products(&uncentred);
-        let target = (left / products).powi(3) * products / limits as f64;
-        let change = solver.centred_step(&uncentred, target);
-        let part = TO_THE_LIMIT.min(TO_THE_LIMIT / solver.largest_decrease(&change, &uncentred, target));
-        if !change.is_finite() || !target.is_finite() {
+        let part = |change: &Change<N, U, R>, aims: &[[SVector<f64, R>; 2]]| {
+            let steps = limits.iter().zip(&change.limited).zip(aims);
+            let decreases = steps.map(|((limits, change), aims)| limits.largest_decrease(change, aims));
+            TO_THE_LIMIT.min(TO_THE_LIMIT / decreases.fold(0.0, f64::max))
+        };
+        solver.factorise(&limits);
+        let uncentred = solver.step(&limits, &no_aims);
+        let uncentred_part = part(&uncentred, &no_aims);
+        // Mehrotra's corrector takes these products off the target.
+        let mut aims: Vec<_> =
+            limits.iter().zip(&uncentred.limited).map(|(limits, change)| limits.uncentred_products(change)).collect();
+        let left = (1.0 - uncentred_part) * products
+            + uncentred_part.powi(2) * aims.iter().flatten().map(SVector::sum).sum::<f64>();
+        let target = (left / products).powi(3) * products / (2 * R * intervals) as f64;
+        aims.iter_mut().flatten().for_each(|aim| *aim = -aim.add_scalar(-target));
+        let change = solver.step(&limits, &aims);
+        let part = part(&change, &aims);
+        if !target.is_finite() || !change.limited.iter().flatten().all(|value| value.is_finite()) {
             break;
         }
-        solver.go(part, &change, &uncentred, target);
+        solver.advance(part, &change, &limits, &aims);
     }
     let (value, gap) = (solver.value(), solver.gap());
     if gap <= ACCEPTED_GAP_FACTOR * solver.tolerance() {
@@ -105,50 +107,38 @@ fn solve_within<const N: usize, const U: usize, const E: usize>(
     }
 }
 
-impl<const N: usize, const U: usize> Change<N, U> {
-    fn is_finite(&self) -> bool {
-        self.states.iter().flatten().chain(self.inputs.iter().flatten()).all(|value| value.is_finite())
-    }
-}
+/// Largest distance of a value near 0 from its lower bound, for an interval \[(m/s2)^2\].
+const ABSOLUTE_GAP: f64 = 1e-10;
 
-struct Solver<'a, const N: usize, const U: usize, const E: usize> {
-    program: &'a Program<N, U, E>,
-    solution: Solution<N, U, E>,
+struct Solver<'a, const N: usize, const U: usize, const R: usize> {
+    program: &'a Program<N, U, R>,
+    motion: Rows<N, U, N>,
+    solution: Solution<N, U, R>,
     feedback: Vec<Feedback<N, U>>,
 }
 
-/// The limits of an interval.
-struct Limits<'a, const N: usize, const U: usize, const E: usize> {
-    states: Bounded<'a, N>,
-    inputs: Bounded<'a, U>,
-    limits: Bounded<'a, E>,
-}
-
-impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
-    fn at_rest(program: &'a Program<N, U, E>) -> Self {
+impl<'a, const N: usize, const U: usize, const R: usize> Solver<'a, N, U, R> {
+    /// All products of slack and multiplier are the same.
+    fn at_rest(program: &'a Program<N, U, R>) -> Self {
         let intervals = program.desired.len();
-        let value = 0.5 * program.desired.iter().flatten().map(|force| force * force).sum::<f64>();
-        let product = (value / intervals as f64).max(ABSOLUTE_GAP) / (2 * (N + U + E)) as f64;
-        let multipliers = IntervalMultipliers {
-            states: Multipliers::at_rest(&program.states, product),
-            inputs: Multipliers::at_rest(&program.inputs, product),
-            limits: Multipliers::at_rest(&program.limits, product),
-        };
+        let value = 0.5 * program.desired.iter().map(SVector::norm_squared).sum::<f64>();
+        let product = (value / intervals as f64).max(ABSOLUTE_GAP) / (2 * R) as f64;
+        let multipliers = [program.min.map(|min| product / -min), program.max.map(|max| product / max)];
         let solution = Solution {
-            states: vec![[0.0; N]; intervals + 1],
-            inputs: vec![[0.0; U]; intervals],
+            states: vec![SVector::zeros(); intervals + 1],
+            inputs: vec![SVector::zeros(); intervals],
             multipliers: vec![multipliers; intervals],
         };
-        let none = Feedback { factor: [[0.0; U]; U], gain: [[0.0; N]; U], offset: [0.0; U] };
-        Solver { program, solution, feedback: vec![none; intervals] }
+        let none = Feedback { factor: SMatrix::zeros(), gain: SMatrix::zeros(), offset: SVector::zeros() };
+        Solver { program, motion: program.motion(), solution, feedback: vec![none; intervals] }
     }
 
-    fn error(&self, k: usize) -> [f64; 2] {
+    fn error(&self, k: usize) -> SVector<f64, 2> {
         self.program.error(k, &self.solution.states[k], &self.solution.inputs[k])
     }
 
     fn value(&self) -> f64 {
-        0.5 * (0..self.feedback.len()).flat_map(|k| self.error(k)).map(|error| error * error).sum::<f64>()
+        0.5 * (0..self.feedback.len()).map(|k| self.error(k).norm_squared()).sum::<f64>()
     }
 
     fn tolerance(&self) -> f64 {
@@ -162,190 +152,85 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
         self.value() - certificate::lower_bound(self.program, &self.solution)
     }
 
-    fn limits(&self, k: usize) -> Limits<'_, N, U, E> {
+    fn limits(&self) -> Vec<Limits<R>> {
         let Solution { states, inputs, multipliers } = &self.solution;
-        let (program, multipliers) = (self.program, &multipliers[k]);
-        let further = program.limited.of(&states[k], &inputs[k]);
-        Limits {
-            states: Bounded { range: &program.states, values: states[k + 1], multipliers: &multipliers.states },
-            inputs: Bounded { range: &program.inputs, values: inputs[k], multipliers: &multipliers.inputs },
-            limits: Bounded { range: &program.limits, values: further, multipliers: &multipliers.limits },
-        }
-    }
-
-    /// Changes of the values that have limits.
-    fn changes(&self, k: usize, change: &Change<N, U>) -> ([f64; N], [f64; U], [f64; E]) {
-        let (states, inputs) = (&change.states, &change.inputs);
-        (states[k + 1], inputs[k], self.program.limited.of(&states[k], &inputs[k]))
-    }
-
-    fn sum_of_products(&self) -> f64 {
-        let of = |k| {
-            let Limits { states, inputs, limits } = self.limits(k);
-            states.products() + inputs.products() + limits.products()
+        let of = |k: usize| {
+            let values = self.program.limited.of(&states[k], &inputs[k]);
+            Limits { slacks: [values - self.program.min, self.program.max - values], multipliers: multipliers[k] }
         };
-        (0..self.feedback.len()).map(of).sum()
+        (0..inputs.len()).map(of).collect()
     }
 
-    fn sum_of_uncentred_products(&self, change: &Change<N, U>) -> f64 {
-        let of = |k| {
-            let Limits { states, inputs, limits } = self.limits(k);
-            let (state, input, limit) = self.changes(k, change);
-            states.uncentred_products(&state) + inputs.uncentred_products(&input) + limits.uncentred_products(&limit)
-        };
-        (0..self.feedback.len()).map(of).sum()
-    }
-
-    fn largest_uncentred_decrease(&self, change: &Change<N, U>) -> f64 {
-        let of = |k| {
-            let Limits { states, inputs, limits } = self.limits(k);
-            let (state, input, limit) = self.changes(k, change);
-            let decreases = [
-                states.uncentred_decrease(&state),
-                inputs.uncentred_decrease(&input),
-                limits.uncentred_decrease(&limit),
-            ];
-            decreases.into_iter().fold(0.0, f64::max)
-        };
-        (0..self.feedback.len()).map(of).fold(0.0, f64::max)
-    }
-
-    fn largest_decrease(&self, change: &Change<N, U>, uncentred: &Change<N, U>, target: f64) -> f64 {
-        let of = |k| {
-            let Limits { states, inputs, limits } = self.limits(k);
-            let (state, input, limit) = self.changes(k, change);
-            let before = self.changes(k, uncentred);
-            let decreases = [
-                states.decrease(&state, &before.0, target),
-                inputs.decrease(&input, &before.1, target),
-                limits.decrease(&limit, &before.2, target),
-            ];
-            decreases.into_iter().fold(0.0, f64::max)
-        };
-        (0..self.feedback.len()).map(of).fold(0.0, f64::max)
-    }
-
-    /// Goes a part of the step.
-    fn go(&mut self, part: f64, change: &Change<N, U>, uncentred: &Change<N, U>, target: f64) {
-        // From the last interval on: the multipliers of each need its state before the step.
-        for k in (0..self.feedback.len()).rev() {
-            let (state, input, limit) = self.changes(k, change);
-            let before = self.changes(k, uncentred);
-            let Limits { states, inputs, limits } = self.limits(k);
-            let multipliers = IntervalMultipliers {
-                states: states.stepped(part, &state, &before.0, target),
-                inputs: inputs.stepped(part, &input, &before.1, target),
-                limits: limits.stepped(part, &limit, &before.2, target),
-            };
-            self.solution.multipliers[k] = multipliers;
-            add(&mut self.solution.states[k + 1], part, &state);
-            add(&mut self.solution.inputs[k], part, &input);
-        }
-    }
-
-    /// The step that aims at products of 0: factorises on the way.
-    fn uncentred_step(&mut self) -> Change<N, U> {
+    /// The factors of the step's equations, from the last interval to the first.
+    fn factorise(&mut self, limits: &[Limits<R>]) {
         // Added to the inputs' Hessian: without it, rounding may take an input's curvature below 0.
         // The solution is the same, because a step's gradient is exact.
         const HESSIAN_REGULARISATION: f64 = 1e-11;
-        let Rows { of_state: a, of_input: b } = &self.program.motion;
-        let (felt, limited) = (&self.program.felt, &self.program.limited);
-        let (mut hessian, mut gradient) = ([[0.0; N]; N], [0.0; N]);
-        for k in (0..self.feedback.len()).rev() {
-            let Limits { states, inputs, limits } = self.limits(k);
-            let (of_states, of_inputs, of_limits) = (states.weights(), inputs.weights(), limits.weights());
-            for (n, weight) in of_states.iter().enumerate() {
-                hessian[n][n] += weight;
+        let Program { felt, limited, .. } = self.program;
+        let Rows { of_state: a, of_input: b } = &self.motion;
+        let mut hessian = SMatrix::<f64, N, N>::zeros();
+        for (k, limits) in limits.iter().enumerate().rev() {
+            let (mut of_state, mut of_input) = (limited.of_state, limited.of_input);
+            for (row, weight) in limits.weights().iter().enumerate() {
+                of_state.row_mut(row).scale_mut(*weight);
+                of_input.row_mut(row).scale_mut(*weight);
             }
-            let (ha, hb) = (product(&hessian, a), product(&hessian, b));
-            let mut xx = transposed_product(a, &ha);
-            let mut ux = transposed_product(b, &ha);
-            let mut uu = transposed_product(b, &hb);
-            add_squares(felt, &[1.0; 2], &mut xx, &mut ux, &mut uu);
-            add_squares(limited, &of_limits, &mut xx, &mut ux, &mut uu);
-            for (n, weight) in of_inputs.iter().enumerate() {
-                uu[n][n] += weight + HESSIAN_REGULARISATION;
-            }
-            let (mut x, mut u) = ([0.0; N], [0.0; U]);
-            self.program.motion.add_transposed(&gradient, &mut x, &mut u);
-            felt.add_transposed(&self.error(k), &mut x, &mut u);
-            let factor = cholesky(uu);
-            let mut gain = ux;
-            forward_substitute_columns(&factor, &mut gain);
-            forward_substitute(&factor, &mut u);
-            for (row, offset) in gain.iter().zip(&u) {
-                for i in 0..N {
-                    x[i] -= row[i] * offset;
-                    for j in 0..N {
-                        xx[i][j] -= row[i] * row[j];
-                    }
-                }
-            }
-            self.feedback[k] = Feedback { factor, gain, offset: u };
-            hessian = std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (xx[i][j] + xx[j][i])));
-            gradient = x;
+            let (ha, hb) = (hessian * a, hessian * b);
+            let xx = a.tr_mul(&ha) + felt.of_state.tr_mul(&felt.of_state) + limited.of_state.tr_mul(&of_state);
+            let ux = b.tr_mul(&ha) + felt.of_input.tr_mul(&felt.of_state) + limited.of_input.tr_mul(&of_state);
+            let uu = b.tr_mul(&hb) + felt.of_input.tr_mul(&felt.of_input) + limited.of_input.tr_mul(&of_input);
+            let uu = uu + SMatrix::identity() * HESSIAN_REGULARISATION;
+            let factor = factor(uu);
+            let gain = factor.solve_lower_triangular_unchecked(&ux);
+            let xx = xx - gain.tr_mul(&gain);
+            hessian = 0.5 * (xx + xx.transpose());
+            self.feedback[k] = Feedback { factor, gain, offset: SVector::zeros() };
         }
-        self.roll_out()
     }
 
-    /// The step that aims at products of `target`, with the last factors.
-    fn centred_step(&mut self, uncentred: &Change<N, U>, target: f64) -> Change<N, U> {
-        let program = self.program;
-        let mut gradient = [0.0; N];
-        for k in (0..self.feedback.len()).rev() {
-            let before = self.changes(k, uncentred);
-            let Limits { states, inputs, limits } = self.limits(k);
-            add(&mut gradient, 1.0, &states.gradient(&before.0, target));
-            let (mut x, mut u) = ([0.0; N], inputs.gradient(&before.1, target));
-            program.limited.add_transposed(&limits.gradient(&before.2, target), &mut x, &mut u);
-            program.motion.add_transposed(&gradient, &mut x, &mut u);
-            program.felt.add_transposed(&self.error(k), &mut x, &mut u);
+    /// The step that aims at these products, with the last factors.
+    fn step(&mut self, limits: &[Limits<R>], aims: &[[SVector<f64, R>; 2]]) -> Change<N, U, R> {
+        let Program { felt, limited, .. } = self.program;
+        let mut gradient = SVector::<f64, N>::zeros();
+        for k in (0..limits.len()).rev() {
+            let error = self.error(k);
+            let of_limits = limits[k].gradient(&aims[k]);
+            let of = [self.motion.weighted(&gradient), felt.weighted(&error), limited.weighted(&of_limits)];
+            let u = of.iter().map(|(_, of_input)| of_input).sum::<SVector<f64, U>>();
             let Feedback { factor, gain, offset } = &mut self.feedback[k];
-            forward_substitute(factor, &mut u);
-            for (row, u) in gain.iter().zip(&u) {
-                add(&mut x, -u, row);
-            }
-            *offset = u;
-            gradient = x;
+            *offset = factor.solve_lower_triangular_unchecked(&u);
+            gradient = of.iter().map(|(of_state, _)| of_state).sum::<SVector<f64, N>>() - gain.tr_mul(offset);
         }
-        self.roll_out()
+        let mut change = Change { states: vec![SVector::zeros()], inputs: Vec::new(), limited: Vec::new() };
+        let mut state = SVector::zeros();
+        for Feedback { factor, gain, offset } in &self.feedback {
+            let input = factor.tr_solve_lower_triangular_unchecked(&-(gain * state + offset));
+            change.limited.push(limited.of(&state, &input));
+            state = self.motion.of(&state, &input);
+            change.states.push(state);
+            change.inputs.push(input);
+        }
+        change
     }
 
-    /// The change of all states and inputs under the feedback.
-    fn roll_out(&self) -> Change<N, U> {
-        let mut states = Vec::with_capacity(self.feedback.len() + 1);
-        let mut state = [0.0; N];
-        states.push(state);
-        let mut follow = |Feedback { factor, gain, offset }: &Feedback<N, U>| {
-            let mut input: [f64; U] =
-                std::array::from_fn(|u| -offset[u] - gain[u].iter().zip(&state).map(|(g, x)| g * x).sum::<f64>());
-            backward_substitute(factor, &mut input);
-            state = self.program.motion.of(&state, &input);
-            states.push(state);
-            input
-        };
-        let inputs = self.feedback.iter().map(&mut follow).collect();
-        Change { states, inputs }
+    /// Goes a part of the step.
+    fn advance(&mut self, part: f64, change: &Change<N, U, R>, limits: &[Limits<R>], aims: &[[SVector<f64, R>; 2]]) {
+        let Solution { states, inputs, multipliers } = &mut self.solution;
+        states.iter_mut().zip(&change.states).for_each(|(state, change)| *state += part * change);
+        inputs.iter_mut().zip(&change.inputs).for_each(|(input, change)| *input += part * change);
+        for (k, multipliers) in multipliers.iter_mut().enumerate() {
+            let steps = limits[k].multiplier_steps(&change.limited[k], &aims[k]);
+            multipliers.iter_mut().zip(steps).for_each(|(multipliers, step)| *multipliers += part * step);
+        }
     }
 }
 
-/// Adds the weighted squares of the rows to the Hessian's blocks.
-fn add_squares<const N: usize, const U: usize, const R: usize>(
-    rows: &Rows<N, U, R>,
-    weights: &[f64; R],
-    xx: &mut [[f64; N]; N],
-    ux: &mut [[f64; N]; U],
-    uu: &mut [[f64; U]; U],
-) {
-    for ((of_state, of_input), weight) in rows.of_state.iter().zip(&rows.of_input).zip(weights) {
-        for n in 0..N {
-            add(&mut xx[n], weight * of_state[n], of_state);
-        }
-        for n in 0..U {
-            add(&mut ux[n], weight * of_input[n], of_state);
-            add(&mut uu[n], weight * of_input[n], of_input);
-        }
-    }
+/// The lower factor of a matrix that rounding alone can make indefinite.
+fn factor<const U: usize>(matrix: SMatrix<f64, U, U>) -> SMatrix<f64, U, U> {
+    // Least pivot, as a part of the largest element of the diagonal.
+    const PIVOT_ROUNDING: f64 = 1e-14;
+    let pivot = PIVOT_ROUNDING * matrix.diagonal().max();
+    Cholesky::new_with_substitute(matrix, pivot).map_or(matrix, Cholesky::unpack_dirty)
 }
 
 #[cfg(test)]

@@ -17,15 +17,15 @@
 //! - [`Bound::attained`] is the RMS error of a motion that keeps all limits. The true optimum
 //!   lies between the two.
 
-mod barrier;
 mod certificate;
 mod interior_point;
+mod limits;
 mod program;
 mod projection;
-mod small_matrix;
 mod trajectory;
 
 use interior_point::{NotSolved, Solution, solve};
+use nalgebra::SVector;
 use projection::Projection;
 use trajectory::Knot;
 pub use trajectory::Trajectory;
@@ -159,8 +159,8 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
 }
 
 /// The states of a solution, without tilt where there is none.
-fn solution_knots<const N: usize, const U: usize, const E: usize>(solution: &Solution<N, U, E>) -> Vec<Knot> {
-    let knot = |state: &[f64; N]| {
+fn solution_knots<const N: usize, const U: usize, const R: usize>(solution: &Solution<N, U, R>) -> Vec<Knot> {
+    let knot = |state: &SVector<f64, N>| {
         let at = |index: usize| state.get(index).copied().unwrap_or(0.0);
         Knot { position: at(0), velocity: at(1), tilt_force: at(2), tilt_force_rate: at(3) }
     };

@@ -30,68 +30,45 @@
 //! where the tangents at its ends meet, p0 + v0 T/2. So the restricted program keeps this
 //! point within the limits.
 
+use nalgebra::{Matrix2, Matrix2x4, Matrix2x6, SMatrix, SVector, Vector2};
+
 use super::projection::Projection;
 use super::{AxisLimits, TiltLimits};
 
 /// Rows that are linear in the state at an interval's beginning and in the inputs within it.
 pub struct Rows<const N: usize, const U: usize, const R: usize> {
-    pub of_state: [[f64; N]; R],
-    pub of_input: [[f64; U]; R],
+    pub of_state: SMatrix<f64, R, N>,
+    pub of_input: SMatrix<f64, R, U>,
 }
 
 impl<const N: usize, const U: usize, const R: usize> Rows<N, U, R> {
-    const ZERO: Self = Rows { of_state: [[0.0; N]; R], of_input: [[0.0; U]; R] };
+    fn zeros() -> Self {
+        Rows { of_state: SMatrix::zeros(), of_input: SMatrix::zeros() }
+    }
 
     /// The rows' values.
-    pub fn of(&self, state: &[f64; N], input: &[f64; U]) -> [f64; R] {
-        std::array::from_fn(|row| dot_product(&self.of_state[row], state) + dot_product(&self.of_input[row], input))
+    pub fn of(&self, state: &SVector<f64, N>, input: &SVector<f64, U>) -> SVector<f64, R> {
+        self.of_state * state + self.of_input * input
     }
 
-    /// Adds the rows' sum, each times its weight, to the coefficients of state and input.
-    pub fn add_transposed(&self, weights: &[f64; R], of_state: &mut [f64; N], of_input: &mut [f64; U]) {
-        for (row, weight) in weights.iter().enumerate() {
-            of_state.iter_mut().zip(&self.of_state[row]).for_each(|(sum, value)| *sum += weight * value);
-            of_input.iter_mut().zip(&self.of_input[row]).for_each(|(sum, value)| *sum += weight * value);
-        }
+    /// Coefficients of state and input in the rows' sum, each times its weight.
+    pub fn weighted(&self, weights: &SVector<f64, R>) -> (SVector<f64, N>, SVector<f64, U>) {
+        (self.of_state.tr_mul(weights), self.of_input.tr_mul(weights))
     }
 }
 
-fn dot_product<const M: usize>(left: &[f64; M], right: &[f64; M]) -> f64 {
-    left.iter().zip(right).map(|(left, right)| left * right).sum()
-}
-
-/// Least values, below 0, and greatest values, above 0. At rest at neutral, all values are 0.
-#[derive(Clone, Copy)]
-pub struct Range<const M: usize> {
-    pub min: [f64; M],
-    pub max: [f64; M],
-}
-
-impl<const M: usize> Range<M> {
-    const ZERO: Self = Range { min: [0.0; M], max: [0.0; M] };
-
-    fn set(&mut self, index: usize, min: f64, max: f64) {
-        (self.min[index], self.max[index]) = (min, max);
-    }
-
-    fn within(&mut self, index: usize, limit: f64) {
-        self.set(index, -limit, limit);
-    }
-}
-
-/// The program with N states, U inputs and E rows that have limits.
-pub struct Program<const N: usize, const U: usize, const E: usize> {
-    /// The state at an interval's end.
-    pub motion: Rows<N, U, N>,
+/// The program with N states, U inputs and R values that have limits.
+pub struct Program<const N: usize, const U: usize, const R: usize> {
     /// Mean and slope of the felt force over an interval.
     pub felt: Rows<N, U, 2>,
     /// Mean and slope of the desired force over each interval.
-    pub desired: Vec<[f64; 2]>,
-    /// Further values that have limits.
-    pub limited: Rows<N, U, E>,
-    pub states: Range<N>,
-    pub inputs: Range<U>,
-    pub limits: Range<E>,
+    pub desired: Vec<Vector2<f64>>,
+    /// The values that have limits: the state at the interval's end, the inputs, further ones.
+    pub limited: Rows<N, U, R>,
+    /// Least values, below 0. At rest at neutral, all values are 0.
+    pub min: SVector<f64, R>,
+    /// Greatest values, above 0.
+    pub max: SVector<f64, R>,
 }
 
 /// Limits of one double integrator: of its position, its rate and its acceleration.
@@ -122,18 +99,18 @@ impl Integrator {
 }
 
 /// Heave in any motion.
-pub fn relaxed(desired: &[Projection], interval: f64, limits: &AxisLimits) -> Program<2, 2, 1> {
+pub fn relaxed(desired: &[Projection], interval: f64, limits: &AxisLimits) -> Program<2, 2, 5> {
     let mut program = Program::new(desired);
     program.relaxed_integrator(0, interval, &Integrator::position(limits));
-    program.felt.of_input = [[1.0, 0.0], [0.0, 1.0]];
+    program.felt.of_input = Matrix2::identity();
     program
 }
 
 /// Heave with an acceleration that is constant over each interval.
-pub fn restricted(desired: &[Projection], interval: f64, limits: &AxisLimits) -> Program<2, 1, 1> {
+pub fn restricted(desired: &[Projection], interval: f64, limits: &AxisLimits) -> Program<2, 1, 4> {
     let mut program = Program::new(desired);
     program.restricted_integrator(0, interval, &Integrator::position(limits));
-    program.felt.of_input = [[1.0], [0.0]];
+    program.felt.of_input = Vector2::x();
     program
 }
 
@@ -144,20 +121,19 @@ pub fn relaxed_with_tilt(
     interval: f64,
     limits: &AxisLimits,
     tilt: &TiltLimits,
-) -> Program<4, 6, 2> {
+) -> Program<4, 6, 12> {
     let (t, root, arm) = (interval, 12_f64.sqrt(), tilt.head_height / tilt.gravity);
     let mut program = Program::new(desired);
     let tilting = Integrator::tilt(tilt);
     program.relaxed_integrator(0, t, &Integrator::position(limits));
     program.relaxed_integrator(1, t, &tilting);
-    program.inputs.within(4, t.powi(2) / 12.0 * tilting.acceleration);
-    program.inputs.within(5, root * t.powi(2) / 192.0 * tilting.acceleration);
+    program.limit_input(4, t.powi(2) / 12.0 * tilting.acceleration);
+    program.limit_input(5, root * t.powi(2) / 192.0 * tilting.acceleration);
+    let (mean, slope) = (t.powi(2) / 4.0 - arm, -arm - t.powi(2) / 12.0);
+    let cross = t.powi(2) / (2.0 * root);
     program.felt = Rows {
-        of_state: [[0.0, 0.0, 1.0, t / 2.0], [0.0, 0.0, 0.0, t / root]],
-        of_input: [
-            [1.0, 0.0, t.powi(2) / 4.0 - arm, -t.powi(2) / (2.0 * root), 1.0, 0.0],
-            [0.0, 1.0, t.powi(2) / (2.0 * root), -arm - t.powi(2) / 12.0, 0.0, 1.0],
-        ],
+        of_state: Matrix2x4::new(0.0, 0.0, 1.0, t / 2.0, 0.0, 0.0, 0.0, t / root),
+        of_input: Matrix2x6::new(1.0, 0.0, mean, -cross, 1.0, 0.0, 0.0, 1.0, cross, slope, 0.0, 1.0),
     };
     program
 }
@@ -168,68 +144,81 @@ pub fn restricted_with_tilt(
     interval: f64,
     limits: &AxisLimits,
     tilt: &TiltLimits,
-) -> Program<4, 2, 2> {
+) -> Program<4, 2, 8> {
     let (t, root, arm) = (interval, 12_f64.sqrt(), tilt.head_height / tilt.gravity);
     let mut program = Program::new(desired);
     program.restricted_integrator(0, t, &Integrator::position(limits));
     program.restricted_integrator(1, t, &Integrator::tilt(tilt));
     program.felt = Rows {
-        of_state: [[0.0, 0.0, 1.0, t / 2.0], [0.0, 0.0, 0.0, t / root]],
-        of_input: [[1.0, t.powi(2) / 6.0 - arm], [0.0, t.powi(2) / (2.0 * root)]],
+        of_state: Matrix2x4::new(0.0, 0.0, 1.0, t / 2.0, 0.0, 0.0, 0.0, t / root),
+        of_input: Matrix2::new(1.0, t.powi(2) / 6.0 - arm, 0.0, t.powi(2) / (2.0 * root)),
     };
     program
 }
 
-impl<const N: usize, const U: usize, const E: usize> Program<N, U, E> {
+impl<const N: usize, const U: usize, const R: usize> Program<N, U, R> {
     fn new(desired: &[Projection]) -> Self {
+        let mut limited: Rows<N, U, R> = Rows::zeros();
+        limited.of_input.fixed_rows_mut::<U>(N).fill_with_identity();
         Program {
-            motion: Rows::ZERO,
-            felt: Rows::ZERO,
-            desired: desired.iter().map(|projection| [projection.mean, projection.slope]).collect(),
-            limited: Rows::ZERO,
-            states: Range::ZERO,
-            inputs: Range::ZERO,
-            limits: Range::ZERO,
+            felt: Rows::zeros(),
+            desired: desired.iter().map(|projection| Vector2::new(projection.mean, projection.slope)).collect(),
+            limited,
+            min: SVector::zeros(),
+            max: SVector::zeros(),
         }
+    }
+
+    /// The state at an interval's end.
+    pub fn motion(&self) -> Rows<N, U, N> {
+        let Rows { of_state, of_input } = &self.limited;
+        Rows { of_state: of_state.fixed_rows::<N>(0).into(), of_input: of_input.fixed_rows::<N>(0).into() }
+    }
+
+    fn limit(&mut self, row: usize, min: f64, max: f64) {
+        (self.min[row], self.max[row]) = (min, max);
+    }
+
+    fn limit_input(&mut self, input: usize, limit: f64) {
+        self.limit(N + input, -limit, limit);
     }
 
     /// The integrator `number`, whose inputs are the mean and the slope of its acceleration.
     fn relaxed_integrator(&mut self, number: usize, t: f64, limits: &Integrator) {
-        let (rate, mean, slope) = (2 * number + 1, 2 * number, 2 * number + 1);
-        let root = 12_f64.sqrt();
+        let (position, rate, mean, slope) = (2 * number, 2 * number + 1, 2 * number, 2 * number + 1);
+        let (root, row) = (12_f64.sqrt(), N + U + number);
         self.integrator(number, mean, t, limits);
-        self.motion.of_input[rate - 1][slope] = -t.powi(2) / root;
-        self.inputs.within(slope, root / 4.0 * limits.acceleration);
-        self.limited.of_state[number][rate] = 1.0;
-        self.limited.of_input[number][mean] = t / 2.0;
-        self.limited.of_input[number][slope] = -t / root;
-        self.limits.within(number, limits.rate);
+        self.limited.of_input[(position, slope)] = -t.powi(2) / root;
+        self.limit_input(slope, root / 4.0 * limits.acceleration);
+        self.limited.of_state[(row, rate)] = 1.0;
+        self.limited.of_input[(row, mean)] = t / 2.0;
+        self.limited.of_input[(row, slope)] = -t / root;
+        self.limit(row, -limits.rate, limits.rate);
     }
 
     /// The integrator `number`, whose input is its constant acceleration.
     fn restricted_integrator(&mut self, number: usize, t: f64, limits: &Integrator) {
-        let position = 2 * number;
+        let (position, row) = (2 * number, N + U + number);
         self.integrator(number, number, t, limits);
-        self.limited.of_state[number][position] = 1.0;
-        self.limited.of_state[number][position + 1] = t / 2.0;
-        self.limits.set(number, limits.min, limits.max);
+        self.limited.of_state[(row, position)] = 1.0;
+        self.limited.of_state[(row, position + 1)] = t / 2.0;
+        self.limit(row, limits.min, limits.max);
     }
 
     fn integrator(&mut self, number: usize, acceleration: usize, t: f64, limits: &Integrator) {
         let (position, rate) = (2 * number, 2 * number + 1);
-        self.motion.of_state[position][position] = 1.0;
-        self.motion.of_state[position][rate] = t;
-        self.motion.of_state[rate][rate] = 1.0;
-        self.motion.of_input[position][acceleration] = t.powi(2) / 2.0;
-        self.motion.of_input[rate][acceleration] = t;
-        self.inputs.within(acceleration, limits.acceleration);
-        self.states.set(position, limits.min, limits.max);
-        self.states.within(rate, limits.rate);
+        self.limited.of_state[(position, position)] = 1.0;
+        self.limited.of_state[(position, rate)] = t;
+        self.limited.of_state[(rate, rate)] = 1.0;
+        self.limited.of_input[(position, acceleration)] = t.powi(2) / 2.0;
+        self.limited.of_input[(rate, acceleration)] = t;
+        self.limit_input(acceleration, limits.acceleration);
+        self.limit(position, limits.min, limits.max);
+        self.limit(rate, -limits.rate, limits.rate);
     }
 
     /// Error of the felt force over an interval: mean and slope.
-    pub fn error(&self, interval: usize, state: &[f64; N], input: &[f64; U]) -> [f64; 2] {
-        let felt = self.felt.of(state, input);
-        std::array::from_fn(|row| felt[row] - self.desired[interval][row])
+    pub fn error(&self, interval: usize, state: &SVector<f64, N>, input: &SVector<f64, U>) -> Vector2<f64> {
+        self.felt.of(state, input) - self.desired[interval]
     }
 }

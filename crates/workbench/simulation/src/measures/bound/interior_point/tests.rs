@@ -3,8 +3,9 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, ZeroConeT};
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
+use nalgebra::RowSVector;
 
-use super::super::program::{Program, Range, Rows, relaxed, relaxed_with_tilt, restricted, restricted_with_tilt};
+use super::super::program::{Program, relaxed, relaxed_with_tilt, restricted, restricted_with_tilt};
 use super::super::projection::Projection;
 use super::super::{AxisLimits, TiltLimits, certificate};
 use super::{NotSolved, solve, solve_within};
@@ -54,47 +55,32 @@ impl Table {
 }
 
 /// Clarabel's least value. The variables are all states, inputs and errors of each interval.
-fn least_value<const N: usize, const U: usize, const E: usize>(program: &Program<N, U, E>) -> f64 {
-    let intervals = program.desired.len();
+fn least_value<const N: usize, const U: usize, const R: usize>(program: &Program<N, U, R>) -> f64 {
+    let Program { felt, desired, limited, min, max } = program;
+    let motion = program.motion();
+    let intervals = desired.len();
     let stride = N + U + 2;
-    let terms = |k: usize, of_state: &[f64; N], of_input: &[f64; U], end: &[(usize, f64)]| {
-        let coefficients = of_state.iter().chain(of_input).enumerate();
-        let mut terms: Vec<_> = coefficients.map(|(index, &value)| (stride * k + index, value)).collect();
-        terms.extend_from_slice(end);
-        terms
+    let terms = |k: usize, of_state: RowSVector<f64, N>, of_input: RowSVector<f64, U>, end: &[(usize, f64)]| {
+        let coefficients = of_state.iter().chain(&of_input).copied().enumerate().collect::<Vec<_>>();
+        let here = coefficients.into_iter().map(|(index, value)| (stride * k + index, value));
+        here.chain(end.iter().copied()).collect::<Vec<_>>()
     };
-    fn rows<const N: usize, const U: usize, const R: usize>(
-        rows: &Rows<N, U, R>,
-        row: usize,
-    ) -> (&[f64; N], &[f64; U]) {
-        (&rows.of_state[row], &rows.of_input[row])
-    }
-    fn range<const M: usize>(range: &Range<M>, index: usize) -> (f64, f64) {
-        (range.min[index], range.max[index])
-    }
     let (mut table, mut limits) = (Table::default(), Table::default());
     for n in 0..N {
         table.push(&[(n, 1.0)], 0.0);
     }
-    for k in 0..intervals {
+    for (k, desired) in desired.iter().enumerate() {
         for n in 0..N {
-            let (of_state, of_input) = rows(&program.motion, n);
-            table.push(&terms(k, of_state, of_input, &[(stride * (k + 1) + n, -1.0)]), 0.0);
-            let (min, max) = range(&program.states, n);
-            limits.between(&[(stride * (k + 1) + n, 1.0)], min, max);
+            let end = [(stride * (k + 1) + n, -1.0)];
+            table.push(&terms(k, motion.of_state.row(n).into(), motion.of_input.row(n).into(), &end), 0.0);
         }
-        for row in 0..2 {
-            let (of_state, of_input) = rows(&program.felt, row);
-            table.push(&terms(k, of_state, of_input, &[(stride * k + N + U + row, -1.0)]), program.desired[k][row]);
+        for (row, desired) in desired.iter().enumerate() {
+            let end = [(stride * k + N + U + row, -1.0)];
+            table.push(&terms(k, felt.of_state.row(row).into(), felt.of_input.row(row).into(), &end), *desired);
         }
-        for u in 0..U {
-            let (min, max) = range(&program.inputs, u);
-            limits.between(&[(stride * k + N + u, 1.0)], min, max);
-        }
-        for row in 0..E {
-            let (of_state, of_input) = rows(&program.limited, row);
-            let (min, max) = range(&program.limits, row);
-            limits.between(&terms(k, of_state, of_input, &[]), min, max);
+        for row in 0..R {
+            let terms = terms(k, limited.of_state.row(row).into(), limited.of_input.row(row).into(), &[]);
+            limits.between(&terms, min[row], max[row]);
         }
     }
     let variables = stride * intervals + N;
@@ -118,10 +104,10 @@ fn least_value<const N: usize, const U: usize, const E: usize>(program: &Program
     solver.solution.obj_val
 }
 
-fn assert_least<const N: usize, const U: usize, const E: usize>(program: &Program<N, U, E>) {
+fn assert_least<const N: usize, const U: usize, const R: usize>(program: &Program<N, U, R>) {
     let solution = solve(program).unwrap();
-    let errors = (0..program.desired.len()).flat_map(|k| program.error(k, &solution.states[k], &solution.inputs[k]));
-    let value = 0.5 * errors.map(|error| error * error).sum::<f64>();
+    let errors = (0..program.desired.len()).map(|k| program.error(k, &solution.states[k], &solution.inputs[k]));
+    let value = 0.5 * errors.map(|error| error.norm_squared()).sum::<f64>();
     let bound = certificate::lower_bound(program, &solution);
     let expected = least_value(program);
     assert!(expected > 0.1, "{expected}");
