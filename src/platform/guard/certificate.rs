@@ -278,7 +278,7 @@ impl Machine {
                 }
                 bounds.leg_jerk(length) * half
             }
-            Some(cranks) => match cranks.spread(bounds, left.transmission.min(right.transmission), interval) {
+            Some(cranks) => match cranks.spread(bounds, [left, right], interval) {
                 Some(spread) => spread,
                 None => return false,
             },

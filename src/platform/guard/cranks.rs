@@ -23,6 +23,8 @@
 //!     |k'|   <= c F1 (1/s + 1/a)
 //! ```
 //!
+//! Where |q'| is at most R, which is less than F1, R stands in the place of those F1 that bound q'.
+//!
 //! k is assumed, and shown afterwards. A transmission is continuous: from a larger value at an end
 //! of the piece it cannot fall below k within the piece at that rate.
 //!
@@ -37,6 +39,7 @@ use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
 use crate::platform::PlatformState;
 use crate::platform::crank::{Arms, Cranks};
+use crate::platform::inverse::LegMotion;
 
 /// The transmission that is assumed, relative to that of a state: what is left is for the motion.
 const ASSUMED_PART: f64 = 0.8;
@@ -82,26 +85,32 @@ impl Cranks {
         (cosine_from_sine(transmission) / self.arm + 1.0 / self.rod) / (transmission * transmission)
     }
 
-    /// Bound on |q'''| with these bounds of the joints, where no transmission is smaller
-    /// than this one \[m/s3\].
-    pub(super) fn arc_jerk(&self, bounds: &JointBounds, transmission: f64) -> f64 {
+    /// Bound on |q'''| with these bounds of the joints, where no transmission is smaller than this
+    /// one, and no |q'| larger than `rate` \[m/s3\].
+    pub(super) fn arc_jerk(&self, bounds: &JointBounds, transmission: f64, rate: f64) -> f64 {
         let JointBounds { velocity, acceleration, jerk } = *bounds;
-        let per = 1.0 / transmission;
-        let (cosine, rate) = (cosine_from_sine(transmission), velocity * per);
-        let [of_arm, of_rod] = [self.arm, self.rod].map(|length| rate / length);
-        let second = (acceleration + rate * (cosine * of_arm + of_rod)) * per;
-        let rod_second = (acceleration + rate * (of_arm + cosine * of_rod)) * per;
+        let (per, cosine) = (1.0 / transmission, cosine_from_sine(transmission));
+        let (rod_rate, of_arm) = (velocity * per, rate / self.arm);
+        let of_rod = rod_rate / self.rod;
+        let second = (acceleration + cosine * rate * of_arm + rod_rate * of_rod) * per;
+        let rod_second = (acceleration + rate * of_arm + cosine * rod_rate * of_rod) * per;
         (jerk + 3.0 * (of_rod * rod_second + cosine * of_arm * second)) * per + rate * of_arm * of_arm
     }
 
-    /// The change of the arcs' accelerations within half of an interval,
-    /// if every crank keeps its transmission there. `ends` is the smaller one at the ends.
-    pub(super) fn spread(&self, bounds: &JointBounds, ends: f64, interval: f64) -> Option<f64> {
+    /// The change of the arcs' accelerations within half of an interval between these states, if
+    /// every crank keeps its transmission there.
+    pub(super) fn spread(&self, bounds: &JointBounds, ends: [&LegMotion; 2], interval: f64) -> Option<f64> {
         let half = 0.5 * interval;
+        let rate = ends.iter().flat_map(|legs| legs.velocity).fold(0.0, |most, rate| max(rate.abs(), most));
+        let ends = min(ends[0].transmission, ends[1].transmission);
         let transmission = self.assumed(ends);
         let lost = bounds.velocity * half * self.transmission_slope(transmission);
         let turns = bounds.velocity / transmission * interval / self.arm;
-        (ends - lost >= transmission && turns <= LARGEST_TURN).then(|| self.arc_jerk(bounds, transmission) * half)
+        // What is left is no smaller than what was assumed, so it may be assumed in its place.
+        let left = ends - lost;
+        let second = (bounds.acceleration + bounds.velocity * bounds.velocity * self.turning(left)) / left;
+        let rate = min(rate + half * second, bounds.velocity / left);
+        (left >= transmission && turns <= LARGEST_TURN).then(|| self.arc_jerk(bounds, left, rate) * half)
     }
 
     /// Bound on the second derivative of any transmission's square on a way. The joints' vectors
@@ -265,7 +274,8 @@ impl Machine {
     ) -> bool {
         let Some(cranks) = &self.geometry.cranks else { return false };
         let mean = (0..6).fold(0.0, |most, i| max((rates[1][i] - rates[0][i]).abs(), most)) / step;
-        mean + gap + step * cranks.arc_jerk(bounds, lever.transmission) <= self.limits.acceleration
+        mean + gap + step * cranks.arc_jerk(bounds, lever.transmission, bounds.velocity / lever.transmission)
+            <= self.limits.acceleration
     }
 
     /// True if a part of the way home is certified by its ends, which are at these fractions of the

@@ -156,7 +156,7 @@ fn no_crank_exceeds_the_bounds_on_its_derivatives() {
             let pairs = [
                 (first, velocity / transmission),
                 (second, (acceleration + velocity * velocity * cranks.turning(transmission)) / transmission),
-                (third, cranks.arc_jerk(&bounds, transmission)),
+                (third, cranks.arc_jerk(&bounds, transmission, first.abs() + 3.0 * h * second.abs())),
                 (slope, velocity * cranks.transmission_slope(transmission)),
             ];
             for (k, (found, bound)) in pairs.into_iter().enumerate() {
