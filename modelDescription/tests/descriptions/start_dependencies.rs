@@ -27,7 +27,8 @@ fn others(row: &Row, own: f64) -> Vec<f64> {
         Kind::Real(_) => vec![own + 1e-3, own * 0.9, own + 0.7],
         _ => (0..7).map(f64::from).collect(),
     };
-    candidates.into_iter().filter(|value| *value != own && row.accepts(*value)).collect()
+    // A negative sign or zero is left to all cases.
+    candidates.into_iter().rev().take(cases(7, 5)).filter(|value| *value != own && row.accepts(*value)).collect()
 }
 
 /// Every input and parameter changed by itself: an output that changes with it must list it.

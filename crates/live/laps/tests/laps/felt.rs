@@ -73,7 +73,7 @@ fn the_second_lap_is_felt_with_at_most_six_tenths_of_the_first_one_s_error() {
 
 #[test]
 fn the_motorcycle_s_lap_is_felt_better_from_its_second_round_on() {
-    let (inputs, samples, begins) = motorcycle::ride(cases(5, 3));
+    let (inputs, samples, begins) = motorcycle::ride(cases(5, 2));
     // As in examples/10_lap.toml.
     let parameters = presets::with(presets::PREVIEW, &[("scale.angularVelocity.x", 0.1)]);
     let by_lap = |squares: Vec<f64>| -> Vec<f64> {

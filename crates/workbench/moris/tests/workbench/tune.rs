@@ -247,7 +247,7 @@ fn searched(threads: usize, seed: u64) -> Parameters {
     let (first, second) = (objective(weaving(), NO_RESERVE), objective(brisk(), NO_RESERVE));
     let space = Space::new(&classical(), &DEFAULT);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let budget = Budget { evaluations: crate::cases::cases(120, 40), seed };
+    let budget = Budget { evaluations: crate::cases::cases(120, 30), seed };
     pool.install(|| search(&[&first, &second], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].parameters)
 }
 
@@ -380,7 +380,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     let here = directory.path();
     write_recording(here, &weaving());
     write_recording(here, &brisk());
-    let evaluations = crate::cases::cases("100", "40");
+    let evaluations = crate::cases::cases("100", "20");
     let command = ["tune", "weaving.csv", "brisk.csv", "--strategy", "classical", "--evaluations", evaluations];
     let output = moris(here, &[&command[..], &["--report", "out"]].concat());
     let printed = String::from_utf8(output.stdout).unwrap();
