@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 use moris_analysis::frequency_response::limits::Limit;
@@ -90,119 +91,92 @@ fn draw_pair(area: &Area, measured: &Measured, limits: &[Limit], (input, output)
     let unit = ratio_unit(input, output);
     let title = if unit.is_empty() { title } else { format!("{title}, {unit}") };
     let (above, below) = area.split_vertically(MODULUS_HEIGHT);
-    draw_modulus(&above, &title, [&test, &small], &limits, output)?;
-    draw_phase(&below, [&test, &small], &limits, output)
-}
-
-fn draw_modulus(
-    area: &Area,
-    title: &str,
-    [test, small]: [&[Response]; 2],
-    limits: &[&Limit],
-    output: Channel,
-) -> Result<()> {
+    let measured = || test.iter().chain(&small).map(|response| modulus(response, output));
     let bounds = || limits.iter().flat_map(|limit| limit.modulus).flatten();
-    let measured = || test.iter().chain(small).map(|response| modulus(response, output));
     let values = || measured().chain(bounds()).map(|value| value.max(MIN_MODULUS));
     let low = 10_f64.powf(values().fold(0.1, f64::min).log10().floor());
     let high = 10_f64.powf(values().fold(1.1, f64::max).log10().ceil());
-    let mut chart = ChartBuilder::on(area)
-        .caption(title, (FONT_FAMILY, 22).into_font().color(&TEXT_COLOUR))
-        .margin_right(24)
-        .x_label_area_size(12)
-        .y_label_area_size(74)
-        .build_cartesian_2d(SHOWN_FREQUENCIES.log_scale(), (low..high).log_scale())?;
-    chart
-        .configure_mesh()
-        .x_label_formatter(&|_| String::new())
-        .y_label_formatter(&|value| axis_number(*value))
-        .y_desc("modulus")
-        .bold_line_style(GRID_COLOUR)
-        .light_line_style(TRANSPARENT)
-        .axis_style(TEXT_COLOUR)
-        .label_style((FONT_FAMILY, 17).into_font().color(&TEXT_COLOUR))
-        .draw()?;
-    draw_limits(&mut chart, limits, |limit| limit.modulus, [low, high])?;
-    draw_curves(&mut chart, test, small, output, |response| modulus(response, output), |_, _| false)
+    let mut builder = ChartBuilder::on(&above);
+    builder.caption(title, (FONT_FAMILY, 22).into_font().color(&TEXT_COLOUR)).x_label_area_size(12);
+    let diagram = Diagram { test: &test, small: &small, limits: &limits, output, below: false, ends: [low, high] };
+    diagram.draw(&mut builder, (low..high).log_scale(), modulus, |limit| limit.modulus)?;
+    let mut builder = ChartBuilder::on(&below);
+    builder.margin_bottom(8).x_label_area_size(52);
+    let diagram = Diagram { below: true, ends: [-180.0, 180.0], ..diagram };
+    diagram.draw(&mut builder, -190.0..190.0, phase, |limit| limit.phase)
 }
 
-fn draw_phase(area: &Area, [test, small]: [&[Response]; 2], limits: &[&Limit], output: Channel) -> Result<()> {
-    let mut chart = ChartBuilder::on(area)
-        .margin_right(24)
-        .margin_bottom(8)
-        .x_label_area_size(52)
-        .y_label_area_size(74)
-        .build_cartesian_2d(SHOWN_FREQUENCIES.log_scale(), -190.0..190.0)?;
-    chart
-        .configure_mesh()
-        .x_desc("frequency [rad/s]")
-        .y_desc("phase [°]")
-        .x_label_formatter(&|value| axis_number(*value))
-        .y_label_formatter(&|value| format!("{value:.0}").replace('-', "−"))
-        .bold_line_style(GRID_COLOUR)
-        .light_line_style(TRANSPARENT)
-        .axis_style(TEXT_COLOUR)
-        .label_style((FONT_FAMILY, 17).into_font().color(&TEXT_COLOUR))
-        .draw()?;
-    draw_limits(&mut chart, limits, |limit| limit.phase, [-180.0, 180.0])?;
-    // Between two neighbours that seem to be more than half a turn apart, the phase has passed 180 degrees.
-    draw_curves(&mut chart, test, small, output, |response| phase(response, output), |a, b| (a - b).abs() > 180.0)
-}
-
-/// Bounds as bars at their frequencies, open ones up to the end of the axis.
-fn draw_limits<'a, C>(
-    chart: &mut ChartContext<'a, SVGBackend<'a>, C>,
-    limits: &[&Limit],
-    of: impl Fn(&Limit) -> [Option<f64>; 2],
-    ends: [f64; 2],
-) -> Result<()>
-where
-    C: CoordTranslate<From = (f64, f64)>,
-{
-    const LIMIT_COLOUR: RGBColor = RGBColor(208, 222, 205);
-    for limit in limits.iter().filter(|limit| of(limit) != [None; 2]) {
-        let [low, high] = of(limit);
-        let [low, high] = [low.unwrap_or(ends[0]), high.unwrap_or(ends[1])].map(|end| end.clamp(ends[0], ends[1]));
-        let bar = [(limit.frequency, low), (limit.frequency, high)];
-        chart.draw_series(LineSeries::new(bar, LIMIT_COLOUR.stroke_width(12)))?;
-    }
-    Ok(())
-}
-
-/// The small signals as a line, the test's as a line with dots; no line is drawn over a `gap`
-/// between neighbours, and nothing of what cannot be felt.
-fn draw_curves<'a, C>(
-    chart: &mut ChartContext<'a, SVGBackend<'a>, C>,
-    test: &[Response],
-    small: &[Response],
+/// The modulus, or the phase below it, of one pair of channels.
+struct Diagram<'a> {
+    test: &'a [Response],
+    small: &'a [Response],
+    limits: &'a [&'a Limit],
     output: Channel,
-    value: impl Fn(&Response) -> f64,
-    gap: impl Fn(f64, f64) -> bool,
-) -> Result<()>
-where
-    C: CoordTranslate<From = (f64, f64)>,
-{
-    let felt = |response: &&Response| modulus(response, output) > MIN_MODULUS;
-    let point = |response: &Response| (response.frequency, value(response));
-    for (responses, style) in [(small, SMALL_SIGNAL_COLOUR.stroke_width(3)), (test, TEST_COLOUR.stroke_width(2))] {
-        let points: Vec<(f64, f64)> = responses.iter().filter(felt).map(point).collect();
-        for part in points.chunk_by(|a, b| !gap(a.1, b.1)) {
-            chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
+    /// It shows the phase, and the frequencies.
+    below: bool,
+    /// Ends of bounds that are open.
+    ends: [f64; 2],
+}
+
+impl Diagram<'_> {
+    /// Draws bounds as bars at their frequencies, the small signals as a line, and the test's as a
+    /// line with dots, but nothing of what cannot be felt.
+    fn draw<'b, Y: AsRangedCoord<Value = f64>>(
+        &self,
+        builder: &mut ChartBuilder<'_, 'b, SVGBackend<'b>>,
+        range: Y,
+        value: fn(&Response, Channel) -> f64,
+        bound: fn(&Limit) -> [Option<f64>; 2],
+    ) -> Result<()>
+    where
+        Y::CoordDescType: ValueFormatter<f64>,
+    {
+        const LIMIT_COLOUR: RGBColor = RGBColor(208, 222, 205);
+        let Diagram { test, small, limits, output, below, ends } = *self;
+        builder.margin_right(24).y_label_area_size(74);
+        let mut chart = builder.build_cartesian_2d(SHOWN_FREQUENCIES.log_scale(), range)?;
+        let mut mesh = chart.configure_mesh();
+        if below {
+            mesh.x_desc("frequency [rad/s]");
         }
+        mesh.x_label_formatter(&|value| if below { axis_number(*value) } else { String::new() })
+            .y_label_formatter(&|value| axis_number(*value))
+            .y_desc(if below { "phase [°]" } else { "modulus" })
+            .bold_line_style(GRID_COLOUR)
+            .light_line_style(TRANSPARENT)
+            .axis_style(TEXT_COLOUR)
+            .label_style((FONT_FAMILY, 17).into_font().color(&TEXT_COLOUR))
+            .draw()?;
+        for limit in limits.iter().filter(|limit| bound(limit) != [None; 2]) {
+            let [low, high] = bound(limit);
+            let [low, high] = [low.unwrap_or(ends[0]), high.unwrap_or(ends[1])].map(|end| end.clamp(ends[0], ends[1]));
+            let bar = [(limit.frequency, low), (limit.frequency, high)];
+            chart.draw_series(LineSeries::new(bar, LIMIT_COLOUR.stroke_width(12)))?;
+        }
+        let felt = |response: &&Response| modulus(response, output) > MIN_MODULUS;
+        let point = |response: &Response| (response.frequency, value(response, output));
+        // Between two neighbours that seem to be more than half a turn apart, the phase has passed 180 degrees.
+        let is_near = |one: &(f64, f64), next: &(f64, f64)| !below || (one.1 - next.1).abs() <= 180.0;
+        for (responses, style) in [(small, SMALL_SIGNAL_COLOUR.stroke_width(3)), (test, TEST_COLOUR.stroke_width(2))] {
+            let points: Vec<(f64, f64)> = responses.iter().filter(felt).map(point).collect();
+            for part in points.chunk_by(is_near) {
+                chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
+            }
+        }
+        let dots = |style: fn(&Response) -> ShapeStyle| {
+            test.iter().filter(felt).map(move |response| Circle::new(point(response), 5, style(response)))
+        };
+        // A measurement is hollow where something limited.
+        chart.draw_series(dots(|response| {
+            let is_limited = response.limited.iter().any(|&fraction| fraction > 0.0);
+            if is_limited { LIMITED_COLOUR } else { TEST_COLOUR }.filled()
+        }))?;
+        chart.draw_series(dots(|_| TEST_COLOUR.stroke_width(2)))?;
+        Ok(())
     }
-    let dots = |style: fn(&Response) -> ShapeStyle| {
-        test.iter().filter(felt).map(move |response| Circle::new(point(response), 5, style(response)))
-    };
-    // A measurement is hollow where something limited.
-    chart.draw_series(dots(|response| {
-        let is_limited = response.limited.iter().any(|&fraction| fraction > 0.0);
-        if is_limited { LIMITED_COLOUR } else { TEST_COLOUR }.filled()
-    }))?;
-    chart.draw_series(dots(|_| TEST_COLOUR.stroke_width(2)))?;
-    Ok(())
 }
 
 fn axis_number(value: f64) -> String {
     let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    text.trim_end_matches('0').trim_end_matches('.').replace('-', "−")
 }
