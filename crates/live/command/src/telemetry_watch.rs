@@ -35,7 +35,7 @@ impl TelemetryWatch {
         // Growth of a delay with which it is told again.
         const DELAY_GROWTH: f64 = 1.5;
         let now = session.time();
-        for (check, known) in Check::ALL.into_iter().zip(&mut self.signs) {
+        for (&check, known) in Check::ALL.iter().zip(&mut self.signs) {
             let verdict = session.signs().verdict(check);
             if verdict != *known && verdict != Verdict::Unknown {
                 *known = verdict;

@@ -1,7 +1,6 @@
 //! Motion of the vehicle, as the washout takes it.
 
 use std::f64::consts::TAU;
-use std::fmt::{self, Display, Formatter};
 
 use moris_washout::Input;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
@@ -105,34 +104,19 @@ pub struct Sample {
     pub has_angles: bool,
 }
 
+/// Names of the channels of a [`Motion`], as in tables.
+const CHANNEL_NAMES: [&str; CHANNEL_COUNT] = ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
+
 /// Reason for which a sample is dropped.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Implausible {
     /// A channel, by its place, or the position or time is no finite number.
+    #[error("{} is no number", .0.map_or("position or time", |place| CHANNEL_NAMES[place]))]
     NoNumber(Option<usize>),
     /// A channel, by its place, is beyond its largest plausible value.
+    #[error("{name} is {1:.0}, more than {most:.0} in the washout's unit: check its unit in the table",
+        name = CHANNEL_NAMES[*.0], most = Sample::LARGEST[*.0])]
     TooLarge(usize, f64),
-}
-
-impl Display for Implausible {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        // Names of the channels of a `Motion`, as in tables.
-        const CHANNEL_NAMES: [&str; CHANNEL_COUNT] =
-            ["ax", "ay", "az", "wx", "wy", "wz", "roll", "pitch", "yaw", "speed"];
-        match *self {
-            Implausible::NoNumber(place) => {
-                write!(f, "{} is no number", place.map_or("position or time", |place| CHANNEL_NAMES[place]))
-            }
-            Implausible::TooLarge(place, value) => {
-                let name = CHANNEL_NAMES[place];
-                let most = Sample::LARGEST[place];
-                write!(
-                    f,
-                    "{name} is {value:.0}, more than {most:.0} in the washout's unit: check its unit in the table"
-                )
-            }
-        }
-    }
 }
 
 impl Sample {

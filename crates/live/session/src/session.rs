@@ -1,7 +1,5 @@
 //! The whole: telemetry and events in, commands to the actuators out.
 
-use std::fmt::{self, Display, Formatter};
-
 use moris_interface::{Group, Reader, slots_of};
 use moris_laps::Laps;
 use moris_washout::interface::{AngularVelocityFrame, Output};
@@ -62,21 +60,14 @@ impl Default for Settings {
 }
 
 /// Reason for which telemetry is not cued.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Objection {
     /// The signs contradict each other.
+    #[error("expected: {}", .0.text())]
     Sign(Check),
     /// A unit, an axis or the gravity of the table does not fit.
+    #[error("{0}")]
     Size(Mismatch),
-}
-
-impl Display for Objection {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Objection::Sign(check) => write!(f, "expected: {}", check.text()),
-            Objection::Size(mismatch) => write!(f, "{mismatch}"),
-        }
-    }
 }
 
 /// Reason for which an event of a person is refused.

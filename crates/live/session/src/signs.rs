@@ -9,20 +9,22 @@ use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::motion::Sample;
 use crate::relation::{Relation, Sums};
+use crate::transitions::named;
 
-/// A check of one sign or axis of the telemetry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Check {
-    /// Braking is a backward force.
-    Braking,
-    /// A left turn pushes to the right: its specific force is to the left.
-    LeftTurn,
-    /// Angular velocity about x is the rate of roll.
-    Roll,
-    /// Angular velocity about y is the rate of pitch.
-    Pitch,
-    /// Angular velocity about z is the rate of yaw.
-    Yaw,
+named! {
+    /// A check of one sign or axis of the telemetry. Its text is the statement that it tests.
+    Check {
+        /// braking is a backward force (ax against the change of speed)
+        Braking "braking",
+        /// a left turn pushes to the right (ay against speed times wz)
+        LeftTurn "left turn",
+        /// wx is the rate of roll
+        Roll "roll",
+        /// wy is the rate of pitch, positive nose down
+        Pitch "pitch",
+        /// wz is the rate of yaw, positive to the left
+        Yaw "yaw",
+    }
 }
 
 /// Result of a check.
@@ -37,20 +39,6 @@ pub enum Verdict {
 }
 
 impl Check {
-    /// All checks.
-    pub const ALL: [Check; 5] = [Check::Braking, Check::LeftTurn, Check::Roll, Check::Pitch, Check::Yaw];
-
-    /// The statement that the check tests.
-    pub fn text(self) -> &'static str {
-        match self {
-            Check::Braking => "braking is a backward force (ax against the change of speed)",
-            Check::LeftTurn => "a left turn pushes to the right (ay against speed times wz)",
-            Check::Roll => "wx is the rate of roll",
-            Check::Pitch => "wy is the rate of pitch, positive nose down",
-            Check::Yaw => "wz is the rate of yaw, positive to the left",
-        }
-    }
-
     /// Least mean square of both quantities with which it decides.
     fn least(self) -> [f64; 2] {
         match self {
@@ -155,7 +143,7 @@ impl Signs {
                 self.add(Check::Yaw, mean[5], slope[8], 0.0, false);
             }
         }
-        for check in Check::ALL {
+        for &check in Check::ALL {
             self.agrees[check as usize] |= self.decided(check) == Verdict::Agrees;
         }
     }
@@ -214,7 +202,7 @@ impl Signs {
 
     /// The first check whose signs contradict each other.
     pub fn contradiction(&self) -> Option<Check> {
-        Check::ALL.into_iter().find(|check| self.verdict(*check) == Verdict::Contradicts)
+        Check::ALL.iter().copied().find(|check| self.verdict(*check) == Verdict::Contradicts)
     }
 }
 
@@ -249,7 +237,7 @@ mod tests {
     #[test]
     fn right_signs_agree_and_each_wrong_one_is_found() {
         let right = tested(|_| ());
-        for check in Check::ALL {
+        for &check in Check::ALL {
             assert_eq!(right.verdict(check), Verdict::Agrees, "{check:?}");
         }
         for (channel, check) in

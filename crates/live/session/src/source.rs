@@ -1,46 +1,33 @@
 //! Health of the telemetry: which samples count, and what their absence means.
 
-use std::fmt::{self, Display, Formatter};
-
 use crate::attitude::angle_between;
 use crate::clock::{Clock, Stamp};
 use crate::clock_pace::ClockPace;
 use crate::motion::{Implausible, Sample};
 use crate::spikes::{Judgement, Spikes};
 use crate::standing::Standing;
-use crate::transitions::Event;
+use crate::transitions::{Event, named};
 
 /// Time without a good sample after which the source is silent \[s\].
 pub const SILENT_TIME: f64 = 0.5;
 /// Time without a good sample after which it is stale \[s\].
 pub const STALE_TIME: f64 = 1.5;
 
-/// Health of the source.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Health {
-    /// There has been no sample yet.
-    #[default]
-    Waiting,
-    /// Good samples of a running vehicle.
-    Running,
-    /// Good samples of a paused vehicle.
-    Paused,
-    /// No good sample for [`SILENT_TIME`].
-    Silent,
-    /// No good sample for [`STALE_TIME`].
-    Stale,
-}
-
-impl Health {
-    /// The health's name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Health::Waiting => "waiting",
-            Health::Running => "running",
-            Health::Paused => "paused",
-            Health::Silent => "silent",
-            Health::Stale => "stale",
-        }
+named! {
+    /// Health of the source.
+    #[derive(Default)]
+    Health {
+        /// There has been no sample yet.
+        #[default]
+        Waiting "waiting",
+        /// Good samples of a running vehicle.
+        Running "running",
+        /// Good samples of a paused vehicle.
+        Paused "paused",
+        /// No good sample for [`SILENT_TIME`].
+        Silent "silent",
+        /// No good sample for [`STALE_TIME`].
+        Stale "stale",
     }
 }
 
@@ -67,26 +54,17 @@ impl Counts {
 }
 
 /// Reason for which a sample was dropped.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DropReason {
     /// No number, or absurd.
+    #[error("{0}")]
     Implausible(Implausible),
     /// Far from the samples around it.
+    #[error("a spike that no vehicle causes")]
     Spike,
     /// The packet's clock stands at this time \[s\], or goes back a little.
+    #[error("the packets' clock does not advance: repeated time {0:.3} s; check the line of time")]
     Repeated(f64),
-}
-
-impl Display for DropReason {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            DropReason::Implausible(reason) => write!(f, "{reason}"),
-            DropReason::Spike => write!(f, "a spike that no vehicle causes"),
-            DropReason::Repeated(clock) => {
-                write!(f, "the packets' clock does not advance: repeated time {clock:.3} s; check the line of time")
-            }
-        }
-    }
 }
 
 /// Effect of a sample.

@@ -1,12 +1,10 @@
 //! States, events, and the table that leads from one state to the next.
 
-use serde::{Deserialize, Serialize};
-
 macro_rules! named {
-    ($(#[$attribute:meta])* $type:ident { $( $(#[doc = $text:literal])+ $item:ident $name:literal, )+ }) => {
+    ($(#[$attribute:meta])* $type:ident { $( $(#[doc = $text:literal])+ $(#[$item_attribute:ident])? $item:ident $name:literal, )+ }) => {
         $(#[$attribute])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-        pub enum $type { $( $(#[doc = $text])+ $item, )+ }
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+        pub enum $type { $( $(#[doc = $text])+ $(#[$item_attribute])? $item, )+ }
 
         impl $type {
             /// All of them, in the order of the table.
@@ -29,6 +27,7 @@ macro_rules! named {
         }
     };
 }
+pub(crate) use named;
 
 named! {
     /// State of the platform.
