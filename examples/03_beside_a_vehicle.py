@@ -68,10 +68,11 @@ def simulate(fmu="target/fmu/MorisWashout.fmu", rate=1000):
         washout.setupExperiment(startTime=0.0, stopTime=DURATION)
         washout.enterInitializationMode()
         washout.setInteger([references["angularVelocityFrame"]], [BODY_AXES])
-        washout.exitInitializationMode()
-
         car, step, rows = Car(), 1.0 / rate, []
         now = car.sensors()
+        washout.setReal(inputs, now.tolist())
+        washout.exitInitializationMode()
+
         for k in range(round(DURATION * rate)):
             car.advance(step)
             then = car.sensors()

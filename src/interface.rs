@@ -326,9 +326,9 @@ interface! {
 interface! {
     /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
-        /// Scale of the specific force after gravity removal.
+        /// Scale of the specific force after gravity removal; a negative one inverts the cue.
         "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_SCALES), group("scale"), heading("Scales"), main(2);
-        /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
+        /// Scale of the angular rates (x of roll, y of pitch, z of yaw); a negative one inverts the cue.
         "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(USUAL_SCALES), group("scale"), heading("Scales"), main(3);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(4.5, 5.0, 8.0);

@@ -65,7 +65,7 @@ pub use nalgebra;
 
 pub use interface::{Input, Output, Parameters, Preview, Rig};
 pub use moris_interface::{Group, MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
-pub use validate::{check, check_rig, warnings};
+pub use validate::{check, check_rig, input_warnings, warnings};
 pub use washout::{InputCourse, Washout};
 
 // The snippets of these pages, as doc tests.

@@ -32,8 +32,12 @@ impl Model for Washout {
         Washout::retune(self, parameters)
     }
 
-    fn warnings(parameters: &Parameters, inputs: &Inputs) -> Vec<String> {
-        warnings(parameters).into_iter().chain(input_warnings(parameters, &inputs.vehicle)).collect()
+    fn warnings(parameters: &Parameters) -> Vec<String> {
+        warnings(parameters)
+    }
+
+    fn input_warnings(parameters: &Parameters, inputs: &Inputs) -> Vec<String> {
+        input_warnings(parameters, &inputs.vehicle)
     }
 
     fn longest_step(&self) -> f64 {

@@ -47,10 +47,12 @@ pub const PREVIEW: &str = include_str!("../presets/preview.toml");
 
 /// Names of a set's variables, and their values as slots hold them: enumerations count from 1.
 ///
-/// A line is a comment, or a quoted name and its value.
+/// For the shipped sets: a line is a comment, or a quoted name and its value. The package
+/// `moris-setup` reads users' files, and refuses their mistakes with errors.
 ///
 /// # Panics
-/// If a line is not that of a parameter and its value.
+/// If a line is anything else, such as `[section]` or a value with a comment behind it, or if the
+/// name is no variable.
 pub fn values(set: &str) -> Vec<(&str, f64)> {
     let is_value = |line: &&str| !line.is_empty() && !line.starts_with('#');
     let value = |line| {
@@ -80,7 +82,7 @@ fn variable_slot(name: &str) -> usize {
 /// The default parameters with a set's values over them.
 ///
 /// # Panics
-/// If the set names a variable that is not a parameter.
+/// As [`values`], and if a name is not that of a parameter.
 pub fn parameters(set: &str) -> Parameters {
     with(set, &[])
 }
@@ -88,7 +90,7 @@ pub fn parameters(set: &str) -> Parameters {
 /// The default parameters with a set's values over them, and with these over both.
 ///
 /// # Panics
-/// If a name is not that of a parameter.
+/// As [`parameters`], also for a name in `changed`.
 pub fn with(set: &str, changed: &[(&str, f64)]) -> Parameters {
     let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
     Washout::start_slots(&mut slots);

@@ -1,11 +1,14 @@
 //! Validation of parameters: each alone, and in combination.
 
 use alloc::{borrow::ToOwned, format, string::String, vec, vec::Vec};
+use core::ops::RangeInclusive;
 
-use moris_interface::{Condition, Group, Kind, ParameterError, Row, check_fixed, refuse, shown, slot_count, slots_of};
+use moris_interface::{
+    Condition, Group, Kind, ParameterError, Row, check_fixed, four_decimals, refuse, shown, slot_count, slots_of,
+};
 use nalgebra::Vector2;
 
-use crate::interface::{GravityRemoval, Input, Parameters, Rig};
+use crate::interface::{GravityRemoval, Input, Parameters, Rig, RollPitchYaw};
 use crate::platform::reach::{Axis, reach_margin, single_axis_range};
 use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
 
@@ -57,7 +60,7 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
                 "safety.{}.positionLimit is {} m, but in {} the rig reaches only {reach:.3} m from neutral: this limit never \
                  acts, the ends of the actuators' stroke come first; reduce it",
                 ["x", "y", "z"][place],
-                limits[place],
+                four_decimals(limits[place]),
                 axis.name()
             )
         })
@@ -135,7 +138,7 @@ impl Changed {
                     Some((_, names)) => names.push(name),
                     None => idle.push((unmet, vec![name])),
                 },
-                None => unusual.extend(unusual_value(row, &name, self.slots[slot])),
+                None => unusual.extend(row.unusual_value(&name, self.slots[slot])),
             }
         }
         let without_effect = |(condition, names): (&Condition, Vec<String>)| {
@@ -163,46 +166,80 @@ impl Changed {
     }
 }
 
-/// A sentence about a value beyond the row's usual range; none within it.
-fn unusual_value(row: &Row, name: &str, value: f64) -> Option<String> {
-    let (least, greatest) =
-        row.usual.filter(|(least, greatest)| value != 0.0 && !(*least..=*greatest).contains(&value))?;
-    let Kind::Real(unit) = row.kind else { return None };
-    let with_unit = |value: f64| [shown(value).as_str(), unit.name].join(" ").trim_end().to_owned();
-    let in_radians = value.to_radians();
-    let is_degrees = unit.name.starts_with("rad") && (least..=greatest).contains(&in_radians);
-    let degrees = if is_degrees {
-        format!("; in degrees it would be {}", with_unit(four_digits(in_radians)))
-    } else {
-        String::new()
-    };
-    Some(format!(
-        "{name} is {}, but the usual range is {} to {}{degrees}",
-        with_unit(value),
-        shown(least),
-        with_unit(greatest)
-    ))
-}
+/// Vertical specific forces that a vehicle on its wheels may have as the first one \[g\].
+const PLAUSIBLE_GRAVITY: RangeInclusive<f64> = 0.3..=1.8;
+/// Those in units of g, and those with gravity although none is to be removed.
+const ABOUT_ONE: RangeInclusive<f64> = 0.9..=1.1;
+/// Steepest attitude of a vehicle at the beginning: beyond it an angle may be in degrees \[rad\].
+const MAX_FIRST_ANGLE: f64 = 1.6;
+/// Fastest rotation of a vehicle at the beginning \[rad/s\].
+const MAX_FIRST_RATE: f64 = 5.0;
 
-/// A value to four digits behind the point.
-fn four_digits(value: f64) -> f64 {
-    libm::round(1e4 * value) / 1e4
-}
-
-/// Doubts about the first input, in sentences: hosts that set every input to zero neither engage
-/// the washout nor give it gravity.
+/// Doubts about the first step's input, in sentences; the washout takes it as it is.
+///
+/// - The washout is not engaged.
+/// - Gravity is missing, has the wrong sign, is there twice or in units of g; or it is there
+///   although [`GravityRemoval::None`] removes none.
+/// - Angles or rates that may be in degrees: roll or pitch beyond 1.6 rad, rates beyond 5 rad/s.
+///
+/// ```
+/// use moris_washout::{Input, Parameters, input_warnings};
+///
+/// let mut input = Input::default();
+/// assert!(input_warnings(&Parameters::default(), &input).is_empty());
+/// input.specific_force.z = 1.0;
+/// let [doubt] = input_warnings(&Parameters::default(), &input).try_into().unwrap();
+/// assert!(doubt.ends_with("give m/s2 instead of g"));
+/// ```
 pub fn input_warnings(parameters: &Parameters, input: &Input) -> Vec<String> {
     let disengaged = "engaged is false: the platform stays at rest; set it to true to cue the vehicle's motion";
+    let mut found = Vec::new();
+    if !input.engaged {
+        found.push(disengaged.to_owned());
+    }
+    found.extend(gravity_warning(parameters, input.specific_force.z));
+    let RollPitchYaw { roll, pitch, .. } = input.orientation;
+    let rate = |axis: &'static str, value: f64| ("angularVelocity", axis, value, MAX_FIRST_RATE, "rad/s");
+    let [x, y, z]: [f64; 3] = input.angular_velocity.into();
+    let angle = |axis: &'static str, value: f64| ("orientation", axis, value, MAX_FIRST_ANGLE, "rad");
+    let angles = [angle("roll", roll), angle("pitch", pitch), rate("x", x), rate("y", y), rate("z", z)];
+    found.extend(angles.into_iter().filter(|(.., value, greatest, _)| value.abs() > *greatest).map(
+        |(quantity, axis, value, _, unit)| {
+            let radians = shown(four_decimals(value.to_radians()));
+            format!(
+                "vehicle.{quantity}.{axis} is {} {unit}, more than a vehicle has; if it is in degrees, give {radians} {unit}",
+                shown(four_decimals(value))
+            )
+        },
+    ));
+    found
+}
+
+/// A sentence about a vertical specific force with which no ride begins.
+fn gravity_warning(parameters: &Parameters, vertical: f64) -> Option<String> {
     let gravity = parameters.structure.gravity;
-    let weightless = || {
+    let relative = vertical / gravity;
+    let is_removed = parameters.conditioning.gravity_removal != GravityRemoval::None;
+    let remedy = match relative {
+        _ if !is_removed => {
+            ABOUT_ONE.contains(&relative).then_some("take gravity out, or set gravityRemoval to head_vertical (1)")
+        }
+        _ if PLAUSIBLE_GRAVITY.contains(&relative) => None,
+        _ if ABOUT_ONE.contains(&vertical) => Some("give m/s2 instead of g"),
+        ..0.0 => Some("z points up, so correct its sign"),
+        ..1.0 => Some("add gravity, or set gravityRemoval to none (3) for accelerations without it"),
+        _ => Some("gravity may have been added twice"),
+    }?;
+    let vertical = shown(four_decimals(vertical));
+    Some(if !is_removed {
         format!(
-            "vehicle.specificForce.z is 0 m/s2, as in free fall: at rest on level ground it is {gravity}; add gravity, or set \
-             gravityRemoval to none (3) for accelerations without it"
+            "vehicle.specificForce.z is {vertical} m/s2, gravity, which gravityRemoval none (3) leaves in: {remedy}"
         )
-    };
-    let falls = input.specific_force.z == 0.0 && parameters.conditioning.gravity_removal != GravityRemoval::None;
-    let disengaged = (!input.engaged).then(|| disengaged.to_owned());
-    disengaged.into_iter().chain(falls.then(weightless)).collect()
+    } else if vertical == "0" {
+        format!("vehicle.specificForce.z is 0 m/s2, as in free fall: at rest on level ground it is {gravity}; {remedy}")
+    } else {
+        format!("vehicle.specificForce.z is {vertical} m/s2, but at rest on level ground it is {gravity}; {remedy}")
+    })
 }
 
 /// Checks parameters that are to follow others, of which the tunable ones may change. No

@@ -143,7 +143,9 @@ const GENTLE_PART: f64 = 0.8;
 const GENTLE_SPEED: f64 = 0.01;
 
 impl Washout {
-    /// The washout at rest at neutral.
+    /// The washout at rest at neutral. [`warnings`](crate::warnings) has doubts that refuse
+    /// nothing, such as a value in degrees, and [`input_warnings`](crate::input_warnings)
+    /// those of the first input.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.

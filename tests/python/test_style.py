@@ -46,3 +46,11 @@ def test_few_free_functions_have_a_name_of_one_word(rust):
     found = re.findall(r"^(?:pub(?:\([a-z]+\))? )?(?:const )?fn ([a-z]\w*)", rust, re.MULTILINE)
     short = [name for name in found if "_" not in name]
     assert len(found) > 1000 and len(short) <= MAX_ONE_WORD_FUNCTIONS * len(found), f"{len(short)} of {len(found)}"
+
+
+def test_no_text_names_a_constant(rust):
+    """A renamed constant renames no sentence. Placeholders such as `{NAME}` and `{:.NAME$}` are none of the text."""
+    constants = set(re.findall(r"\b(?:const|static) ([A-Z][A-Z0-9]*_[A-Z0-9_]+):", rust))
+    texts = re.findall(r'"(?:[^"\\\n]|\\.|\\\n)*"', rust)
+    words = {word for text in texts for word in re.findall(r"(?<![{.\w])[A-Z]\w+\b(?!\$)", text)}
+    assert len(constants) > 300 and not words & constants

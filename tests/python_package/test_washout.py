@@ -2,8 +2,10 @@
 
 import copy
 import pickle
+import re
 import threading
 import time as clock
+import warnings
 
 import moris
 import numpy as np
@@ -442,3 +444,27 @@ def test_a_run_refuses_free_fall_as_a_simulation_does(ride):
     without = moris.Washout(parameters={"gravityRemoval": "none"}).run(ride["time"], force)
     with_gravity = moris.Washout(parameters={"gravityRemoval": "head_vertical"}).run(ride["time"], force + [0, 0, STANDARD_GRAVITY])
     assert np.allclose(without["platform.position"], with_gravity["platform.position"], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("act", "doubt"),
+    [
+        (lambda: moris.Washout(parameters={"tilt.rateLimit": 3.0}), "in degrees it would be 0.0524 rad/s"),
+        (lambda: moris.Washout().retune({"scale.specificForce.x": -5.0}), "scale.specificForce.x is -5, but the usual range"),
+        (lambda: moris.Washout().step(0.001, (0.0, 0.0, 0.0)), "as in free fall"),
+        (lambda: moris.Washout().run([0.0, 0.1], [(0.0, 0.0, 2 * STANDARD_GRAVITY)] * 2), "added twice"),
+    ],
+)
+def test_a_doubtful_value_is_a_warning(act, doubt):
+    with pytest.warns(UserWarning, match=re.escape(doubt)) as caught:
+        act()
+    assert len(caught) == 1 and caught[0].filename == __file__
+
+
+def test_what_is_right_or_known_is_no_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        washout = moris.Washout()
+        washout.step(0.001, (1.0, 0.0, STANDARD_GRAVITY), engaged=False)
+        washout.step(0.001, (0.0, 0.0, 0.0))
+        washout.retune({"scale.specificForce.x": 0.5})

@@ -66,24 +66,83 @@ fn each_row_that_is_tuned_is_in_a_group_and_has_a_usual_range_above_zero() {
     }
 }
 
+/// Doubts about the first input with these variables set, after `gravityRemoval` as a number.
+fn doubts(values: &[(&str, f64)]) -> Vec<String> {
+    let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
+    Washout::start_slots(&mut slots);
+    for (name, value) in values {
+        slots[Washout::IDENTITY.slot(name).unwrap()] = *value;
+    }
+    Washout::input_warnings_in(&slots)
+}
+
 /// Hosts that set every input to zero are told why nothing moves, or why everything sinks.
 #[test]
 fn inputs_of_zeros_are_warned_of_with_the_remedy() {
-    let of = |engaged: f64, upward: f64, removal: f64| {
-        let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
-        Washout::start_slots(&mut slots);
-        for (name, value) in [("engaged", engaged), ("vehicle.specificForce.z", upward), ("gravityRemoval", removal)] {
-            slots[Washout::IDENTITY.slot(name).unwrap()] = value;
-        }
-        Washout::warnings_in(&slots)
-    };
-    // The start value.
-    let removal = 1.0;
-    assert!(of(1.0, 9.8, removal).is_empty());
-    let both = of(0.0, 0.0, removal);
+    let both = doubts(&[("engaged", 0.0), ("vehicle.specificForce.z", 0.0)]);
     assert_eq!(both.len(), 2, "{both:?}");
     assert!(both[0].starts_with("engaged is false: the platform stays at rest; set it to true"), "{both:?}");
     assert!(both[1].contains("as in free fall") && both[1].contains("add gravity, or set gravityRemoval"), "{both:?}");
-    // Accelerations without gravity are 0 at rest.
-    assert!(of(1.0, 0.0, 3.0).is_empty());
+}
+
+/// Gravity that is missing, doubled, reversed, in g or not removed; angles and rates in degrees.
+#[test]
+fn mistakes_of_the_first_input_are_warned_of_with_the_remedy() {
+    let (up, removal) = ("vehicle.specificForce.z", "gravityRemoval");
+    let (roll, pitch, yaw) = ("vehicle.orientation.roll", "vehicle.orientation.pitch", "vehicle.orientation.yaw");
+    let rate = "vehicle.angularVelocity.z";
+    let cases: [(&[(&str, f64)], &str); 8] = [
+        (
+            &[(up, 19.6133)],
+            "is 19.6133 m/s2, but at rest on level ground it is 9.80665; gravity may have been added twice",
+        ),
+        (
+            &[(up, -9.80665)],
+            "is -9.8067 m/s2, but at rest on level ground it is 9.80665; z points up, so correct its sign",
+        ),
+        (&[(up, 1.0)], "is 1 m/s2, but at rest on level ground it is 9.80665; give m/s2 instead of g"),
+        (&[(up, 0.4)], "is 0.4 m/s2, but at rest on level ground it is 9.80665; add gravity"),
+        (&[(up, 9.81), (removal, 3.0)], "leaves in: take gravity out, or set gravityRemoval to head_vertical (1)"),
+        (
+            &[(roll, -30.0)],
+            "vehicle.orientation.roll is -30 rad, more than a vehicle has; if it is in degrees, give -0.5236 rad",
+        ),
+        (&[(pitch, 5.0)], "vehicle.orientation.pitch is 5 rad"),
+        (
+            &[(rate, 8.6)],
+            "vehicle.angularVelocity.z is 8.6 rad/s, more than a vehicle has; if it is in degrees, give 0.1501 rad/s",
+        ),
+    ];
+    for (values, part) in cases {
+        let [doubt] = doubts(values).try_into().unwrap();
+        assert!(doubt.contains(part), "{doubt}");
+    }
+    // At rest; without gravity; in a hard bend, over a bump, on a slope; after many turns.
+    let right: [&[(&str, f64)]; 6] = [
+        &[],
+        &[(up, 0.0), (removal, 3.0)],
+        &[(up, 15.0), (roll, 0.9)],
+        &[(up, 4.0), (rate, -3.0)],
+        &[(up, 9.2), (pitch, 0.35)],
+        &[(yaw, 40.0)],
+    ];
+    for values in right {
+        assert!(doubts(values).is_empty(), "{values:?}");
+    }
+}
+
+#[test]
+fn a_wrong_name_gets_the_nearest_one() {
+    let mut parameters = Parameters::default();
+    let mut of = |name: &str| parameters.set(name, 1.0).unwrap_err().to_string();
+    for (name, near) in [
+        ("spliter.x.omega1", "splitter.x.omega1"),
+        ("rig.base[7].x", "rig.base[1].x"),
+        ("scale.specificForce", "scale.specificForce.x"),
+        ("TILT.RATELIMIT", "tilt.rateLimit"),
+    ] {
+        assert_eq!(of(name), format!("{name}: is no variable here; did you mean {near}?"));
+    }
+    // An input is none of the parameters.
+    assert_eq!(of("vehicle.speed"), "vehicle.speed: is no variable here; the names are those of the FMU's table");
 }

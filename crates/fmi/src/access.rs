@@ -194,7 +194,22 @@ impl<M: Model> Instance<M> {
         model.retune_from(&self.state.values).map_err(|error| {
             self.state.values.copy_from_slice(&self.old_values);
             CallError::discard(format!("{error}. The values of this call have not been taken; the old ones hold"))
-        })
+        })?;
+        self.note_unusual(variables, values);
+        Ok(())
+    }
+
+    /// Warns of parameters that have changed between steps and are beyond their
+    /// usual range, once of each.
+    fn note_unusual<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
+        for (slot, value) in one_by_one(variables, values) {
+            let (place, value, row) = (slot as usize, value.to_slot(), M::IDENTITY.row(slot as usize));
+            let is_new = self.old_values[place] != value && !self.warned_parameters.contains(&slot);
+            if is_new && self.tables.infos[place].role == Role::Parameter && row.is_unusual(value) {
+                self.warned_parameters.push(slot);
+                self.warnings.extend(row.unusual_value(&M::IDENTITY.variable_name(place), value));
+            }
+        }
     }
 
     /// Warns of the first value beyond its input's range among values that have been taken, unless

@@ -22,6 +22,10 @@ pub struct Instance<M> {
     pub(crate) warnings: Vec<String>,
     /// An input beyond its range has had its warning, the only one until the instance is reset.
     pub(crate) warned_of_range: bool,
+    /// Parameters changed between steps that have had their warning.
+    pub(crate) warned_parameters: Vec<u32>,
+    /// The first step has been made, before which its input is checked.
+    pub(crate) has_stepped: bool,
 }
 
 impl<M: Model> Instance<M> {
@@ -35,6 +39,8 @@ impl<M: Model> Instance<M> {
             old_values: buffer(),
             warnings: Vec::new(),
             warned_of_range: false,
+            warned_parameters: Vec::new(),
+            has_stepped: false,
         }
     }
 
@@ -58,6 +64,8 @@ impl<M: Model> Instance<M> {
     pub fn reset(&mut self) {
         self.state = InstanceState::fresh(self.tables.start);
         self.warned_of_range = false;
+        self.warned_parameters.clear();
+        self.has_stepped = false;
     }
 
     /// Marks the instance as unusable until it is reset or a state restored: the model

@@ -63,6 +63,10 @@ impl<M: Model> Instance<M> {
         if !fits {
             return Err(self.why_no_step(time, step));
         }
+        if !self.has_stepped {
+            self.has_stepped = true;
+            self.warnings.extend(M::input_warnings_in(&self.state.values));
+        }
         let derivatives = self.state.derivatives_given.then_some(&*self.state.derivatives);
         model.step_slots(&self.state.values, derivatives, step);
         model.write_outputs(&mut self.state.values);

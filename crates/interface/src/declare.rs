@@ -67,7 +67,7 @@ macro_rules! interface {
         #[serde(crate = "moris_interface::serde")]
         pub struct $group {
             $( $(#[doc = $text])+ #[doc = concat!(
-                "\n\nFMI: `", $name, "`", $(" \\[", stringify!($unit), "\\]",)? $(", range `", stringify!($range), "`",)?
+                "\n\nFMI: `", $name, "`", $(" \\[", $crate::interface!(@unit $unit), "\\]",)? $(", range `", stringify!($range), "`",)?
                 ", start value `", stringify!($start), "`."
             )] pub $field: $type, )+
         }
@@ -140,6 +140,28 @@ macro_rules! interface {
     };
     (@variability $of_group:ident) => { $crate::Variability::$of_group };
     (@variability $of_group:ident $own:ident) => { $crate::Variability::$own };
+    // The unit's name as a literal, for the documentation.
+    (@unit M) => { "m" };
+    (@unit M_PER_S) => { "m/s" };
+    (@unit M_PER_S2) => { "m/s2" };
+    (@unit RAD) => { "rad" };
+    (@unit RAD_PER_S) => { "rad/s" };
+    (@unit RAD_PER_S2) => { "rad/s2" };
+    (@unit ANGULAR_FREQUENCY) => { "rad/s" };
+    (@unit S) => { "s" };
+    (@unit M2) => { "m2" };
+    (@unit PER_RAD) => { "1/rad" };
+    (@unit PER_M) => { "1/m" };
+    (@unit KG) => { "kg" };
+    (@unit KG_M2) => { "kg.m2" };
+    (@unit KG_PER_M3) => { "kg/m3" };
+    (@unit N) => { "N" };
+    (@unit N_M) => { "N.m" };
+    (@unit N_PER_M) => { "N/m" };
+    (@unit N_S_PER_M) => { "N.s/m" };
+    (@unit N_M_S_PER_RAD) => { "N.m.s/rad" };
+    (@unit W) => { "W" };
+    (@unit $other:ident) => { stringify!($other) };
     (@range) => { None };
     (@range $range:expr) => { Some($crate::interface!(@bounds $range)) };
     (@bounds) => { (f64::MIN, f64::MAX) };

@@ -12,6 +12,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate alloc;
+use alloc::{borrow::ToOwned, format};
+
 extern crate self as moris_interface; // the macros name this crate so
 
 mod declare;
@@ -20,6 +22,7 @@ mod guid;
 mod layout;
 mod log_categories;
 mod model;
+mod nearest;
 mod row;
 mod shown;
 mod slot_model;
@@ -36,13 +39,16 @@ pub use layout::{Layout, Types};
 pub use log_categories::{LOG_CATEGORIES, LOG_CATEGORIES_OF_FMI3, LogCategory};
 pub use model::{Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, Time, refuse};
 pub use row::{
-    Causality, Condition, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable,
+    Causality, Condition, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, four_decimals, row_count,
+    with_tunable,
 };
 pub use shown::shown;
 pub use slot_model::SlotModel;
 pub use slots::{Reader, Slot, Writer, slot_count, slot_of, slot_table, slots_of};
 pub use start::start_values;
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
+
+use nearest::nearest_name;
 
 /// Checks that only tunable variables differ. `rows` are the group's, and `N` is the
 /// number of their slots.
@@ -102,7 +108,9 @@ pub trait Group: Default + 'static {
     /// There is no such variable, or it cannot have this value. Then nothing has changed.
     fn set(&mut self, name: &str, value: f64) -> Result<(), ParameterError> {
         let Some((slot, row)) = slot_of(Self::ROWS, name) else {
-            return refuse(name, "is no variable; the rows of this struct have the names");
+            let otherwise = || "the names are those of the FMU's table".to_owned();
+            let hint = nearest_name(Self::ROWS, name).map_or_else(otherwise, |near| format!("did you mean {near}?"));
+            return refuse(name, format!("is no variable here; {hint}"));
         };
         let is_whole = matches!(row.kind, Kind::Real(_)) || value % 1.0 == 0.0;
         if !row.accepts(value) || !is_whole {

@@ -177,8 +177,13 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// The first parameter that cannot be used, and why.
     fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), ParameterError>;
 
-    /// Doubts about parameters and first inputs that can be used, in sentences.
-    fn warnings(_parameters: &Self::Parameters, _input: &Self::Input) -> Vec<String> {
+    /// Doubts about parameters that can be used, in sentences.
+    fn warnings(_parameters: &Self::Parameters) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Doubts about the first step's input, in sentences.
+    fn input_warnings(_parameters: &Self::Parameters, _input: &Self::Input) -> Vec<String> {
         Vec::new()
     }
 

@@ -287,7 +287,40 @@ impl Row {
                 format!("{number}from {} to {}", shown(min), shown(max))
             }
         };
-        format!("is {}, but must be {expected}", shown(value))
+        let hint = self.degrees_hint(value, self.usual.or(self.range).unwrap_or_default());
+        format!("is {}, but must be {expected}{hint}", shown(value))
+    }
+
+    /// True for a value beyond the usual range. 0 switches off, and is usual.
+    pub fn is_unusual(&self, value: f64) -> bool {
+        self.usual.is_some_and(|(least, greatest)| value != 0.0 && !(least..=greatest).contains(&value))
+    }
+
+    /// A sentence about the row's scalar variable of this name, if its value is beyond the usual
+    /// range.
+    pub fn unusual_value(&self, name: &str, value: f64) -> Option<String> {
+        let (least, greatest) = self.usual.filter(|_| self.is_unusual(value))?;
+        let Kind::Real(unit) = self.kind else { return None };
+        let with_unit = |value: f64| [shown(value).as_str(), unit.name].join(" ").trim_end().to_owned();
+        Some(format!(
+            "{name} is {}, but the usual range is {} to {}{}",
+            with_unit(value),
+            shown(least),
+            with_unit(greatest),
+            self.degrees_hint(value, (least, greatest))
+        ))
+    }
+
+    /// The end of a message about a value that would be within `range` if it were in degrees;
+    /// otherwise empty.
+    pub fn degrees_hint(&self, value: f64, (least, greatest): (f64, f64)) -> String {
+        let in_radians = value.to_radians();
+        match self.kind {
+            Kind::Real(unit) if unit.name.starts_with("rad") && (least..=greatest).contains(&in_radians) => {
+                format!("; in degrees it would be {} {}", shown(four_decimals(in_radians)), unit.name)
+            }
+            _ => String::new(),
+        }
     }
 
     /// The error about the first scalar variable of a field that is outside the row's range.
@@ -322,6 +355,11 @@ impl Row {
     pub fn array_name(&self) -> String {
         self.name.replace("[#]", "").replace(".@", "")
     }
+}
+
+/// A value to four digits behind the point.
+pub fn four_decimals(value: f64) -> f64 {
+    libm::round(1e4 * value) / 1e4
 }
 
 /// The smallest and the largest value of the row of this name.

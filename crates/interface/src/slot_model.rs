@@ -34,9 +34,14 @@ pub trait SlotModel: Model {
         read_group(slots, first_parameter_slot::<Self>())
     }
 
-    /// Doubts about the parameters and inputs in `slots`, in sentences.
+    /// Doubts about the parameters in `slots`, in sentences.
     fn warnings_in(slots: &[f64]) -> Vec<String> {
-        Self::warnings(&Self::parameters_in(slots), &read_group(slots, FIRST_INPUT_SLOT))
+        Self::warnings(&Self::parameters_in(slots))
+    }
+
+    /// Doubts about the first step's input in `slots`, in sentences.
+    fn input_warnings_in(slots: &[f64]) -> Vec<String> {
+        Self::input_warnings(&Self::parameters_in(slots), &read_group(slots, FIRST_INPUT_SLOT))
     }
 
     /// Changes tunable parameters to those in `slots`. On an error nothing has changed.

@@ -109,3 +109,38 @@ fn a_doubt_about_parameters_is_a_warning_and_no_failure() {
         assert!(warnings.iter().all(|message| message.text.contains("tau is above 1000 s")));
     }
 }
+
+/// The texts of the warnings so far.
+fn warnings(instance: &Instance) -> Vec<String> {
+    let messages = instance.messages().into_iter().filter(|message| message.category == "logStatusWarning");
+    messages.map(|message| message.text).collect()
+}
+
+#[test]
+fn the_first_steps_input_is_checked_and_no_later_one() {
+    let mut instance = initializing();
+    assert_eq!(instance.exit_initialization_mode(), Status::Ok);
+    instance.set("u", 13.0).unwrap();
+    assert!(warnings(&instance).is_empty());
+    instance.steps(3, 0.1).unwrap();
+    assert_eq!(warnings(&instance), ["fmi2DoStep: u is 13 at first"]);
+    let mut instance = stepping(&[]);
+    instance.steps(1, 0.1).unwrap();
+    instance.set("u", 13.0).unwrap();
+    instance.step(0.1, 0.1).unwrap();
+    assert!(warnings(&instance).is_empty());
+}
+
+#[test]
+fn a_parameter_changed_between_steps_is_warned_of_once() {
+    let mut instance = stepping(&[]);
+    for gain in [2.0, 2e3, 2e3, 3e3] {
+        instance.set("gain", gain).unwrap();
+        instance.steps(1, 0.1).ok();
+    }
+    assert_eq!(warnings(&instance), ["fmi2SetReal: gain is 2000, but the usual range is 0.1 to 1000"]);
+    // Hosts write all parameters again: what is there already is no change.
+    let mut instance = stepping(&[("gain", 2e3)]);
+    instance.set("gain", 2e3).unwrap();
+    assert!(warnings(&instance).is_empty());
+}

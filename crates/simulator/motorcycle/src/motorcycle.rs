@@ -65,7 +65,7 @@ impl Model for Motorcycle {
     type Parameters = Parameters;
     const IDENTITY: Identity = IDENTITY;
 
-    fn warnings(parameters: &Parameters, _input: &Input) -> Vec<String> {
+    fn warnings(parameters: &Parameters) -> Vec<String> {
         Table::unused(&parameters.path).into_iter().collect()
     }
 

@@ -1,11 +1,13 @@
 //! The class `Washout`.
 
+use std::ffi::CString;
+
 use moris_interface::{Group, Writer, guid, slot_count, slots_of};
 use moris_setup::{all, overlaid};
 use moris_washout::interface::{GravityRemoval, RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::{Input, MOST_INTERNAL_STEPS, Washout};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use moris_washout::{Input, MOST_INTERNAL_STEPS, Washout, input_warnings, warnings};
+use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
@@ -28,7 +30,8 @@ use crate::{error, setup};
 /// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". It sets the parameter
 ///   `strategy` and no other. None is the parameters' strategy, by default the predictive one.
 ///
-/// Raises ParameterError for a name or a value that cannot be used.
+/// Raises ParameterError for a name or a value that cannot be used. Doubtful ones, also in `retune`
+/// and in the first input, are a UserWarning.
 #[pyclass(module = "moris", name = "Washout", eq)]
 #[derive(Clone, PartialEq)]
 pub struct PyWashout {
@@ -46,6 +49,7 @@ impl PyWashout {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let washout =
             Washout::new(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
+        warn(py, warnings(&setup.parameters))?;
         Ok(PyWashout { washout: Box::new(washout), started: false })
     }
 
@@ -75,6 +79,7 @@ impl PyWashout {
     #[allow(clippy::too_many_arguments)]
     fn step(
         &mut self,
+        py: Python,
         dt: f64,
         specific_force: Given,
         angular_velocity: Given,
@@ -100,6 +105,7 @@ impl PyWashout {
             check_numbers(&input)?;
         }
         let preview = preview.map(|array| Previews::of(array, None, preview_step)).transpose()?;
+        self.warn_of_first(py, &input)?;
         self.start(&input);
         self.washout.preview(&preview.map_or(preview::NO_PREVIEW, |preview| preview.at(0)));
         self.washout.step(&input, dt);
@@ -155,6 +161,7 @@ impl PyWashout {
         if !self.started {
             self.check_gravity(py, &samples)?;
         }
+        self.warn_of_first(py, &samples[0])?;
         let rows = py.detach(|| {
             let mut rows = vec![0.0; samples.len() * OUTPUT_COUNT];
             let mut next = rows.chunks_exact_mut(OUTPUT_COUNT);
@@ -190,7 +197,9 @@ impl PyWashout {
     fn retune(&mut self, py: Python, parameters: &Bound<PyAny>) -> PyResult<()> {
         let sets = setup::sets_of(parameters)?;
         let changed = sets.iter().fold(*self.washout.parameters(), |changed, (_, values)| overlaid(&changed, values));
-        self.washout.retune(&changed).map_err(|error| error::refused(py, &error, &all(&changed)))
+        let before = warnings(self.washout.parameters());
+        self.washout.retune(&changed).map_err(|error| error::refused(py, &error, &all(&changed)))?;
+        warn(py, warnings(&changed).into_iter().filter(|text| !before.contains(text)))
     }
 
     /// The outputs now.
@@ -255,6 +264,14 @@ impl PyWashout {
         }
     }
 
+    /// Warns of doubts about the first input. One that is not engaged is meant so.
+    fn warn_of_first(&self, py: Python, input: &Input) -> PyResult<()> {
+        if self.started {
+            return Ok(());
+        }
+        warn(py, input_warnings(self.washout.parameters(), &Input { engaged: true, ..*input }))
+    }
+
     /// Refuses the specific force of a vehicle in free fall, unless it is an acceleration by the
     /// parameters.
     fn check_gravity(&self, py: Python, samples: &[Input]) -> PyResult<()> {
@@ -283,6 +300,11 @@ impl PyWashout {
         }
         Err(PyValueError::new_err(format!("dt is {dt} s, but must be above 0 and not above {longest} s")))
     }
+}
+
+/// Gives sentences as Python's warnings.
+fn warn(py: Python, texts: impl IntoIterator<Item = String>) -> PyResult<()> {
+    texts.into_iter().try_for_each(|text| PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 1))
 }
 
 /// True if an argument is the second of the two words that it can be.

@@ -178,7 +178,7 @@ impl fmt::Display for Singularities {
             ),
             Singularities::At(lengths) => writeln!(
                 f,
-                "SINGULAR_LEG_SPEED inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
+                "singular inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
                  stroke; the washout refuses this rig.",
                 lengths.map(|length| format!("{length:.3}")).join(", ")
             ),

@@ -58,7 +58,7 @@ interface! {
     /// Tunable parameters.
     pub struct Tunable: Parameter, Tunable {
         /// Ratio of output to input at rest; negative ones are refused.
-        "gain" gain: f64 = 1.0;
+        "gain" gain: f64 = 1.0, usual(0.1 ..= 1e3);
         /// Method of integration.
         "method" method: Method = Method::Exact;
         /// Where the model panics: 1 in new, 2 in retune, 3 in step.
@@ -152,9 +152,13 @@ impl Model for FirstOrder {
         Ok(())
     }
 
-    fn warnings(parameters: &Parameters, _input: &Input) -> Vec<String> {
+    fn warnings(parameters: &Parameters) -> Vec<String> {
         let slow = "tau is above 1000 s: the output hardly moves".to_owned();
         (parameters.fixed.tau > 1000.0).then_some(slow).into_iter().collect()
+    }
+
+    fn input_warnings(_: &Parameters, input: &Input) -> Vec<String> {
+        (input.signals.u == 13.0).then(|| "u is 13 at first".to_owned()).into_iter().collect()
     }
 
     fn longest_step(&self) -> f64 {

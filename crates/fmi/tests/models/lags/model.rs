@@ -146,7 +146,7 @@ impl Model for Lags {
         Ok(())
     }
 
-    fn warnings(parameters: &Parameters, _input: &Input) -> Vec<String> {
+    fn warnings(parameters: &Parameters) -> Vec<String> {
         let slow = "tau is above 1000 s: the output hardly moves".to_owned();
         (parameters.fixed.tau > 1000.0).then_some(slow).into_iter().collect()
     }

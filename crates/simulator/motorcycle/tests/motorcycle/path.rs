@@ -65,9 +65,8 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
 #[test]
 fn a_table_that_the_course_does_not_use_is_a_warning() {
     let rows = [[0.0, 0.0, 10.0], [50.0, 0.0, 10.0]];
-    let warnings = |course, path| {
-        Motorcycle::warnings(&Parameters { path: Path { course, ..path }, ..on(course, 10.0) }, &Input::default())
-    };
+    let warnings =
+        |course, path| Motorcycle::warnings(&Parameters { path: Path { course, ..path }, ..on(course, 10.0) });
     assert_eq!(warnings(Course::Custom, custom(&rows)), [""; 0]);
     assert_eq!(warnings(Course::Lap, Path::default()), [""; 0]);
     let [warning] = &warnings(Course::Lap, custom(&rows))[..] else { panic!("one warning") };

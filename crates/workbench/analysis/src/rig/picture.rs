@@ -78,7 +78,7 @@ fn verdict_line(survey: &Survey) -> String {
             volume.size, found.worst_condition
         ),
         Singularities::At(_) => {
-            format!("Workspace {:.3} m³ level; SINGULAR inside the stroke of its legs", volume.size)
+            format!("Workspace {:.3} m³ level; singular inside the stroke of its legs", volume.size)
         }
     };
     regular + collision
