@@ -4,6 +4,7 @@ use std::io;
 use std::time::Duration;
 
 use moris_live::log::Entry;
+use moris_live::session::Objection;
 use moris_live::signs::{Check, Verdict};
 use moris_live::sizes::Mismatch;
 use moris_live::source::{DropReason, Health};
@@ -23,8 +24,8 @@ pub enum Note {
     Entry(Entry),
     /// A new state.
     State(f64, State),
-    /// A new health of the source.
-    Source(f64, Health),
+    /// A new health of the source, and the cause of its last pause.
+    Source(f64, Health, &'static str),
     /// A command was refused.
     Refused(f64, Refusal),
     /// A check of the signs has decided.
@@ -60,13 +61,16 @@ fn line(note: &Note) -> Option<String> {
     Some(match note {
         Note::Entry(_) => return None,
         Note::State(time, state) => state_line(*time, *state),
-        Note::Source(time, health) => format!("{time:9.3} s  telemetry: {}", health.name()),
+        Note::Source(time, health @ Health::Paused, cause) => {
+            format!("{time:9.3} s  telemetry: {}: {cause}", health.name())
+        }
+        Note::Source(time, health, _) => format!("{time:9.3} s  telemetry: {}", health.name()),
         Note::Refused(time, refusal) => format!("{time:9.3} s  refused: {refusal}"),
         Note::Sign(time, check, Verdict::Contradicts) => {
-            format!("{time:9.3} s  WRONG SIGN, expected: {}", check.text())
+            format!("{time:9.3} s  {}", Objection::Sign(*check))
         }
         Note::Sign(time, check, _) => format!("{time:9.3} s  sign agrees: {}", check.text()),
-        Note::Mismatch(time, mismatch) => format!("{time:9.3} s  WRONG TABLE: {mismatch}"),
+        Note::Mismatch(time, mismatch) => format!("{time:9.3} s  {}", Objection::Size(*mismatch)),
         Note::SamplesDropped(time, [received, dropped], reason) => {
             format!("{time:9.3} s  {dropped} of {received} samples dropped: {reason}")
         }

@@ -148,7 +148,12 @@ impl Steps<'_> {
             // The reason before what follows from it.
             if self.session.source().health() != health {
                 health = self.session.source().health();
-                self.note(Note::Source(commands.time, health), &mut summary);
+                let cause = self.session.source().pause_cause();
+                self.note(Note::Source(commands.time, health, cause), &mut summary);
+            }
+            if summary.steps.is_multiple_of(TELEMETRY_CHECK_STEPS) || commands.state != state {
+                let Steps { session, journal, .. } = &mut *self;
+                watch.check(session, |note| summary.lost_notes += u64::from(journal.push(note).is_err()));
             }
             if commands.state != state {
                 state = commands.state;
@@ -157,10 +162,6 @@ impl Steps<'_> {
                     let _ = self.parking.push(self.session.without_road());
                 }
                 self.note(Note::State(commands.time, state), &mut summary);
-            }
-            if summary.steps.is_multiple_of(TELEMETRY_CHECK_STEPS) {
-                let Steps { session, journal, .. } = &mut *self;
-                watch.check(session, |note| summary.lost_notes += u64::from(journal.push(note).is_err()));
             }
             if let Some(shown) = &mut self.shown
                 && summary.steps.is_multiple_of(SNAPSHOT_INTERVAL_STEPS)

@@ -150,13 +150,16 @@ fn receive(
     shared: &Shared,
     page: Option<&ControlBroker>,
 ) {
+    // Reads without a packet, of 0.1 s each, after which the port is doubted.
+    const QUIET_READS: u32 = 30;
     // Largest packet [bytes].
     const LARGEST: usize = 65_536;
     let mut packet = vec![0; LARGEST];
     let mut decoded = Vec::new();
-    let mut quiet = 0;
+    let (mut quiet, mut is_heard) = (0, false);
     let requests = format.subscriptions();
-    let port = socket.local_addr().map_or(0, |address| address.port());
+    let (port, is_local) =
+        socket.local_addr().map_or((0, true), |address| (address.port(), address.ip().is_loopback()));
     let mut followed = Followed::default();
     let mut dropped = Dropped::default();
     while !shared.done.load(Ordering::Relaxed) {
@@ -168,10 +171,13 @@ fn receive(
                 }
             }
             quiet += 1;
+            if quiet == QUIET_READS && !is_heard {
+                say(&no_packet(port, is_local), page);
+            }
             continue;
         };
         let arrival = loop_clock::now();
-        quiet = 0;
+        (quiet, is_heard) = (0, true);
         decoded.clear();
         match format.decode_all(&packet[..length], |sample| decoded.push(sample)) {
             Ok(()) if decoded.is_empty() => (),
@@ -192,6 +198,14 @@ fn receive(
             }
         }
     }
+}
+
+/// The line for a port that has been quiet from the start.
+fn no_packet(port: u16, is_local: bool) -> String {
+    let elsewhere = if is_local { " From another machine use --listen." } else { "" };
+    format!(
+        "no packet on port {port} yet: is the game's telemetry on, and sent to this computer and this port?{elsewhere}"
+    )
 }
 
 /// True if the platform engages.

@@ -63,10 +63,10 @@ impl Default for Settings {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Objection {
     /// The signs contradict each other.
-    #[error("expected: {}", .0.text())]
+    #[error("WRONG SIGN: {}. Not engaging until then, except with --ignore-signs", .0.remedy())]
     Sign(Check),
     /// A unit, an axis or the gravity of the table does not fit.
-    #[error("{0}")]
+    #[error("WRONG TABLE: {0}. Not engaging until then, except with --ignore-signs")]
     Size(Mismatch),
 }
 
@@ -80,7 +80,7 @@ pub enum Refusal {
     #[error("engage needs telemetry of a running vehicle; the source is {}", .0.name())]
     Source(Health),
     /// The telemetry contradicts itself or its table.
-    #[error("the telemetry contradicts itself: {0}")]
+    #[error("{0}")]
     Telemetry(Objection),
     /// The place of the legs is unknown.
     #[error(

@@ -300,8 +300,14 @@ impl Sizes {
         const NO_SPEED: f64 = 0.1;
         // Radians in a degree.
         const DEGREE: f64 = PI / 180.0;
-        let is_enough = |relation: &Relation| relation.count >= ENOUGH_WINDOWS;
-        let by_angles = (0..3).map(|axis| self.rates[axis][axis].relation()).filter(is_enough).find_map(|relation| {
+        // Windows with which rates in degrees are found: few, to find them before the platform engages.
+        const DEGREES_WINDOWS: f64 = 4.0;
+        let is_enough = |relation: &Relation, in_degrees: f64| {
+            let is_clear = relation.is_near(in_degrees, UNIT_FACTOR, STRICT_CORRELATION);
+            relation.count >= if is_clear { DEGREES_WINDOWS } else { ENOUGH_WINDOWS }
+        };
+        let of_angles = (0..3).map(|axis| self.rates[axis][axis].relation());
+        let by_angles = of_angles.filter(|relation| is_enough(relation, 1.0 / DEGREE)).find_map(|relation| {
             let is_near = |ratio: f64| relation.is_near(ratio, UNIT_FACTOR, SAME_CORRELATION);
             let is_angle = self.largest_angle > LARGEST_ANGLE;
             let is_large = relation.sizes[usize::from(is_angle)] >= LEAST_RATE;
@@ -311,7 +317,7 @@ impl Sizes {
                 (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then_some(Mismatch::Rates(relation.ratio))
             }
         });
-        let is_lateral = |relation: &Relation| is_enough(relation) && relation.sizes[1] >= LEAST_FORCE;
+        let is_lateral = |relation: &Relation| is_enough(relation, DEGREE) && relation.sizes[1] >= LEAST_FORCE;
         let by_bends = || {
             let bends = Some(self.bends[2].relation()).filter(is_lateral)?;
             bends.is_near(DEGREE, UNIT_FACTOR, SAME_CORRELATION).then_some(Mismatch::Rates(1.0 / bends.ratio))

@@ -102,6 +102,8 @@ pub struct Source {
     confirming: u32,
     is_elsewhere: bool,
     spikes: Spikes,
+    /// The last pause was sent as such.
+    says_paused: bool,
 }
 
 impl Source {
@@ -130,12 +132,18 @@ impl Source {
         self.pace.wrong()
     }
 
+    /// The cause of the last pause.
+    pub fn pause_cause(&self) -> &'static str {
+        if self.says_paused { "the packets' field `paused` says so" } else { "all numbers stay the same" }
+    }
+
     /// Judges a sample that arrived then.
     pub fn receive(&mut self, arrival: f64, sample: &Sample) -> Accepted {
         let mut accepted = Accepted { time: None, instead: false, confirmed: None, events: [None; 2], is_new: false };
         self.counts.received += 1;
         // In a menu a program's clock stands still, and its numbers may be anything.
         if sample.paused && arrival.is_finite() {
+            self.says_paused = true;
             accepted.events[0] = self.pause(arrival);
             return accepted;
         }
@@ -147,6 +155,7 @@ impl Source {
             return accepted;
         }
         if !self.is_inside && self.standing.is_paused(arrival, sample) {
+            self.says_paused = false;
             accepted.events[0] = self.pause(arrival);
             return accepted;
         }

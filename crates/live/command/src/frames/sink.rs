@@ -69,7 +69,10 @@ impl Sink {
 
     #[cfg(not(feature = "serial"))]
     fn open_serial(_: &str) -> Result<Sink> {
-        bail!("moris was built without serial lines; build it with --features serial")
+        bail!(
+            "moris-live was built without serial lines; build it with `cargo build --release --package moris-live-command \
+             --features serial`"
+        )
     }
 
     /// A packet that a device has sent, if there is one; only after [`Sink::listen`]. Of a line,

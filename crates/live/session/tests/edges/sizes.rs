@@ -173,12 +173,13 @@ fn signs_of_other_quantities_do_not_agree() {
     }
 }
 
-/// A session with this source at 100 Hz that is to engage as soon as it can, after this time \[s\].
-fn session(ignore_signs: bool, seconds: u32, ride: impl Fn(f64) -> Sample) -> (Session, Option<Refusal>) {
+/// A session with this source at 100 Hz that is to engage as soon as it can, after this time \[s\];
+/// the last refusal, and when it first engaged.
+fn session(ignore_signs: bool, seconds: u32, ride: impl Fn(f64) -> Sample) -> (Session, Option<Refusal>, Option<f64>) {
     let settings = Settings { ignore_signs, ..Settings::default() };
     let mut session = Session::new(&Parameters::default(), &settings).unwrap();
     session.handle(Event::Start).unwrap();
-    let mut refusal = None;
+    let (mut refusal, mut engaged) = (None, None);
     for step in 0..1000 * seconds {
         if step % 10 == 0 {
             session.receive(session.time(), &ride(session.time()));
@@ -186,9 +187,12 @@ fn session(ignore_signs: bool, seconds: u32, ride: impl Fn(f64) -> Sample) -> (S
         if session.state() == State::Neutral {
             refusal = session.handle(Event::Engage).err();
         }
+        if session.state().is_engaged() {
+            engaged = engaged.or(Some(session.time()));
+        }
         session.step();
     }
-    (session, refusal)
+    (session, refusal, engaged)
 }
 
 #[test]
@@ -196,12 +200,47 @@ fn a_session_engages_with_a_right_table_alone() {
     assert_eq!(session(false, 20, car).0.state(), State::Engaged);
     assert_eq!(session(false, 20, motorcycle).0.state(), State::Engaged);
     let in_degrees = |t: f64| with(|sample| scale(sample, 3..6, 1.0 / DEGREE))(t);
-    let (refused, refusal) = session(false, 20, in_degrees);
-    assert_eq!(refused.state(), State::Neutral);
-    assert!(refusal.unwrap().to_string().contains("set unit = \"deg/s\""));
+    let (refused, refusal, engaged) = session(false, 20, in_degrees);
+    assert_eq!((refused.state(), engaged), (State::Neutral, None));
+    let text = refusal.unwrap().to_string();
+    assert!(text.contains("set unit = \"deg/s\"") && text.contains("--ignore-signs"), "{text}");
     assert_eq!(session(true, 20, in_degrees).0.state(), State::Engaged);
     // Time in milliseconds: it would be 100 teleports a second.
-    let (refused, refusal) = session(false, 20, |t| Sample { time: Some(1000.0 * t), ..car(t) });
+    let (refused, refusal, _) = session(false, 20, |t| Sample { time: Some(1000.0 * t), ..car(t) });
     assert_eq!(refused.state(), State::Neutral);
     assert!(refusal.unwrap().to_string().contains("in the line of time set unit = \"ms\""));
+}
+
+/// A small platform is at neutral after 2.2 s.
+#[test]
+fn rates_in_degrees_are_found_before_a_small_platform_is_at_neutral() {
+    let changes: [Change; 2] = [
+        |sample| scale(sample, 3..6, 1.0 / DEGREE),
+        |sample| {
+            without_angles(sample);
+            scale(sample, 3..6, 1.0 / DEGREE);
+        },
+    ];
+    for change in changes {
+        let (time, text) = found(with(change)).unwrap();
+        assert!(text.contains("deg/s") && time < 2.2, "{text}: {time} s");
+    }
+}
+
+/// A vehicle that stood when the platform engaged drives off with rates in degrees.
+#[test]
+fn rates_in_degrees_are_found_within_a_second_of_driving() {
+    for angles in [true, false] {
+        let ride = |t: f64| {
+            let mut sample = if t < 10.0 { Sample { has_angles: true, ..Sample::default() } } else { car(t) };
+            sample.time = Some(t);
+            scale(&mut sample, 3..6, 1.0 / DEGREE);
+            if !angles {
+                without_angles(&mut sample);
+            }
+            sample
+        };
+        let (time, text) = found(ride).unwrap();
+        assert!(text.contains("deg/s") && time <= 11.25, "{text}: {time} s");
+    }
 }

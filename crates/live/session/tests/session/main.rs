@@ -149,7 +149,7 @@ fn engage_is_refused_with_the_reason() {
         }
         session.step();
     }
-    assert!(refused(&mut session).contains("braking is a backward force"), "{}", refused(&mut session));
+    assert!(refused(&mut session).contains("ax and the change of speed differ in sign"), "{}", refused(&mut session));
 }
 
 #[test]
