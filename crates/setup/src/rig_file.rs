@@ -265,12 +265,14 @@ impl Joints {
 impl Crank {
     /// Values with the largest that can be meant, and their units.
     fn units(&self) -> [(&'static str, f64, f64, [&'static str; 2]); 4] {
+        // An arm longer than this, in metres, has been given in other units.
+        const MAX_CRANK_ARM: f64 = 5.0;
         // A crank faster than this, in rad/s, has been given in degrees.
         const MAX_CRANK_SPEED: f64 = 60.0;
         // A crank with more than this, in rad/s2, has been given in degrees.
         const MAX_CRANK_ACCELERATION: f64 = 5000.0;
         [
-            ("crank.arm", self.arm, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
+            ("crank.arm", self.arm, MAX_CRANK_ARM, ["m", "millimetres"]),
             ("crank.rod", self.rod, MAX_PLATFORM_SIZE, ["m", "millimetres"]),
             ("crank.velocityLimit", self.velocity_limit, MAX_CRANK_SPEED, ["rad/s", "deg/s"]),
             ("crank.accelerationLimit", self.acceleration_limit, MAX_CRANK_ACCELERATION, ["rad/s2", "deg/s2"]),
@@ -318,6 +320,14 @@ impl RigFile {
                 return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
             }
         }
+        for (name, angles) in self.angles() {
+            // Around a circle degrees go beyond this; the whole range of an arm is wider.
+            const MAX_RADIANS: f64 = 6.3;
+            if angles.iter().all(|angle| angle.abs() <= MAX_RADIANS) {
+                let reason = format!("is {angles:?}; are these radians? Write degrees");
+                return Err(Error::wrong_value(source_name, name, reason));
+            }
+        }
         match (&self.actuator, &self.crank) {
             (Some(actuator), None) => self.check_actuators(actuator, source_name)?,
             (None, Some(crank)) => self.check_units(source_name, &crank.units())?,
@@ -332,6 +342,16 @@ impl RigFile {
             return Err(Error::wrong_value(source_name, name, reason));
         }
         Ok(())
+    }
+
+    /// The lists of angles of the file \[deg\], with their keys; those of a crank's range as one.
+    fn angles(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let joints = [("base.degrees", self.base.degrees), ("platform.degrees", self.platform.degrees)];
+        let heading = ("crank.headingDegrees", self.crank.map(|crank| crank.heading_degrees));
+        let range = self.crank.map(|crank| vec![crank.min_angle_degrees, crank.max_angle_degrees]);
+        let lists = joints.into_iter().chain([heading]).map(|(name, list)| (name, list.map(Vec::from)));
+        let all = lists.chain([("[crank] minAngleDegrees, maxAngleDegrees", range)]);
+        all.filter_map(|(name, list)| Some((name, list?))).collect()
     }
 
     /// Diameter of the legs or of the cranks' rods, if the file has it \[m\].

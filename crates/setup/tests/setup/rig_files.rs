@@ -95,6 +95,7 @@ fn a_rig_has_either_legs_or_cranks() {
 fn cranks_in_other_units_are_named() {
     for (value, other, expected) in [
         ("arm = 0.18415", "arm = 184.15", "crank.arm is 184.15; is this in millimetres? Write m"),
+        ("arm = 0.18415", "arm = 25", "crank.arm is 25; is this in millimetres? Write m"),
         ("rod = 0.7239", "rod = 723.9", "crank.rod is 723.9; is this in millimetres? Write m"),
         ("velocityLimit = 6.0", "velocityLimit = 340", "crank.velocityLimit is 340; is this in deg/s? Write rad/s"),
         ("headingDegrees", "headings", "did you mean"),
@@ -180,6 +181,21 @@ fn millimetres_are_recognised() {
         assert!(message.starts_with(&format!("my.toml: {key} is ")), "{message}");
         assert!(message.ends_with(&format!("Write {unit}")), "{message}");
     }
+}
+
+#[test]
+fn radians_in_place_of_degrees_are_named() {
+    let lists = ["[-8, 8, 112, 128, 232, 248]", "[-0.14, 0.14, 1.95, 2.23, 4.05, 4.33]"];
+    let message = refusal(&default_text().replace(lists[0], lists[1]));
+    let expected = "base.degrees is [-0.14, 0.14, 1.95, 2.23, 4.05, 4.33]; are these radians? Write degrees";
+    assert!(message.ends_with(expected), "{message}");
+    let mut table: toml::Table = crank_text().parse().unwrap();
+    let crank = table["crank"].as_table_mut().unwrap();
+    crank.insert("minAngleDegrees".to_owned(), toml::Value::Float(-0.7));
+    crank.insert("maxAngleDegrees".to_owned(), toml::Value::Float(0.7));
+    let message = refusal(&table.to_string());
+    let expected = "minAngleDegrees, maxAngleDegrees is [-0.7, 0.7]; are these radians? Write degrees";
+    assert!(message.ends_with(expected), "{message}");
 }
 
 #[test]
