@@ -43,7 +43,12 @@ def test_a_comparison_has_every_strategy_and_other_washouts_of_each_recording(ri
     assert compared[5].measures["specific force x RMS error"] > 1.01 * robust.measures["specific force x RMS error"]
     figure = compared.plot()
     assert [len(axis.lines) for axis in figure.axes] == [len(names) + 1] * 4
+    header, *lines = str(compared).splitlines()
+    assert header.split()[:5] == ["recording", "washout", "surge", "shape", "surge"] and len(lines) == len(compared)
+    assert f"{robust.measures['specific force x RMS error']:.3g}" in lines[4] and "at rest" in lines[5]
     assert len(moris.compare(ride, strategies=["optimal"])) == 1
+    with pytest.raises(ValueError, match="'robust', which is the name of a strategy"):
+        moris.compare(ride, {"robust": at_rest})
 
 
 def test_a_preview_is_the_recordings_own_future(ride):
@@ -159,7 +164,9 @@ def test_the_response_to_small_signals_is_the_filters_own():
 def test_a_survey_reaches_as_far_as_the_legs():
     survey = moris.survey(samples=20_000)
     values = moris.parameters()
-    base, platform = (np.array([[values[f"rig.{part}[{leg}].{axis}"] for axis in "xyz"] for leg in range(1, 7)]) for part in ("base", "platform"))
+    base, platform = (
+        np.array([[values[f"rig.{part}[{leg}].{axis}"] for axis in "xyz"] for leg in range(1, 7)]) for part in ("base", "platform")
+    )
     # Straight up, a leg whose joints are d apart in plan has the length sqrt(d^2 + z^2).
     apart = np.linalg.norm((platform - base)[:, :2], axis=1)
     highest = np.sqrt(values["actuator.maxLength"] ** 2 - apart**2).min() - values["rig.neutralHeight"]
@@ -187,7 +194,9 @@ def test_a_singular_rig_is_surveyed_and_refused():
 
 def test_parameters_are_written_as_the_workbench_reads_them(tmp_path):
     file = moris.write_parameters(tmp_path / "mine.toml", ["classical", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
-    assert moris.parameters(parameters=file) == moris.parameters(parameters=["classical", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
+    assert moris.parameters(parameters=file) == moris.parameters(
+        parameters=["classical", {"tilt.rateLimit": 0.031, "compensation": "gravity"}]
+    )
 
 
 def test_a_built_fmu_has_the_parameters_as_start_values(tmp_path):

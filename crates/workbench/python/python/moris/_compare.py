@@ -19,6 +19,8 @@ COLUMNS = (
     "platform smallest stroke margin",
 )
 """Measures in the table of a comparison."""
+SHOWN = ("shape", "size", "inverted", "RMS error")
+"""Those of its text, of surge and sway."""
 
 
 class Comparison(list[Simulation]):
@@ -32,6 +34,14 @@ class Comparison(list[Simulation]):
     def plot(self, figure: Any = None) -> Any:
         """Draws the felt surge and sway of each washout over the desired one, a row a recording; returns the matplotlib figure."""
         return plot_felt(self, figure)
+
+    def __str__(self) -> str:
+        rows = [["recording", "washout", *(f"{axis} {name}" for axis in ("surge", "sway") for name in SHOWN)]]
+        for one in self:
+            values = [one.measures[f"specific force {axis} {name}"] for axis in "xy" for name in SHOWN]
+            rows.append([one.recording.name, one.name, *("-" if value is None else f"{value:.3g}" for value in values)])
+        widths = [max(map(len, column)) for column in zip(*rows)]
+        return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows)
 
     def _repr_html_(self) -> str:
         return str(self.to_pandas().to_html(float_format="%.3g"))
@@ -52,8 +62,12 @@ def compare(
     others: functions of a Recording that return a Simulation, by the name of their washout; most call measure with the motion
         of another washout.
 
-    Returns a Comparison. Raises as simulate and measure do.
+    Returns a Comparison. Raises ValueError for another washout with a strategy's name, and as simulate and measure do.
     """
+    strategies = list(strategies)
+    for name in others or {}:
+        if name in strategies:
+            raise ValueError(f"others has a washout {name!r}, which is the name of a strategy; give it another name")
     sources = recordings if isinstance(recordings, (list, tuple)) else [recordings]
     found = Comparison()
     for source in sources:
