@@ -43,6 +43,7 @@ ALL_TESTS = "python3 tests/run.py"
 DRAWN = {
     "README.md": {"first-ride.svg": "first-ride/ride.svg"},
     "docs/strategies.md": {"strategies.svg": "paper-runs/strategies.svg"},
+    "docs/response.md": {"response.svg": "docs/docs-response/response/direct.svg"},
 }
 SEARCHES = ("docs/response.md", "docs/tuning-by-search.md", "docs/worst-case.md")
 """Pages whose commands simulate hundreds of rides. The tests in Rust run the same commands in a short form."""
