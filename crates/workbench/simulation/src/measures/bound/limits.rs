@@ -8,7 +8,7 @@ use std::array::from_fn;
 use nalgebra::SVector;
 
 /// Change of a slack with its value.
-const SIGNS: [f64; 2] = [1.0, -1.0];
+const SIDE_SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// Slacks and multipliers of an interval's limits, all above 0.
 pub struct Limits<const R: usize> {
@@ -38,21 +38,21 @@ impl<const R: usize> Limits<R> {
     pub fn multiplier_steps(&self, change: &SVector<f64, R>, aims: &[SVector<f64, R>; 2]) -> [SVector<f64, R>; 2] {
         from_fn(|side| {
             let (slacks, multipliers) = (&self.slacks[side], &self.multipliers[side]);
-            (aims[side] - SIGNS[side] * multipliers.component_mul(change)).component_div(slacks) - multipliers
+            (aims[side] - SIDE_SIGNS[side] * multipliers.component_mul(change)).component_div(slacks) - multipliers
         })
     }
 
     /// Products of the steps of slack and multiplier where they aim at products of 0.
     pub fn uncentred_products(&self, change: &SVector<f64, R>) -> [SVector<f64, R>; 2] {
         let steps = self.multiplier_steps(change, &[SVector::zeros(); 2]);
-        from_fn(|side| SIGNS[side] * steps[side].component_mul(change))
+        from_fn(|side| SIDE_SIGNS[side] * steps[side].component_mul(change))
     }
 
     /// Largest decrease of a slack or a multiplier in a step, as a fraction of it.
     pub fn largest_decrease(&self, change: &SVector<f64, R>, aims: &[SVector<f64, R>; 2]) -> f64 {
         let steps = self.multiplier_steps(change, aims);
         let [lower, upper] = from_fn(|side| {
-            let slacks = (-SIGNS[side] * change).component_div(&self.slacks[side]);
+            let slacks = (-SIDE_SIGNS[side] * change).component_div(&self.slacks[side]);
             slacks.max().max((-steps[side]).component_div(&self.multipliers[side]).max())
         });
         lower.max(upper)
