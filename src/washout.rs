@@ -17,7 +17,7 @@ use crate::cueing::preaction::StopPreaction;
 use crate::cueing::soft_limits::SoftLimits;
 use crate::cueing::soft_limits::glide::SoftLimitGlide;
 use crate::cueing::strategy::Strategy;
-use crate::cueing::strategy::law::Circumstances;
+use crate::cueing::strategy::law::StepContext;
 use crate::cueing::strategy::predictive::preview::PreviewedCue;
 use crate::interface::{
     ConditioningParameters, Input, Output, Parameters, Preaction, Preview, Reconstruction, StructureParameters,
@@ -135,11 +135,11 @@ const FADE_SLOPE: f64 = 0.5;
 
 /// Time for which the soft limits act once the input rests \[s\]. A filter that they hold does not
 /// unwind, and may push against them for ever. Without them it returns in its time constants.
-const SOFT_LIMITS_HOLD: f64 = 30.0;
+const SOFT_LIMITS_REST_TIME: f64 = 30.0;
 
 /// Fraction of their pace at which gentler soft limits must be able to stop the platform before
 /// they come into force. It may come to rest anywhere below the speed \[m/s\].
-const GENTLE_PART: f64 = 0.8;
+const GENTLER_PACE_FRACTION: f64 = 0.8;
 const GENTLE_SPEED: f64 = 0.01;
 
 impl Washout {
@@ -344,7 +344,7 @@ impl Washout {
         // (2) Gravitational strategy: tilt. Disengaged, the platform does not make up for the rider's
         // lean either.
         let lean = head_at_end.lean * self.engagement();
-        let circumstances = Circumstances {
+        let context = StepContext {
             parameters: &self.parameters,
             guard: &self.guard,
             head: head_at_end,
@@ -354,7 +354,7 @@ impl Washout {
             engagement: self.engagement(),
             time_to_stop: self.preaction.time_left(),
         };
-        self.strategy.advance_tilt([force_start, force_end], &rotation_at_end, &circumstances, step);
+        self.strategy.advance_tilt([force_start, force_end], &rotation_at_end, &context, step);
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let mut angles = channel_angles;
         angles.add_to_axis(0, &tilt_roll);
@@ -366,13 +366,13 @@ impl Washout {
         let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
         // (3) Direct linear motion, with its safety units below.
         let filtered = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
-        let linear = self.strategy.demand(filtered, self.preaction.surge(), &circumstances, &turning, step);
+        let linear = self.strategy.demand(filtered, self.preaction.surge(), &context, &turning, step);
         let coordinates = PlatformCoordinates { linear, angles };
         let mut demand = PlatformState::turning(coordinates, &turning, self.guard.geometry(), rig.neutral_height);
         // Soft limits, safety units, actuator guard and evaluator: each may change the demand.
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
         self.resting = if at_rest { self.resting + step } else { 0.0 };
-        let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_HOLD;
+        let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_REST_TIME;
         let tilt_compensation = if self.strategy.allows_tilt_overshoot(conditioning.compensation) {
             let tilting = Vector3::new(tilt_roll.acceleration, tilt_pitch.acceleration, 0.0);
             -tangential(tilting, arm).component_mul(&Vector3::new(1.0, 1.0, 0.0))
@@ -386,7 +386,7 @@ impl Washout {
             self.limited_by.soft = true;
         }
         let linear = *self.direct_linear.advance_within_limits(&demand.coordinates.linear, safety, step);
-        if self.direct_linear.catches_up() {
+        if self.direct_linear.deviates() {
             demand = self.guard.state(PlatformCoordinates { linear, ..demand.coordinates });
         }
         self.before = PreviousStep { step, acceleration: self.motion().acceleration, felt: self.felt };
@@ -396,7 +396,7 @@ impl Washout {
         self.limited_by.safety |= self.direct_linear.limited();
         self.limited_by.actuator |= self.guard.limited();
         if soft {
-            if self.soft_limits.limited() || self.direct_linear.catches_up() || self.guard.limited() {
+            if self.soft_limits.limited() || self.direct_linear.deviates() || self.guard.limited() {
                 self.continue_from_real(cue_end.rates);
             }
         } else if self.guard.limited() {
@@ -412,7 +412,8 @@ impl Washout {
         let idle = !self.soft_limits.limited();
         let next = self.soft.after(&self.parameters, idle, step);
         let limits = SoftLimits::new(&next.in_force(&self.parameters), heave);
-        if !next.is_gentler_than(&self.soft) || limits.stop_from(self.guard.now(), GENTLE_PART, GENTLE_SPEED) {
+        if !next.is_gentler_than(&self.soft) || limits.stop_from(self.guard.now(), GENTLER_PACE_FRACTION, GENTLE_SPEED)
+        {
             self.soft = next;
             self.soft_limits.retune(&next.in_force(&self.parameters), heave);
         }
@@ -423,7 +424,7 @@ impl Washout {
     #[cold]
     fn continue_from_real(&mut self, rates: Vector3<f64>) {
         let PlatformCoordinates { linear, angles } = &self.guard.now().coordinates;
-        if self.guard.limited() || self.direct_linear.catches_up() {
+        if self.guard.limited() || self.direct_linear.deviates() {
             self.direct_linear.continue_from(linear);
         }
         let mut linear = *linear;

@@ -85,8 +85,8 @@ impl DirectLinearMotion {
     }
 
     /// True if a safety unit's motion is not the demanded one.
-    pub fn catches_up(&self) -> bool {
-        self.safety.catches_up()
+    pub fn deviates(&self) -> bool {
+        self.safety.deviates()
     }
 
     /// Continues from the platform's real motion if the safety units' own is beyond limits

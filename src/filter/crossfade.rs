@@ -72,9 +72,9 @@ const FADE_TIME: f64 = 1.8;
 
 impl FadedChains {
     /// Chains at rest, of which the first `kept` states make up the motion, ready for steps of
-    /// `usual_step` seconds.
-    pub fn new(denominators: [Denominator; 3], kept: usize, usual_step: f64) -> Self {
-        let now = CorrectedChains { chains: Chains::new(denominators, usual_step), offset: FadingOffset::default() };
+    /// `longest_step` seconds.
+    pub fn new(denominators: [Denominator; 3], kept: usize, longest_step: f64) -> Self {
+        let now = CorrectedChains { chains: Chains::new(denominators, longest_step), offset: FadingOffset::default() };
         FadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept }
     }
 

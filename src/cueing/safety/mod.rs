@@ -20,7 +20,7 @@ pub struct SafetyUnits {
     longest_step: f64,
     motion: Motion<Vector3<f64>>,
     /// True on each axis whose motion is not the demanded one.
-    catching_up: [bool; 3],
+    deviating: [bool; 3],
     /// True on each axis that a safety limit keeps from its demand.
     limited: [bool; 3],
 }
@@ -28,7 +28,7 @@ pub struct SafetyUnits {
 impl SafetyUnits {
     /// The safety units at rest at neutral, not active.
     pub fn new(longest_step: f64) -> Self {
-        SafetyUnits { longest_step, motion: Motion::default(), catching_up: [false; 3], limited: [false; 3] }
+        SafetyUnits { longest_step, motion: Motion::default(), deviating: [false; 3], limited: [false; 3] }
     }
 
     /// The limited motion now.
@@ -42,15 +42,15 @@ impl SafetyUnits {
     }
 
     /// True if the motion on an axis is not the demanded one.
-    pub fn catches_up(&self) -> bool {
-        self.catching_up != [false; 3]
+    pub fn deviates(&self) -> bool {
+        self.deviating != [false; 3]
     }
 
     /// Continues from the platform's real motion, where that is not the one that the units gave.
     #[cold]
     pub fn continue_from(&mut self, motion: &Motion<Vector3<f64>>) {
         self.motion = *motion;
-        self.catching_up = [true; 3];
+        self.deviating = [true; 3];
     }
 
     /// True if the motion is beyond its limits, or could not stop within them:
@@ -71,7 +71,7 @@ impl SafetyUnits {
     /// Advances by one step at whose end the motion `demand` is.
     pub fn advance(&mut self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) {
         let keep = self.keep_limits(demand, limits, step);
-        self.motion = if self.catching_up == [false; 3] && keep == [true; 3] {
+        self.motion = if self.deviating == [false; 3] && keep == [true; 3] {
             *demand
         } else {
             self.followed(demand, keep, limits, step)
@@ -89,15 +89,15 @@ impl SafetyUnits {
         step: f64,
     ) -> Motion<Vector3<f64>> {
         for (k, keeps) in keep.into_iter().enumerate() {
-            let joins = keeps && (!self.catching_up[k] || self.has_caught_up(k, demand, limits, step));
+            let joins = keeps && (!self.deviating[k] || self.has_caught_up(k, demand, limits, step));
             // A unit that follows the platform's real motion is active from where that is beyond the limits.
-            let limits_it = self.limited[k] || !self.catching_up[k] || self.axis_beyond_limits(k, limits);
+            let limits_it = self.limited[k] || !self.deviating[k] || self.axis_beyond_limits(k, limits);
             self.limited[k] = !joins && limits_it;
-            self.catching_up[k] = !joins;
+            self.deviating[k] = !joins;
         }
         Motion::from_axes(|k| {
             let target = demand.axis(k);
-            if !self.catching_up[k] {
+            if !self.deviating[k] {
                 return target;
             }
             let limits = Limits::safety(limits, k, self.longest_step);

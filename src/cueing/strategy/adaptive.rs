@@ -19,7 +19,7 @@ use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Circumstances, Decision, Jump, Law, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, LawInput, StepContext, Unsolvable};
 use super::regulator::AxisModel;
 use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{AdaptiveParameters, Parameters};
@@ -84,11 +84,11 @@ impl Law for Adaptive {
         Ok(states.map(|state| Jump { force: less(&state), slope: less(&state.coasting()) }))
     }
 
-    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
-        let Circumstances { parameters, guard, .. } = situation.circumstances;
+    fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
+        let StepContext { parameters, guard, .. } = law_input.context;
         let longer = (parameters.rig.stroke_length() / NEAR_END_STROKE).max(1.0);
         let scaled_margin = guard.stroke_margin() / longer;
-        Some(self.decide(&situation.states, situation.references, scaled_margin, step))
+        Some(self.decide(&law_input.states, law_input.references, scaled_margin, step))
     }
 }
 

@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Circumstances, Decision, Jump, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, LawInput, StepContext, Unsolvable};
 use super::laws::AnyLaw;
 use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
@@ -114,11 +114,11 @@ impl Coordinated {
     }
 
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
-    pub fn advance_tilt(&mut self, circumstances: &Circumstances, step: f64) {
-        let Circumstances { parameters, guard, engagement, .. } = *circumstances;
+    pub fn advance_tilt(&mut self, context: &StepContext, step: f64) {
+        let StepContext { parameters, guard, engagement, .. } = *context;
         let states = self.states(&guard.now().coordinates.linear);
-        let situation = Situation { states, references: circumstances.effective_references(), circumstances };
-        let decisions = self.law.decisions(&situation, step);
+        let law_input = LawInput { states, references: context.effective_references(), context };
+        let decisions = self.law.decisions(&law_input, step);
         // Where a law has nothing to decide by, the dropped force stays while the return fades in.
         let change = step / DECISION_FADE;
         self.decided = (self.decided + if decisions.is_some() { change } else { -change }).clamp(0.0, 1.0);
@@ -135,7 +135,7 @@ impl Coordinated {
             let now = self.tilt[k];
             let returning = -LEVEL_FREQUENCY * (LEVEL_FREQUENCY * now.position + 2.0 * now.velocity);
             let demanded = fraction * decision.tilt_acceleration + (1.0 - fraction) * returning;
-            let acceleration = smooth.nearest_acceleration(&situation.states[k], demanded, step);
+            let acceleration = smooth.nearest_acceleration(&law_input.states[k], demanded, step);
             let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
             self.limited |= next.position.abs() >= LIMITED_FRACTION * tilt.angle_limit;
             self.limited |= next.velocity.abs() >= LIMITED_FRACTION * tilt.rate_limit;
@@ -147,14 +147,8 @@ impl Coordinated {
 
     /// Surge and sway at the end of a step, such that the rider feels the cue plus the dropped
     /// force. `turning` is the platform's rotation there, and `heave` its heave.
-    pub fn travel(
-        &self,
-        circumstances: &Circumstances,
-        turning: &RotationalMotion,
-        heave: &Motion,
-        step: f64,
-    ) -> [Motion; 2] {
-        let Circumstances { parameters, guard, head, force, .. } = *circumstances;
+    pub fn travel(&self, context: &StepContext, turning: &RotationalMotion, heave: &Motion, step: f64) -> [Motion; 2] {
+        let StepContext { parameters, guard, head, force, .. } = *context;
         let rotation = &turning.orientation.rotation;
         let arm = rotation * head.point;
         let mut beside = tangential(turning.acceleration, arm) + centripetal(turning.velocity, arm);
@@ -194,10 +188,10 @@ fn without_tiny_components(motion: &Motion) -> Motion {
     }
 }
 
-impl Circumstances<'_> {
+impl StepContext<'_> {
     /// The effective references of surge and sway \[m/s2\].
     fn effective_references(&self) -> [f64; 2] {
-        let Circumstances { force, angles, head, lean, .. } = self;
+        let StepContext { force, angles, head, lean, .. } = self;
         let gravity = self.parameters.structure.gravity;
         let turned = [-angles.position.y, angles.position.x + lean];
         let turning = [-angles.acceleration.y, angles.acceleration.x];
@@ -225,7 +219,7 @@ pub(in crate::cueing) fn models(parameters: &Parameters) -> [AxisModel; 2] {
 mod tests {
     use super::*;
     use crate::cueing::evaluator::felt;
-    use crate::cueing::strategy::predictive::legs::Surroundings;
+    use crate::cueing::strategy::predictive::legs::LegContext;
     use crate::cueing::strategy::regulator::Regulator;
     use crate::interface::StrategyKind;
     use crate::platform::{ActuatorGuard, PlatformCoordinates, PlatformMotion};
@@ -261,11 +255,11 @@ mod tests {
         guard
     }
 
-    /// Runs `check` in circumstances with this engagement, with the platform and the rider in
+    /// Runs `check` in context with this engagement, with the platform and the rider in
     /// motion.
-    fn in_circumstances(parameters: &Parameters, engagement: f64, check: impl FnOnce(&Circumstances)) {
+    fn in_circumstances(parameters: &Parameters, engagement: f64, check: impl FnOnce(&StepContext)) {
         let guard = moving(parameters);
-        check(&Circumstances {
+        check(&StepContext {
             parameters,
             guard: &guard,
             head: &LocationFrame::new(&parameters.structure, 0.1),
@@ -278,16 +272,11 @@ mod tests {
     }
 
     /// The force felt with this travel.
-    fn felt_force(
-        circumstances: &Circumstances,
-        turning: &RotationalMotion,
-        travel: [Motion; 2],
-        heave: &Motion,
-    ) -> [f64; 2] {
-        let Parameters { structure, rig, .. } = circumstances.parameters;
+    fn felt_force(context: &StepContext, turning: &RotationalMotion, travel: [Motion; 2], heave: &Motion) -> [f64; 2] {
+        let Parameters { structure, rig, .. } = context.parameters;
         let linear = Motion::from_axes(|k| [travel[0], travel[1], *heave][k]);
         let motion = PlatformMotion::new(&linear, turning, rig.neutral_height);
-        let force = felt(&motion, circumstances.head, structure.gravity).specific_force;
+        let force = felt(&motion, context.head, structure.gravity).specific_force;
         [force.x, force.y]
     }
 
@@ -297,17 +286,17 @@ mod tests {
     fn the_felt_force_is_the_cue_and_the_dropped_force() {
         for strategy in [StrategyKind::Adaptive, StrategyKind::Optimal] {
             let parameters = parameters(strategy);
-            in_circumstances(&parameters, 1.0, |circumstances| {
+            in_circumstances(&parameters, 1.0, |context| {
                 let mut strategy = coordinated(&parameters);
-                strategy.advance_tilt(circumstances, STEP);
-                let turning = RotationalMotion::new(circumstances.angles);
-                let travel = strategy.travel(circumstances, &turning, &HEAVE, STEP);
-                let felt = felt_force(circumstances, &turning, travel, &HEAVE);
+                strategy.advance_tilt(context, STEP);
+                let turning = RotationalMotion::new(context.angles);
+                let travel = strategy.travel(context, &turning, &HEAVE, STEP);
+                let felt = felt_force(context, &turning, travel, &HEAVE);
                 for k in 0..2 {
                     let dropped = strategy.dropped_force[k];
                     assert!(dropped.abs() > 1e-3, "{dropped}");
-                    assert!((felt[k] - circumstances.force[k] - dropped).abs() < 1e-11, "{felt:?}, dropped {dropped}");
-                    let now = circumstances.guard.now().coordinates.linear.axis(k);
+                    assert!((felt[k] - context.force[k] - dropped).abs() < 1e-11, "{felt:?}, dropped {dropped}");
+                    let now = context.guard.now().coordinates.linear.axis(k);
                     let mean = 0.5 * (now.velocity + travel[k].velocity);
                     assert!((travel[k].position - now.position - mean * STEP).abs() < 1e-15);
                 }
@@ -318,18 +307,18 @@ mod tests {
     #[test]
     fn a_platform_turned_on_its_side_needs_no_unbounded_travel() {
         let parameters = parameters(StrategyKind::Optimal);
-        in_circumstances(&parameters, 1.0, |circumstances| {
+        in_circumstances(&parameters, 1.0, |context| {
             // The determinant is the roll's cosine, -0.03 and 0.02 here.
             for roll in [1.6_f64, 1.55] {
                 let head = LocationFrame::new(&parameters.structure, 0.0);
                 let angles = Motion { position: Vector3::new(roll, 0.0, 0.0), ..Motion::default() };
-                let circumstances = Circumstances { head: &head, angles: &angles, ..*circumstances };
+                let context = StepContext { head: &head, angles: &angles, ..*context };
                 let strategy = coordinated(&parameters);
                 let turning = RotationalMotion::new(&angles);
                 // Heave falls with the gravity: only the cue in sway is left.
                 let heave = Motion { acceleration: -parameters.structure.gravity, ..HEAVE };
-                let travel = strategy.travel(&circumstances, &turning, &heave, STEP);
-                let [_, felt] = felt_force(&circumstances, &turning, travel, &heave);
+                let travel = strategy.travel(&context, &turning, &heave, STEP);
+                let [_, felt] = felt_force(&context, &turning, travel, &heave);
                 let expected = -0.7 * roll.cos().abs() / LEAST_DETERMINANT;
                 assert!((felt - expected).abs() < 1e-11, "{felt} beside {expected}");
             }
@@ -340,13 +329,13 @@ mod tests {
     fn the_law_sees_the_effective_reference_and_the_platforms_motion() {
         let parameters = parameters(StrategyKind::Optimal);
         let Parameters { optimal, tilt, safety, structure, .. } = parameters;
-        in_circumstances(&parameters, 1.0, |circumstances| {
+        in_circumstances(&parameters, 1.0, |context| {
             let mut strategy = coordinated(&parameters);
             let before = [0.01, -0.02].map(|position| Motion { position, velocity: 0.5 * position, acceleration: 0.0 });
             strategy.tilt = before;
-            strategy.advance_tilt(circumstances, STEP);
+            strategy.advance_tilt(context, STEP);
             let turn = turn();
-            let height = circumstances.head.point.z;
+            let height = context.head.point.z;
             let (gravity, lean) = (structure.gravity, 0.1);
             let references = [
                 1.0 + gravity * turn.position.y.sin() - height * turn.acceleration.y,
@@ -364,7 +353,7 @@ mod tests {
                 };
                 let tuning = super::super::optimal::Tuning::from(&optimal);
                 let gains = Regulator::new(&model, &tuning.weights).unwrap().gains;
-                let now = circumstances.guard.now().coordinates.linear.axis(k);
+                let now = context.guard.now().coordinates.linear.axis(k);
                 let slow = references[k] * (1.0 - (-STEP / optimal.split_time).exp());
                 let Motion { position, velocity, .. } = before[k];
                 let state = [now.position, now.velocity, position, velocity, slow, references[k] - slow];
@@ -399,14 +388,14 @@ mod tests {
             let mut strategy = coordinated(&parameters);
             strategy.tilt = [before; 2];
             let mut travel = [Motion::default(); 2];
-            in_circumstances(&parameters, engagement, |circumstances| {
+            in_circumstances(&parameters, engagement, |context| {
                 // The same decisions for every engagement, within the limits.
                 let angles = Motion::default();
                 let force = Vector3::new(0.02, -0.015, 9.8);
-                let circumstances = Circumstances { lean: 0.0, angles: &angles, force, ..*circumstances };
-                strategy.advance_tilt(&circumstances, STEP);
-                let turning = RotationalMotion::new(circumstances.angles);
-                travel = strategy.travel(&circumstances, &turning, &HEAVE, STEP);
+                let context = StepContext { lean: 0.0, angles: &angles, force, ..*context };
+                strategy.advance_tilt(&context, STEP);
+                let turning = RotationalMotion::new(context.angles);
+                travel = strategy.travel(&context, &turning, &HEAVE, STEP);
             });
             (strategy.tilt.map(|tilt| tilt.velocity), travel.map(|axis| axis.acceleration))
         };
@@ -433,9 +422,9 @@ mod tests {
             strategy.limited = true;
             strategy.tilt[axis].position = angle * parameters.tilt.angle_limit;
             strategy.tilt[axis].velocity = rate * parameters.tilt.rate_limit;
-            in_circumstances(&parameters, 1.0, |circumstances| {
+            in_circumstances(&parameters, 1.0, |context| {
                 // So short a step hardly changes the tilt.
-                strategy.advance_tilt(circumstances, 1e-6);
+                strategy.advance_tilt(context, 1e-6);
             });
             strategy.limited
         };
@@ -457,17 +446,16 @@ mod tests {
     #[test]
     fn after_a_plans_end_the_dropped_force_stays_while_the_return_fades_in() {
         let parameters = parameters(StrategyKind::Predictive);
-        in_circumstances(&parameters, 1.0, |circumstances| {
+        in_circumstances(&parameters, 1.0, |context| {
             let angles = Motion::default();
-            let circumstances =
-                &Circumstances { force: Vector3::new(4.0, 2.0, 9.8), angles: &angles, lean: 0.0, ..*circumstances };
+            let context = &StepContext { force: Vector3::new(4.0, 2.0, 9.8), angles: &angles, lean: 0.0, ..*context };
             let mut strategy = coordinated(&parameters);
             for _ in 0..250 {
-                strategy.advance_tilt(circumstances, STEP);
+                strategy.advance_tilt(context, STEP);
             }
             // Nothing can be planned for what is not a number.
             let force = Vector3::new(f64::NAN, f64::NAN, 9.8);
-            let unknown = Circumstances { force, ..*circumstances };
+            let unknown = StepContext { force, ..*context };
             let mut before = strategy.clone();
             let (mut fading, mut largest) = (0, 0.0_f64);
             for _ in 0..1100 {
@@ -492,15 +480,15 @@ mod tests {
         // Of the room at neutral, whose length is 0.04 mm below the stroke's middle, half is left.
         for (margin, kept, rounding) in [(0.02, 0.02, 1e-12), (10.0, 0.15, 2e-5)] {
             parameters.predictive.leg_margin = margin;
-            in_circumstances(&parameters, 1.0, |circumstances| {
-                let surroundings = Surroundings::of(circumstances);
-                for (found, expected) in surroundings.planned_stroke().into_iter().zip([1.0 + kept, 1.6 - kept]) {
+            in_circumstances(&parameters, 1.0, |context| {
+                let leg_context = LegContext::of(context);
+                for (found, expected) in leg_context.planned_stroke().into_iter().zip([1.0 + kept, 1.6 - kept]) {
                     assert!((found - expected).abs() < rounding, "{found} m beside {expected}");
                 }
-                let heave = circumstances.guard.now().coordinates.linear.axis(2);
-                assert_eq!((surroundings.heave, surroundings.heave_velocity), (heave.position, heave.velocity));
+                let heave = context.guard.now().coordinates.linear.axis(2);
+                assert_eq!((leg_context.heave, leg_context.heave_velocity), (heave.position, heave.velocity));
                 let omega = parameters.angular.omega1;
-                assert_eq!(surroundings.frequencies, Vector3::new(omega.roll, omega.pitch, omega.yaw));
+                assert_eq!(leg_context.frequencies, Vector3::new(omega.roll, omega.pitch, omega.yaw));
             });
         }
     }

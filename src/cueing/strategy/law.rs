@@ -51,7 +51,7 @@ pub struct Jump {
 
 /// State at a step's beginning, and the known part of its end.
 #[derive(Clone, Copy, Debug)]
-pub struct Circumstances<'a> {
+pub struct StepContext<'a> {
     pub parameters: &'a Parameters,
     pub guard: &'a ActuatorGuard,
     pub head: &'a LocationFrame,
@@ -70,10 +70,10 @@ pub struct Circumstances<'a> {
 /// Input of a law: surge and sway at a step's beginning, and the effective references at its end
 /// \[m/s2\].
 #[derive(Clone, Copy, Debug)]
-pub struct Situation<'a> {
+pub struct LawInput<'a> {
     pub states: [AxisState; 2],
     pub references: [f64; 2],
-    pub circumstances: &'a Circumstances<'a>,
+    pub context: &'a StepContext<'a>,
 }
 
 /// Control law for the dropped force and the tilt of surge and sway.
@@ -101,7 +101,7 @@ pub trait Law {
 
     /// Decisions for a step of `step` seconds on surge and sway. None if there is nothing to decide
     /// by: the platform then returns to neutral.
-    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]>;
+    fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]>;
 
     /// The largest heave that is left to the heave channel \[m\].
     fn largest_heave(&self) -> f64 {

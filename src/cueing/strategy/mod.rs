@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 use self::classical::Classical;
 use self::coordinated::Coordinated;
 pub use self::law::{AxisState, Decision, Unsolvable};
-use self::law::{Circumstances, PlanStatus, Previewed};
+use self::law::{PlanStatus, Previewed, StepContext};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::gravitational::Tilt;
 use crate::interface::{Compensation, Parameters};
@@ -80,15 +80,15 @@ impl Strategy {
         &mut self,
         forces: [Vector3<f64>; 2],
         rotation: &Matrix3<f64>,
-        circumstances: &Circumstances,
+        context: &StepContext,
         step: f64,
     ) {
         match self {
             Strategy::Classical(classical) => {
-                let Circumstances { parameters, head, lean, .. } = *circumstances;
+                let StepContext { parameters, head, lean, .. } = *context;
                 classical.advance_tilt(forces, rotation, head, lean, parameters, step);
             }
-            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(circumstances, step),
+            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(context, step),
         }
     }
 
@@ -99,7 +99,7 @@ impl Strategy {
         &self,
         mut filtered: Motion<Vector3<f64>>,
         preaction: &Motion,
-        circumstances: &Circumstances,
+        context: &StepContext,
         turning: &RotationalMotion,
         step: f64,
     ) -> Motion<Vector3<f64>> {
@@ -107,7 +107,7 @@ impl Strategy {
             Strategy::Classical(_) => filtered.add_to_axis(0, preaction),
             Strategy::Coordinated(coordinated) => {
                 let heave = filtered.axis(2);
-                let [surge, sway] = coordinated.travel(circumstances, turning, &heave, step);
+                let [surge, sway] = coordinated.travel(context, turning, &heave, step);
                 filtered = Motion::from_axes(|k| [surge, sway, heave][k]);
             }
         }

@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Decision, Jump, Law, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, LawInput, Unsolvable};
 use super::minimax::Disturbance;
 use super::regulator::{AxisModel, Regulator, State, Weights};
 use crate::interface::{OptimalParameters, Parameters};
@@ -54,8 +54,8 @@ impl Law for Optimal {
         self.retune(models, &(&parameters.optimal).into(), states)
     }
 
-    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
-        Some(self.decide(&situation.states, situation.references, step))
+    fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
+        Some(self.decide(&law_input.states, law_input.references, step))
     }
 }
 

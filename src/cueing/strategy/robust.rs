@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::law::{AxisState, Decision, Jump, Law, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, LawInput, Unsolvable};
 use super::minimax::Disturbance;
 use super::optimal::{Optimal, Tuning};
 use super::regulator::AxisModel;
@@ -30,8 +30,8 @@ impl Law for Robust {
         self.0.retune(models, &(&parameters.robust).into(), states)
     }
 
-    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
-        self.0.decisions(situation, step)
+    fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
+        self.0.decisions(law_input, step)
     }
 }
 

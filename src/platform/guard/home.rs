@@ -84,7 +84,7 @@ impl Machine {
     }
 
     /// True if the way home from rest in these coordinates is certified.
-    pub fn sees_home(&self, rest: &PlatformCoordinates) -> bool {
+    pub fn has_way_home(&self, rest: &PlatformCoordinates) -> bool {
         let distance = Distance::of(rest, self.radius);
         let turning = distance.angular * distance.angular * self.radius;
         let chord_gap = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
@@ -145,7 +145,7 @@ impl Machine {
 
     /// The state `step` seconds later on the straight way to neutral. The platform is at rest, or
     /// moves along that way already. `fraction` reduces speed and acceleration.
-    pub fn homeward(
+    pub fn homing_fraction(
         &self,
         now: &PlatformCoordinates,
         safety: &SafetyParameters,

@@ -54,7 +54,7 @@ struct Deviation {
     /// Time for which the input has been at rest meanwhile \[s\].
     resting: f64,
     /// The fraction of its speed with which the platform goes straight home, if it does.
-    homeward: Option<f64>,
+    homing_fraction: Option<f64>,
 }
 
 /// Time for which the input rests while the platform is kept from its demand, before the platform
@@ -99,26 +99,26 @@ impl ActuatorGuard {
             self.now = *demand;
             self.plan.restart(&demand.coordinates, StopDurations::common(duration));
         } else {
-            self.advance_in_doubt(demand, safety, resting, step);
+            self.advance_uncertified(demand, safety, resting, step);
         }
     }
 
     /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
-    fn advance_in_doubt(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
+    fn advance_uncertified(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
         let joined = self.deviation.is_none() || self.has_caught_up(demand, safety, step);
         let followed = self.plan.advanced(step);
-        let plan = if joined { self.certified_to_see_home(demand, &followed, safety, step) } else { None };
+        let plan = if joined { self.certified_with_way_home(demand, &followed, safety, step) } else { None };
         if let Some(plan) = plan {
             (self.now, self.plan, self.deviation) = (*demand, plan, None);
             return;
         }
         let before = self.now.legs;
-        let (resting, homeward) = self.rest_time(resting, step);
+        let (resting, homing_fraction) = self.rest_time(resting, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
-        let stops = resting > REST_BEFORE_RETURN && homeward.is_none();
-        let found = if stops { None } else { self.nearest(demand, &followed, homeward, safety, step) };
-        let homeward = homeward.map(|fraction| {
+        let stops = resting > REST_BEFORE_RETURN && homing_fraction.is_none();
+        let found = if stops { None } else { self.nearest(demand, &followed, homing_fraction, safety, step) };
+        let homing_fraction = homing_fraction.map(|fraction| {
             if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
         });
         let (next, plan) = found.unwrap_or_else(|| (self.state_on_plan(&followed, step), followed));
@@ -127,7 +127,7 @@ impl ActuatorGuard {
             demand: demand.coordinates,
             leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
             resting,
-            homeward,
+            homing_fraction,
         });
     }
 
@@ -135,11 +135,11 @@ impl ActuatorGuard {
     /// [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home, and the
     /// fraction of its speed is given. It goes on until it joins its demand or the input moves.
     fn rest_time(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
-        let Some(Deviation { resting: before, homeward, .. }) = self.deviation.filter(|_| resting) else {
+        let Some(Deviation { resting: before, homing_fraction, .. }) = self.deviation.filter(|_| resting) else {
             return (0.0, None);
         };
         let at_rest = Speed::of(&self.now.coordinates) == Speed::default();
-        (before + step, homeward.or_else(|| (before > REST_BEFORE_RETURN && at_rest).then_some(1.0)))
+        (before + step, homing_fraction.or_else(|| (before > REST_BEFORE_RETURN && at_rest).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
@@ -160,7 +160,7 @@ impl ActuatorGuard {
     }
 
     /// As [`ActuatorGuard::certified`], with a certified way home from the end of the stop.
-    fn certified_to_see_home(
+    fn certified_with_way_home(
         &self,
         to: &PlatformState,
         followed: &StopPlan,
@@ -169,7 +169,7 @@ impl ActuatorGuard {
     ) -> Option<StopPlan> {
         let plan = self.certified(to, followed, safety, step)?;
         let [.., duration] = plan.durations().breakpoints();
-        let sees = self.machine.sees_home_by_bounds(to, duration) || self.machine.sees_home(&plan.at(duration));
+        let sees = self.machine.sees_home_by_bounds(to, duration) || self.machine.has_way_home(&plan.at(duration));
         sees.then_some(plan)
     }
 

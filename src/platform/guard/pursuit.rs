@@ -16,28 +16,28 @@ const BISECTION_STEPS: usize = 6;
 
 impl ActuatorGuard {
     /// The certified state nearest to a pursuit of the demand, with its plan, if there is one.
-    /// `followed` is the plan held, at the step's end. With `homeward`, neutral is pursued on the
+    /// `followed` is the plan held, at the step's end. With `homing_fraction`, neutral is pursued on the
     /// straight way there, with this fraction of the speed.
     pub(super) fn nearest(
         &self,
         demand: &PlatformState,
         followed: &StopPlan,
-        homeward: Option<f64>,
+        homing_fraction: Option<f64>,
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<(PlatformState, StopPlan)> {
         let now = &self.now.coordinates;
         let on_plan = followed.now();
-        let pursued = match homeward {
-            Some(fraction) => self.machine.homeward(now, safety, fraction, step),
+        let pursued = match homing_fraction {
+            Some(fraction) => self.machine.homing_fraction(now, safety, fraction, step),
             None => self.pursued(now, &demand.legs, safety, step),
         };
         farthest_certified(|fraction| {
             let trial = self.machine.state(on_plan.towards(&pursued, fraction, now, step));
-            let plan = match homeward {
+            let plan = match homing_fraction {
                 // A part of a certified way home is certified.
                 Some(_) => self.certified(&trial, followed, safety, step),
-                None => self.certified_to_see_home(&trial, followed, safety, step),
+                None => self.certified_with_way_home(&trial, followed, safety, step),
             }?;
             Some((trial, plan))
         })

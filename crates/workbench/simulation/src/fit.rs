@@ -268,7 +268,7 @@ impl<'a> Search<'a> {
         let Some(desired) = &self.heave else { return Ok(1.0) };
         let mean_square = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
         let asked = mean_square(&mut desired.iter().copied());
-        if asked.sqrt() <= crate::measures::shape::LEAST_DESIRED * (desired.len() as f64).sqrt() {
+        if asked.sqrt() <= crate::measures::shape::MIN_DESIRED_RMS * (desired.len() as f64).sqrt() {
             return Ok(1.0);
         }
         for heave in HEAVE_FACTORS {

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
-use super::horizon::{BLOCKS, FORECAST, Horizon};
+use super::horizon::{BLOCKS, FORECAST_TIME, Horizon};
 
 /// Decay of the slow and the fast part of a reference that fades \[1/s\].
 pub const FADE_DECAY: [f64; 2] = [0.1, 3.0];
@@ -24,7 +24,7 @@ impl Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let means =
             SVector::from_fn(|k, _| (self.integral(ends[k]) - self.integral(ends[k] - durations[k])) / durations[k]);
-        let faded = |part: usize| libm::exp(-FADE_DECAY[part] * (ends[BLOCKS - 1] - FORECAST).max(0.0));
+        let faded = |part: usize| libm::exp(-FADE_DECAY[part] * (ends[BLOCKS - 1] - FORECAST_TIME).max(0.0));
         Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(part)) }
     }
 
@@ -34,7 +34,7 @@ impl Forecast {
         let blocks = Horizon::Near.ends().into_iter().zip(*Horizon::Near.durations());
         let within = |(end, duration): (f64, f64)| (time - (end - duration)).clamp(0.0, duration);
         let inside: f64 = self.means.iter().zip(blocks).map(|(mean, block)| mean * within(block)).sum();
-        let beyond = (time - FORECAST).max(0.0);
+        let beyond = (time - FORECAST_TIME).max(0.0);
         let tail = |part: usize| self.end[part] * (1.0 - libm::exp(-FADE_DECAY[part] * beyond)) / FADE_DECAY[part];
         inside + tail(0) + tail(1)
     }

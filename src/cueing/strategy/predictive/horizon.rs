@@ -10,11 +10,11 @@ pub const BLOCKS: usize = 8;
 /// Time between two samples of the reference, and between two plans \[s\].
 pub const PLAN_INTERVAL: f64 = 0.02;
 /// Time over which the reference is forecast: the near horizon's \[s\] ...
-pub const FORECAST: f64 = 3.0;
+pub const FORECAST_TIME: f64 = 3.0;
 /// ... and in samples.
 pub const FORECAST_SAMPLES: usize = 150;
 /// Number of samples in each block of the near horizon.
-pub const SAMPLES: [usize; BLOCKS] = [2, 3, 5, 9, 14, 22, 36, 59];
+pub const BLOCK_SAMPLES: [usize; BLOCKS] = [2, 3, 5, 9, 14, 22, 36, 59];
 
 /// Length of a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,7 +65,7 @@ pub fn reserved(time: f64) -> f64 {
 /// Number of samples from now to the end of each block of the near horizon.
 pub fn end_samples() -> [usize; BLOCKS] {
     let mut count = 0;
-    SAMPLES.map(|samples| {
+    BLOCK_SAMPLES.map(|samples| {
         count += samples;
         count
     })
@@ -77,16 +77,16 @@ mod tests {
 
     #[test]
     fn blocks_of_the_near_horizon_are_whole_numbers_of_samples_and_fill_the_forecast() {
-        for (duration, samples) in Horizon::Near.durations().iter().zip(SAMPLES) {
+        for (duration, samples) in Horizon::Near.durations().iter().zip(BLOCK_SAMPLES) {
             assert!((duration - samples as f64 * PLAN_INTERVAL).abs() < 1e-15);
         }
-        assert!((Horizon::Near.ends()[BLOCKS - 1] - FORECAST).abs() < 1e-15);
+        assert!((Horizon::Near.ends()[BLOCKS - 1] - FORECAST_TIME).abs() < 1e-15);
         assert_eq!(end_samples()[BLOCKS - 1], FORECAST_SAMPLES);
     }
 
     #[test]
     fn the_far_horizon_is_twice_the_near_one() {
-        assert!((Horizon::Far.ends()[BLOCKS - 1] - 2.0 * FORECAST).abs() < 1e-14);
+        assert!((Horizon::Far.ends()[BLOCKS - 1] - 2.0 * FORECAST_TIME).abs() < 1e-14);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::horizon::{BLOCKS, Horizon};
 use super::program::Nodes;
-use crate::cueing::strategy::law::Circumstances;
+use crate::cueing::strategy::law::StepContext;
 use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 use crate::platform::reach::{neutral_lengths, reserve_fraction};
@@ -13,7 +13,7 @@ use crate::platform::{Geometry, Pose, lengths_with_jacobian};
 
 /// The rig, and the motion of the platform that is not planned.
 #[derive(Clone, Copy, Debug)]
-pub struct Surroundings<'a> {
+pub struct LegContext<'a> {
     pub geometry: &'a Geometry,
     /// Height of the platform's origin at neutral \[m\].
     pub neutral_height: f64,
@@ -69,13 +69,13 @@ const HEAVE_RETURN: f64 = 0.4;
 /// Largest heave beside a plan \[m\]. More would take the legs' stroke from surge and sway.
 pub const LARGEST_HEAVE: f64 = 0.1;
 
-impl<'a> Surroundings<'a> {
+impl<'a> LegContext<'a> {
     /// Those of a step.
-    pub fn of(circumstances: &Circumstances<'a>) -> Self {
-        let Circumstances { parameters, guard, angles, .. } = *circumstances;
+    pub fn of(context: &StepContext<'a>) -> Self {
+        let StepContext { parameters, guard, angles, .. } = *context;
         let Parameters { rig, predictive, angular, splitter, .. } = parameters;
         let linear = &guard.now().coordinates.linear;
-        Surroundings {
+        LegContext {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,
             stroke: rig.stroke(),
@@ -123,24 +123,24 @@ fn free_response(value: f64, rate: f64, frequency: f64, time: f64) -> f64 {
 }
 
 /// The legs at each node of a plan for surge and sway, near the poses of the plan before.
-pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2], horizon: Horizon) -> [[LegRow; 6]; BLOCKS] {
+pub fn leg_rows(leg_context: &LegContext, plan: &[Nodes; 2], horizon: Horizon) -> [[LegRow; 6]; BLOCKS] {
     let ends = horizon.ends();
     core::array::from_fn(|node| {
-        let heave = surroundings.heave_after(ends[node]);
+        let heave = leg_context.heave_after(ends[node]);
         let states = plan.each_ref().map(|axis| axis.at(node));
         let (position, tilt) = (states.map(|axis| axis.position), states.map(|axis| axis.tilt));
-        legs_near(surroundings, &surroundings.angles_after(ends[node]), position, tilt, heave)
+        legs_near(leg_context, &leg_context.angles_after(ends[node]), position, tilt, heave)
     })
 }
 
 fn legs_near(
-    surroundings: &Surroundings,
+    leg_context: &LegContext,
     angles: &Vector3<f64>,
     position: [f64; 2],
     tilt: [f64; 2],
     heave: f64,
 ) -> [LegRow; 6] {
-    let Surroundings { geometry, neutral_height, .. } = *surroundings;
+    let LegContext { geometry, neutral_height, .. } = *leg_context;
     let orientation = Orientation::new(RollPitchYaw::new(angles.x + tilt[1], angles.y - tilt[0], angles.z));
     let pose = Pose { position: Vector3::new(position[0], position[1], neutral_height + heave), orientation };
     let (lengths, jacobian) = lengths_with_jacobian(geometry, &pose);
@@ -165,9 +165,9 @@ pub(super) mod tests {
     use crate::platform::leg_lengths;
 
     /// The default rig's, with a platform that only the plan moves.
-    pub fn surroundings(geometry: &Geometry) -> Surroundings<'_> {
+    pub fn leg_context(geometry: &Geometry) -> LegContext<'_> {
         let rig = Rig::default();
-        Surroundings {
+        LegContext {
             geometry,
             neutral_height: rig.neutral_height,
             stroke: [rig.min_length, rig.max_length],
@@ -190,15 +190,15 @@ pub(super) mod tests {
     #[test]
     fn angles_go_on_as_the_high_pass_lets_them_while_the_vehicle_turns_steadily() {
         let geometry = Geometry::from(&Rig::default());
-        let surroundings = Surroundings {
+        let leg_context = LegContext {
             angles: Vector3::new(0.05, -0.04, 0.1),
             angle_rates: Vector3::new(0.2, 0.0, -0.3),
             frequencies: Vector3::new(0.9, 0.6, 1.0),
-            ..surroundings(&geometry)
+            ..leg_context(&geometry)
         };
         // y'' + 2 w y' + w^2 y = 0, by small steps of the midpoint rule.
-        let (mut angles, mut rates) = (surroundings.angles, surroundings.angle_rates);
-        let w = surroundings.frequencies;
+        let (mut angles, mut rates) = (leg_context.angles, leg_context.angle_rates);
+        let w = leg_context.frequencies;
         let acceleration = |angles: &Vector3<f64>, rates: &Vector3<f64>| {
             -(2.0 * w.component_mul(rates) + w.component_mul(&w).component_mul(angles))
         };
@@ -210,20 +210,19 @@ pub(super) mod tests {
             angles += step * middle_rates;
             rates += step * acceleration(&middle_angles, &middle_rates);
         }
-        assert!((surroundings.angles_after(time) - angles).amax() < 1e-8);
+        assert!((leg_context.angles_after(time) - angles).amax() < 1e-8);
     }
 
     #[test]
     fn slopes_are_those_of_finite_differences() {
         let geometry = Geometry::from(&Rig::default());
-        let surroundings =
-            Surroundings { heave: 0.03, angles: Vector3::new(0.05, -0.04, 0.1), ..surroundings(&geometry) };
+        let leg_context = LegContext { heave: 0.03, angles: Vector3::new(0.05, -0.04, 0.1), ..leg_context(&geometry) };
         let (position, tilt) = ([0.1, -0.2], [0.15, -0.1]);
         let length = |position: [f64; 2], tilt: [f64; 2], leg: usize| {
-            length(&legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03)[leg], position, tilt)
+            length(&legs_near(&leg_context, &leg_context.angles, position, tilt, 0.03)[leg], position, tilt)
         };
         let step = 1e-5;
-        for (leg, row) in legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03).iter().enumerate() {
+        for (leg, row) in legs_near(&leg_context, &leg_context.angles, position, tilt, 0.03).iter().enumerate() {
             for axis in 0..2 {
                 let moved = |values: [f64; 2], by: f64| {
                     let mut moved = values;
@@ -245,21 +244,21 @@ pub(super) mod tests {
     fn rows_are_about_the_plan_before_while_heave_and_turns_fade() {
         let rig = Rig::default();
         let geometry = Geometry::from(&rig);
-        let surroundings = Surroundings {
+        let leg_context = LegContext {
             heave: 0.05,
             heave_velocity: -0.2,
             angles: Vector3::new(0.05, -0.04, 0.1),
             angle_rates: Vector3::new(0.2, 0.1, -0.3),
             frequencies: Vector3::new(0.9, 0.6, 1.0),
-            ..surroundings(&geometry)
+            ..leg_context(&geometry)
         };
         let plan = [0.1, -0.07].map(|start| Nodes(SVector::from_fn(|k, _| start * (1.0 + 0.1 * k as f64))));
         for horizon in [Horizon::Near, Horizon::Far] {
-            let rows = leg_rows(&surroundings, &plan, horizon);
+            let rows = leg_rows(&leg_context, &plan, horizon);
             for (node, end) in horizon.ends().into_iter().enumerate() {
                 // Critically damped at 0.4 times 5 rad/s.
                 let heave = (0.05 + (-0.2 + 2.0 * 0.05) * end) * (-2.0 * end).exp();
-                let angles = surroundings.angles_after(end);
+                let angles = leg_context.angles_after(end);
                 let states = plan.map(|axis| axis.at(node));
                 let (position, tilt) = (states.map(|axis| axis.position), states.map(|axis| axis.tilt));
                 let pose = Pose {
@@ -278,7 +277,7 @@ pub(super) mod tests {
     fn heave_is_expected_within_its_bound() {
         let geometry = Geometry::from(&Rig::default());
         for sign in [1.0, -1.0] {
-            let fast = Surroundings { heave_velocity: sign * 2.0, ..surroundings(&geometry) };
+            let fast = LegContext { heave_velocity: sign * 2.0, ..leg_context(&geometry) };
             assert_eq!(fast.heave_after(0.4), sign * 0.1);
         }
     }
@@ -287,13 +286,13 @@ pub(super) mod tests {
     fn a_margin_leaves_half_the_room_at_neutral() {
         let rig = Rig::default();
         let geometry = Geometry::from(&rig);
-        let neutral = surroundings(&geometry);
+        let neutral = leg_context(&geometry);
         let rest = length(&legs_near(&neutral, &Vector3::zeros(), [0.0; 2], [0.0; 2], 0.0)[0], [0.0; 2], [0.0; 2]);
         for (below, above, margin, kept) in
             [(0.2, 0.3, 0.015, [0.015, 0.015]), (0.01, 0.3, 0.015, [0.005, 0.015]), (0.2, 0.0, 0.5, [0.1, 0.0])]
         {
-            let surroundings = Surroundings { stroke: [rest - below, rest + above], margin, ..neutral };
-            let [min, max] = surroundings.planned_stroke();
+            let leg_context = LegContext { stroke: [rest - below, rest + above], margin, ..neutral };
+            let [min, max] = leg_context.planned_stroke();
             assert!((min - (rest - below + kept[0])).abs() < 1e-9 && (max - (rest + above - kept[1])).abs() < 1e-9);
             assert!((min..=max).contains(&rest) || (rest - max).abs() < 1e-9);
         }

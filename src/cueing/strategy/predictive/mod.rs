@@ -29,12 +29,12 @@ use self::dual_active_set::{DualActiveSet, Status};
 use self::forecast::{Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, PLAN_INTERVAL, reserved};
 use self::idle_return::IdleReturn;
-use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
+use self::legs::{LARGEST_HEAVE, LegContext, leg_rows};
 use self::preview::{PreviewedCue, TIME_ROUNDING};
 use self::program::{
     AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, ROWS, TILT_RAMP_TIME,
 };
-use super::law::{AxisState, Decision, Jump, Law, PlanStatus, Previewed, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, LawInput, PlanStatus, Previewed, Unsolvable};
 use super::regulator::{AxisModel, Weights};
 use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
@@ -133,15 +133,15 @@ impl Law for Box<Predictive> {
         self.retune(models, &(&parameters.predictive).into()).map(|()| [Jump::default(); 2])
     }
 
-    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
-        let Situation { states, references, circumstances } = situation;
-        let decisions = self.decide(states, &Surroundings::of(circumstances), circumstances.time_to_stop, step);
-        let cue = [0, 1].map(|k: usize| circumstances.force[k]);
-        let unknown = self.preview_length() < SHORTEST_PREVIEW && circumstances.time_to_stop.is_infinite();
+    fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
+        let LawInput { states, references, context } = law_input;
+        let decisions = self.decide(states, &LegContext::of(context), context.time_to_stop, step);
+        let cue = [0, 1].map(|k: usize| context.force[k]);
+        let unknown = self.preview_length() < SHORTEST_PREVIEW && context.time_to_stop.is_infinite();
         for (idle_return, cue) in self.idle_return.iter_mut().zip(cue) {
             idle_return.advance(cue, unknown, step);
         }
-        let rates = circumstances.angles.velocity;
+        let rates = context.angles.velocity;
         self.observe(*references, [0, 1].map(|k: usize| references[k] - cue[k]), &rates, step);
         decisions.map(|decisions| {
             [0, 1].map(|k: usize| Decision {
@@ -262,7 +262,7 @@ impl Predictive {
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],
-        surroundings: &Surroundings,
+        leg_context: &LegContext,
         time_to_stop: f64,
         step: f64,
     ) -> Option<[Decision; 2]> {
@@ -270,7 +270,7 @@ impl Predictive {
             if !self.glide.is_over() && self.until_followed <= 0.0 {
                 self.follow_glide();
             }
-            self.begin(states, surroundings, time_to_stop);
+            self.begin(states, leg_context, time_to_stop);
         } else {
             self.proceed(step);
         }
@@ -328,7 +328,7 @@ impl Predictive {
     }
 
     /// Begins a new plan from these states.
-    fn begin(&mut self, states: &[AxisState; 2], surroundings: &Surroundings, time_to_stop: f64) {
+    fn begin(&mut self, states: &[AxisState; 2], leg_context: &LegContext, time_to_stop: f64) {
         self.due = false;
         self.begun = 0.0;
         let preview = self.preview_length();
@@ -353,7 +353,7 @@ impl Predictive {
             self.limits.lower.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(-bounds - free));
             self.limits.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&(bounds - free));
         }
-        self.limit_legs(surroundings);
+        self.limit_legs(leg_context);
         self.solver.start(&self.programs.over(horizon).factor, &gradient);
     }
 
@@ -363,15 +363,15 @@ impl Predictive {
     }
 
     /// Sets the rows of the actuators, in halves of the stroke.
-    fn limit_legs(&mut self, surroundings: &Surroundings) {
-        let planned = surroundings.planned_stroke();
+    fn limit_legs(&mut self, leg_context: &LegContext) {
+        let planned = leg_context.planned_stroke();
         let scale = 2.0 / (planned[1] - planned[0]);
         let ends = self.horizon.ends();
         // After a change of horizon the plan's nodes are at other times: the rows are less exact for once.
-        for (node, legs) in leg_rows(surroundings, &self.plan.nodes, self.horizon).iter().enumerate() {
+        for (node, legs) in leg_rows(leg_context, &self.plan.nodes, self.horizon).iter().enumerate() {
             let part = reserved(ends[node]);
             let [min, max] = [0, 1].map(|end: usize| {
-                let stroke = surroundings.stroke[end];
+                let stroke = leg_context.stroke[end];
                 stroke + part * (planned[end] - stroke)
             });
             let states = self.free.each_ref().map(|axis| axis.at(node));

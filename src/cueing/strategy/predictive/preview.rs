@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use super::expected::{FADE_DECAY, Forecast};
-use super::horizon::{BLOCKS, FORECAST, Horizon};
+use super::horizon::{BLOCKS, FORECAST_TIME, Horizon};
 use crate::interface::{PREVIEW_SAMPLES, Preview};
 
 /// Time constant with which the angular channel's part of the reference is expected to fade \[s\].
@@ -246,8 +246,8 @@ impl Previewed<'_> {
         if time <= length {
             return [slow, self.ahead.value(time) - slow];
         }
-        if time >= length + FORECAST {
-            let fading = time - length - FORECAST;
+        if time >= length + FORECAST_TIME {
+            let fading = time - length - FORECAST_TIME;
             return [0, 1].map(|part: usize| self.after.end[part] * libm::exp(-FADE_DECAY[part] * fading));
         }
         let mut value = self.ahead.last();

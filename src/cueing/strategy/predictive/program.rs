@@ -69,9 +69,9 @@ pub type Data = SVector<f64, DATA>;
 const DATA: usize = BLOCKS + 8;
 /// The start's dropped force, its tilt acceleration relative to the limit, and the first mean among
 /// the data.
-const DROPPED: usize = 4;
-const TILTING: usize = 5;
-const MEANS: usize = 6;
+const DROPPED_INDEX: usize = 4;
+const TILTING_INDEX: usize = 5;
+const MEANS_INDEX: usize = 6;
 /// The variables of an axis.
 pub type AxisControls = SVector<f64, AXIS_CONTROLS>;
 
@@ -263,7 +263,7 @@ impl AxisProgram {
         };
         for (block, &duration) in horizon.durations().iter().enumerate() {
             for (first, start, [before, mixed, after]) in
-                [(0, DROPPED, dropped_square(duration)), (BLOCKS, TILTING, tilt_square(duration))]
+                [(0, DROPPED_INDEX, dropped_square(duration)), (BLOCKS, TILTING_INDEX, tilt_square(duration))]
             {
                 let node = first + block;
                 hessian[(node, node)] += after;
@@ -458,8 +458,8 @@ impl AxisProgram {
         let tilting = state.tilt_acceleration / self.model.acceleration_limit;
         let start = [state.position, state.velocity, state.tilt, state.tilt_rate, dropped_force, tilting];
         Data::from_fn(|k, _| match k {
-            0..MEANS => start[k],
-            k if k < DATA - 2 => forecast.means[k - MEANS],
+            0..MEANS_INDEX => start[k],
+            k if k < DATA - 2 => forecast.means[k - MEANS_INDEX],
             k => forecast.end[k + 2 - DATA],
         })
     }
@@ -501,7 +501,7 @@ fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisC
     let mut nodes = Nodes::at_rest();
     let [mut x, mut v, mut q, mut w] = [data[0], data[1], data[2], data[3]];
     let gravity = GRAVITY_ALONG_TILT * model.gravity;
-    let (mut dropped, mut alpha) = (data[DROPPED], model.acceleration_limit * data[TILTING]);
+    let (mut dropped, mut alpha) = (data[DROPPED_INDEX], model.acceleration_limit * data[TILTING_INDEX]);
     for (block, &t) in horizon.durations().iter().enumerate() {
         let (next_dropped, next_alpha) = (controls[block], model.acceleration_limit * controls[BLOCKS + block]);
         // The tilt's acceleration, less its value after the ramp, once to four times integrated.
@@ -511,7 +511,7 @@ fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisC
         // The tilt's first and second integral over the block.
         let once = t * (q + t * (w / 2.0 + t * next_alpha / 6.0)) + by3;
         let twice = t * t * (q / 2.0 + t * (w / 6.0 + t * next_alpha / 24.0)) + by4;
-        let mean = data[MEANS + block];
+        let mean = data[MEANS_INDEX + block];
         let dropped_once = t * (dropped + next_dropped) / 2.0;
         let dropped_twice = t * t * (2.0 * dropped + next_dropped) / 6.0;
         x += t * v + t * t * mean / 2.0 + dropped_twice + model.head_height * turned_twice - gravity * twice;

@@ -6,7 +6,7 @@ use crate::platform::Geometry;
 use nalgebra::SMatrix;
 
 use dual_active_set::tests::{DenseRows, Program, compare};
-use legs::tests::{length, surroundings};
+use legs::tests::{leg_context, length};
 use std::f64::consts::TAU;
 
 const MODEL: AxisModel = AxisModel {
@@ -31,30 +31,30 @@ fn rows(predictive: &Predictive) -> DenseRows<CONTROLS, ROWS> {
 /// Advances by `steps` steps of 1 ms at this reference. Returns the last step's decisions.
 fn passed(predictive: &mut Predictive, steps: usize, reference: f64) -> Option<[Decision; 2]> {
     let geometry = Geometry::from(&Rig::default());
-    passed_in(predictive, &surroundings(&geometry), steps, &[AxisState::default(); 2], [reference; 2])
+    passed_in(predictive, &leg_context(&geometry), steps, &[AxisState::default(); 2], [reference; 2])
 }
 
-/// The same in other surroundings, in these states, and at references of surge and sway.
+/// The same in other leg_context, in these states, and at references of surge and sway.
 fn passed_in(
     predictive: &mut Predictive,
-    surroundings: &Surroundings,
+    leg_context: &LegContext,
     steps: usize,
     states: &[AxisState; 2],
     references: [f64; 2],
 ) -> Option<[Decision; 2]> {
     let mut decisions = None;
     for _ in 0..steps {
-        decisions = predictive.decide(states, surroundings, f64::INFINITY, 0.001);
+        decisions = predictive.decide(states, leg_context, f64::INFINITY, 0.001);
         predictive.observe(references, [0.0; 2], &Vector3::zeros(), 0.001);
     }
     decisions
 }
 
-/// Surroundings in which the legs may leave the middle of their stroke by `half` only.
-fn narrow(geometry: &Geometry, half: f64) -> Surroundings<'_> {
-    let neutral = surroundings(geometry);
+/// LegContext in which the legs may leave the middle of their stroke by `half` only.
+fn narrow(geometry: &Geometry, half: f64) -> LegContext<'_> {
+    let neutral = leg_context(geometry);
     let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
-    Surroundings { stroke: [middle - half, middle + half], ..neutral }
+    LegContext { stroke: [middle - half, middle + half], ..neutral }
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn a_step_of_up_to_1_ms_has_eight_iterations_and_a_longer_one_more_in_proportion
     }
     let geometry = Geometry::from(&Rig::default());
     let advanced = |predictive: &mut Predictive, step: f64| {
-        predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, step);
+        predictive.decide(&[AxisState::default(); 2], &leg_context(&geometry), f64::INFINITY, step);
         predictive.solver.iterations()
     };
     advanced(&mut before, 0.001);
@@ -163,7 +163,7 @@ fn the_dropped_force_is_continuous_from_plan_to_plan() {
         let references = [3.0 * (0.7 * t).sin(), 2.0 * (1.1 * t).sin()];
         // A stop that is foreseen now and then changes the horizon.
         let time_to_stop = if k / 700 % 2 == 0 { f64::INFINITY } else { 2.0 };
-        let decisions = predictive.decide(&states, &surroundings(&geometry), time_to_stop, STEP).unwrap();
+        let decisions = predictive.decide(&states, &leg_context(&geometry), time_to_stop, STEP).unwrap();
         for (axis, state) in states.iter_mut().enumerate() {
             let dropped = decisions[axis].dropped_force;
             steepest = steepest.max((dropped - before[axis]).abs());
@@ -186,7 +186,7 @@ fn the_dropped_force_is_smooth_where_the_plan_is_not() {
     let mut before = 0.0;
     for k in 0..100 {
         let states = [AxisState::default(); 2];
-        let [surge, sway] = predictive.decide(&states, &surroundings(&geometry), f64::INFINITY, 0.001).unwrap();
+        let [surge, sway] = predictive.decide(&states, &leg_context(&geometry), f64::INFINITY, 0.001).unwrap();
         // Up to the first node at 40 ms, and down to the second one.
         let expected: f64 = if k < 40 { 0.025 } else { -0.025 };
         assert!((surge.dropped_force - before - expected).abs() < 1e-12 && sway.dropped_force == 0.0);
@@ -285,7 +285,7 @@ fn each_axis_is_planned_for_its_own_reference() {
     let geometry = Geometry::from(&Rig::default());
     for references in [[1.0, 0.0], [0.0, 1.0]] {
         let mut predictive = predictive();
-        passed_in(&mut predictive, &surroundings(&geometry), 500, &[AxisState::default(); 2], references);
+        passed_in(&mut predictive, &leg_context(&geometry), 500, &[AxisState::default(); 2], references);
         for (controls, reference) in predictive.plan.controls.iter().zip(references) {
             assert_eq!(controls.amax() > 0.01, reference > 0.0, "{controls} for {reference} m/s2");
         }
@@ -298,7 +298,7 @@ fn begun(predictive: &mut Predictive, reference: f64, time_to_stop: f64) {
     for _ in 0..1000 {
         predictive.observe([reference; 2], [0.0; 2], &Vector3::zeros(), 0.001);
     }
-    predictive.begin(&[AxisState::default(); 2], &surroundings(&geometry), time_to_stop);
+    predictive.begin(&[AxisState::default(); 2], &leg_context(&geometry), time_to_stop);
 }
 
 #[test]
@@ -402,7 +402,7 @@ fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds(
             [[(2.5, 0.07), (1.5, 0.21), (0.8, 0.9), (0.3, 11.0)], [(1.8, 0.09), (1.2, 0.33), (0.7, 1.1), (0.3, 13.0)]]
                 .map(waves);
         let due = predictive.due;
-        let decisions = predictive.decide(&states, &surroundings(&geometry), f64::INFINITY, STEP).unwrap_or_default();
+        let decisions = predictive.decide(&states, &leg_context(&geometry), f64::INFINITY, STEP).unwrap_or_default();
         if due && predictive.solver.status() == Status::Running && predictive.solver.iterations() == 0 {
             begun += 1;
             if begun % 5 == 0 {

@@ -115,9 +115,9 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
         demand: PlatformCoordinates::default(),
         leg_accelerations: [0.0; 6],
         resting: 0.0,
-        homeward: None,
+        homing_fraction: None,
     });
-    (neutral - shortest > 0.017 && guard.machine.sees_home(&rest)).then_some((guard, safety))
+    (neutral - shortest > 0.017 && guard.machine.has_way_home(&rest)).then_some((guard, safety))
 }
 
 #[test]

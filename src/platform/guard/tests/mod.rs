@@ -284,7 +284,7 @@ fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
             let plan = machine.certify(&from, &to, &safety, step);
             let duration = plan.map(|plan| plan.durations().breakpoints()[3]);
             let bounds = machine.certify_home_by_bounds(&from, &to, &safety, step).is_some();
-            let home = |(plan, duration): &(StopPlan, f64)| bounds || machine.sees_home(&plan.at(*duration));
+            let home = |(plan, duration): &(StopPlan, f64)| bounds || machine.has_way_home(&plan.at(*duration));
             let Some((plan, duration)) = plan.zip(duration).filter(home) else {
                 count(&refused);
                 return Ok(());

@@ -2,7 +2,7 @@
 //!
 //! Both forces are taken below [`CUE_FREQUENCY`], by a Butterworth low-pass of second order,
 //! forward and backward, so that it shifts nothing in time. An axis counts where the desired force
-//! exceeds [`LEAST_DESIRED`].
+//! exceeds [`MIN_DESIRED_RMS`].
 
 use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -14,7 +14,7 @@ use super::zero_phase::zero_phase;
 /// Frequency below which a force is a cue of the vehicle's manoeuvre \[Hz\].
 pub const CUE_FREQUENCY: f64 = 2.0;
 /// RMS of the desired force above which an axis counts \[m/s2\].
-pub const LEAST_DESIRED: f64 = 0.1;
+pub const MIN_DESIRED_RMS: f64 = 0.1;
 
 /// Shape of the felt force on one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +78,7 @@ impl Desired {
     /// The desired specific force \[m/s2\], sampled every `step` seconds.
     pub fn new(force: &[[f64; 3]], step: f64) -> Self {
         let counting = |k: usize| {
-            below_cue_frequency(&series_axis(force, k), step).filter(|low| rms(low.iter().copied()) > LEAST_DESIRED)
+            below_cue_frequency(&series_axis(force, k), step).filter(|low| rms(low.iter().copied()) > MIN_DESIRED_RMS)
         };
         Desired { step, axes: from_fn(counting) }
     }

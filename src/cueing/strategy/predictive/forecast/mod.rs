@@ -23,7 +23,7 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::expected::{FADE_DECAY, Forecast};
-use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, PLAN_INTERVAL, SAMPLES, end_samples};
+use super::horizon::{BLOCK_SAMPLES, BLOCKS, FORECAST_SAMPLES, FORECAST_TIME, Horizon, PLAN_INTERVAL, end_samples};
 use super::preview::{Ahead, Previewed, PreviewedCue, PreviewedCues};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
@@ -208,7 +208,7 @@ fn samples_to_end(target: usize) -> usize {
 /// slow one or the fast one.
 fn exponential(decay: f64, slow: bool) -> Targets {
     let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
-    let end = libm::exp(-decay * FORECAST);
+    let end = libm::exp(-decay * FORECAST_TIME);
     let (slow_end, fast_end) = if slow { (end, 0.0) } else { (0.0, end) };
     Targets::from_fn(|k, _| match k {
         BLOCKS => slow_end,
@@ -225,7 +225,7 @@ fn exponential(decay: f64, slow: bool) -> Targets {
 fn trend() -> Targets {
     let grown = |time: f64| TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME));
     let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
-    Targets::from_fn(|k, _| if k < BLOCKS { grown(ends[k] - 0.5 * durations[k]) } else { 0.5 * grown(FORECAST) })
+    Targets::from_fn(|k, _| if k < BLOCKS { grown(ends[k] - 0.5 * durations[k]) } else { 0.5 * grown(FORECAST_TIME) })
 }
 
 /// Forecast of a slow and a fast part of 1, as a function of the features.
@@ -440,7 +440,7 @@ impl Forecaster {
         let truth = match target {
             BLOCKS => now.low_passes[SLOW_LOW_PASS],
             target if target > BLOCKS => now.value - now.low_passes[SLOW_LOW_PASS],
-            block => (now.integral - self.ago(SAMPLES[block])?.integral) / Horizon::Near.durations()[block],
+            block => (now.integral - self.ago(BLOCK_SAMPLES[block])?.integral) / Horizon::Near.durations()[block],
         };
         Some((then, truth))
     }

@@ -58,10 +58,10 @@ fn over_a_longer_horizon_a_forecast_keeps_its_integral_and_fades() {
     let far = forecast.over(Horizon::Far);
     let sum = |means: &SVector<f64, BLOCKS>, horizon: Horizon| means.dot(&SVector::from(*horizon.durations()));
     let [slow, fast] = FADE_DECAY;
-    let tail = 2.0 * (1.0 - (-slow * FORECAST).exp()) / slow + 0.5 * (1.0 - (-fast * FORECAST).exp()) / fast;
+    let tail = 2.0 * (1.0 - (-slow * FORECAST_TIME).exp()) / slow + 0.5 * (1.0 - (-fast * FORECAST_TIME).exp()) / fast;
     let expected = sum(&forecast.means, Horizon::Near) + tail;
     assert!((sum(&far.means, Horizon::Far) - expected).abs() < 1e-12);
-    assert!((far.end[0] - 2.0 * (-slow * FORECAST).exp()).abs() < 1e-12);
+    assert!((far.end[0] - 2.0 * (-slow * FORECAST_TIME).exp()).abs() < 1e-12);
 }
 
 #[test]
@@ -190,7 +190,7 @@ impl Plain {
         match target {
             BLOCKS => self.low_passes[now][SLOW_LOW_PASS],
             target if target > BLOCKS => self.value(now) - self.low_passes[now][SLOW_LOW_PASS],
-            block => self.mean(now as isize - SAMPLES[block] as isize, now as isize),
+            block => self.mean(now as isize - BLOCK_SAMPLES[block] as isize, now as isize),
         }
     }
 
@@ -273,7 +273,7 @@ fn the_learned_forecast_is_that_of_plain_sums() {
     let mut age = 0;
     for target in 0..TARGETS {
         if target < BLOCKS {
-            age += SAMPLES[target];
+            age += BLOCK_SAMPLES[target];
         }
         for n in 1..=samples {
             let weight = (1.0 - (-PLAN_INTERVAL / MEMORY.selection).exp())
@@ -464,7 +464,7 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
         made.push(previewed.map(|previewed| [forecaster.forecast.means, previewed.means]));
         let mut age = 0;
         for block in 0..BLOCKS {
-            age += SAMPLES[block];
+            age += BLOCK_SAMPLES[block];
             let truth = plain.truth(block, n);
             let Some(means) = n.checked_sub(age + 1).and_then(|then| made[then]) else { continue };
             for which in 0..2 {
