@@ -202,6 +202,14 @@ const ROWS: &[Row] = rows! {
         => ["is speed times the angular velocity wy, not times wz"], "columns = { wy = 'wz', wz = 'wy' }";
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.force.swap_rows(0, 1); s }
         => ["use --columns ax=ay,ay=ax"], "columns = { ax = 'ay', ay = 'ax' }";
+    // The same without a speed.
+    SIX, "", |k, _| { let mut s = flat(k); s.rate.swap_rows(0, 2); s }
+        => ["is speed times the angular velocity wx, not times wz"], "columns = { wx = 'wz', wz = 'wx' }";
+    SIX, "", |k, _| { let mut s = flat(k); s.force.swap_rows(0, 1); s }
+        => ["The yaw rate follows the force along x, not that along y"], "columns = { ax = 'ay', ay = 'ax' }";
+    ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.swap_rows(0, 1); s.rate.swap_rows(0, 1); s }
+        => ["The speed changes as if roll were the pitch", "use --columns roll=pitch,pitch=roll"],
+        "columns = { roll = 'pitch', pitch = 'roll', wx = 'wy', wy = 'wx' }";
     // Channels that do not show what others do.
     SPEED, "", |k, ride| { let mut s = ride[k]; s.force.y -= s.speed * s.rate.z; s }
         => ["Column ay does not follow speed times yaw rate"], "";
@@ -221,6 +229,28 @@ const ROWS: &[Row] = rows! {
     ANGLES, "", |k, ride| Sample { time: ride[k].time, ..ride[if (500..650).contains(&k) { 500 } else { k }] }
         => ["All channels stay at one value from 10.0 s to 13.0 s and then jump: the logger repeated its last line"],
         "";
+    ANGLES, "", |k, ride| Sample { time: ride[k].time, ..ride[if (500..580).contains(&k) { 500 } else { k }] }
+        => ["All channels stay at one value from 10.0 s to 11.6 s"], "";
+    // One sensor of several, by what it measures.
+    SIX, "", |k, ride| Sample { rate: ride[if (500..700).contains(&k) { 500 } else { k }].rate, ..ride[k] }
+        => ["Columns wx, wy, wz stay at one value from 10.0 s to 14.0 s and then jump: the sensor had stopped"], "";
+    ANGLES, "", |k, ride| Sample { angle: ride[if (600..800).contains(&k) { 600 } else { k }].angle, ..ride[k] }
+        => ["Columns roll, pitch, yaw stay at one value from 12.0 s to 16.0 s and then jump", "!wx, wy"], "";
+    // A receiver that has no fix yet.
+    SPEED, "", |k, ride| Sample { speed: if k < 500 { 0.0 } else { ride[k].speed }, ..ride[k] }
+        => ["Column speed stays at one value from 0.0 s to 10.0 s and jumps: it was not measured there", "!times as much"],
+        "";
+    // A receiver of 1 Hz, and a stop.
+    SPEED, "", |k, ride| Sample { speed: ride[k / 50 * 50].speed, ..ride[k] } => ["!stays at one value"], "";
+    // A wrong axis of a vehicle that stands is no sensor that has stopped.
+    SPEED, "", |k, _| {
+        let mut s = flat(k.saturating_sub(200));
+        s.speed -= 4.0;
+        s.force.y -= 4.0 * s.rate.z;
+        s.force.swap_rows(0, 2);
+        Sample { time: 0.02 * k as f64, ..s }
+    }
+        => ["so x is nearest to the vertical", "!stopped"], "";
     // Its last value may look like a wrong axis.
     SPEED, "", |k, ride| { let held = ride[k.min(200)]; Sample { force: held.force, rate: held.rate, ..ride[k] } }
         => ["from 4.0 s to 30.0 s, while the speed changes otherwise: the sensor has stopped. Cut this part off"], "";
@@ -243,6 +273,8 @@ const ROWS: &[Row] = rows! {
     SIX, "gravity = 'removed'\nrate-unit = 'deg/s'",
         |k, ride| Sample { force: ride[k].rate, rate: ride[k].force, ..ride[k] }
         => ["accelerometer and gyroscope seem to be exchanged"], "";
+    SIX, "gravity = 'removed'", |k, ride| Sample { force: ride[k].rate, rate: 1000.0 / GRAVITY * ride[k].force, ..ride[k] }
+        => ["which is gravity in mg", "and --force-unit mg"], "";
     // Signs, frames and gravity.
     ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.y = -s.angle.y; s.rate.y = -s.rate.y; s }
         => ["the pitch has the wrong sign"], "columns = { pitch = '-pitch', wy = '-wy' }";
@@ -268,6 +300,12 @@ const ROWS: &[Row] = rows! {
     ANGLES, "gravity = 'removed'",
         |k, ride| Sample { force: ride[k].rotation() * ride[k].force - GRAVITY * Vector3::z(), ..ride[k] }
         => ["Use --force-frame world."], "force-frame = 'world'";
+    "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw", "", |k, ride| {
+        let mut s = ride[k];
+        s.angle.z += 0.9;
+        Sample { force: s.rotation() * s.force, ..s }
+    }
+        => ["In bends the yaw rate follows the forces along fixed axes"], "force-frame = 'world'";
     ANGLES, "", |k, ride| Sample { rate: ride[k].rotation() * ride[k].rate, ..ride[k] }
         => ["Use --rate-frame world."], "rate-frame = 'world'";
     SIX, "force-frame = 'world'", |k, ride| ride[k] => ["--force-frame world needs roll, pitch and yaw"], "";
@@ -278,6 +316,20 @@ const ROWS: &[Row] = rows! {
         => ["scalar part comes last"], "columns = { qw = 'qz', qx = 'qw', qy = 'qx', qz = 'qy' }";
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [w, x, -y, -z])
         => ["axes that point to the right and down"], "columns = { qy = '-qy', qz = '-qz' }";
+    QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [-x, -y, -z, w])
+        => ["but of an inverse whose scalar part comes last"], "columns = { qw = 'qz', qx = '-qw', qy = '-qx', qz = '-qy' }";
+    QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [w, -x, y, z])
+        => ["but of an inverse of such axes"], "columns = { qx = '-qx' }";
+    // Its heading, read as a roll, turns the vehicle upside down.
+    QUATERNION, "", |k, ride| {
+        let turned = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 2.1) * UnitQuaternion::from_euler_angles(
+            ride[k].angle.x, ride[k].angle.y, ride[k].angle.z);
+        Sample { quaternion: [turned.i, turned.j, turned.k, turned.w], ..ride[k] }
+    }
+        => ["scalar part comes last", "!upside down"], "columns = { qw = 'qz', qx = 'qw', qy = 'qx', qz = 'qy' }";
+    QUATERNION, "", |k, ride| with_quaternion(ride[k], |_| [0.0; 4]) => ["which is no rotation"], "columns = { qw = '', qx = '', qy = '', qz = '' }";
+    ANGLES, "", |k, ride| { let mut s = ride[k]; s.angle.x -= 0.5 * TAU; s }
+        => ["roll and pitch turn the vehicle upside down"], "columns = { roll = '', pitch = '', yaw = '' }";
     // Half a turn about x from it.
     QUATERNION, "", |k, ride| with_quaternion(ride[k], |[w, x, y, z]| [-x, w, -z, y])
         => ["turns the vehicle upside down"], "columns = { qw = '-qx', qx = 'qw', qy = '-qz', qz = 'qy' }";
@@ -322,6 +374,11 @@ const ROWS: &[Row] = rows! {
         => [], "";
     ANGLES, "", |k, _| { let mut s = flat(k); s.force.y = 0.0; s }
         => ["Column ay is constant, 0, while the vehicle drives bends"], "";
+    SPEED, "", |k, _| { let mut s = flat(k); s.force.y /= GRAVITY; s }
+        => ["while the force along x fits the speed", "use --columns \"ay=ay * 9.80665\""],
+        "columns = { ay = 'ay * 9.80665' }";
+    "time,ax,ay,az,wx [deg/s],wy [deg/s],wz [deg/s]", "", |k, ride| ride[k]
+        => ["the angular velocities seem to be in rad/s: correct the header"], "";
     // Signs.
     ANGLES, "", |k, _| { let mut s = flat(k); s.rate.z = -s.rate.z; s }
         => ["lateral force is -1.0 times speed by yaw rate", "use --columns wz=-wz where", "use --columns ay=-ay where",
@@ -344,6 +401,8 @@ const ROWS: &[Row] = rows! {
     SPEED, "", |k, _| Sample { speed: flat(k + 15).speed, ..flat(k) }
         => ["Column speed comes 0.3 s before the force along x"], "";
     SPEED, "", |k, ride| Sample { speed: ride[k.saturating_sub(5)].speed, ..ride[k] } => ["!comes"], "";
+    SPEED, "", |k, _| Sample { rate: flat(k.saturating_sub(25)).rate, ..flat(k) }
+        => ["Column ay comes 0.5 s before speed times yaw rate"], "";
     ANGLES, "", |k, ride| Sample { angle: ride[k.saturating_sub(25)].angle, ..ride[k] }
         => ["Column yaw comes 0.5 s after the angular velocity"], "";
     ANGLES, "", |k, ride| Sample { angle: Sample::of_ride(k + 15, 1.0).angle, ..ride[k] }
@@ -378,6 +437,12 @@ const ROWS: &[Row] = rows! {
     SIX, "gravity = 'removed'", |k, _| in_unit(k, 1.0) => [], "";
     "time,ax [m/s2],ay [m/s2],az [m/s2],wx,wy,wz", "gravity = 'removed'", |k, _| in_unit(k, GRAVITY) => ["!in g"], "";
     SPEED, "gravity = 'removed'", |k, _| in_unit(k, GRAVITY) => ["--force-unit g"], "force-unit = 'g'";
+    // Gravity of slopes that conversion has added does not hide the unit.
+    ANGLES, "gravity = 'removed'", |k, ride| {
+        let up = ride[k].rotation().transpose() * Vector3::z();
+        Sample { force: ride[k].force / GRAVITY - up, ..ride[k] }
+    }
+        => ["the specific force seems to be in g", "--force-unit g"], "force-unit = 'g'";
 };
 
 #[test]

@@ -18,7 +18,7 @@ use super::channels::{BEND_SPEED, Channels, MIN_BEND_FORCE, MIN_SPEED_CHANGE};
 use crate::message::{Message, Remedy};
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{
-    Axes, Conventions, Dimension, ForceUnit, Frame, Gravity, Quantity, SpeedUnit, Unit,
+    Axes, Conventions, Dimension, ForceUnit, Frame, Gravity, Quantity, RateUnit, SpeedUnit, Unit,
 };
 use crate::recording::signal::{centred, integral, is_constant, median, relation, root_mean_square, smooth};
 use crate::texts::text;
@@ -131,7 +131,11 @@ impl Channels<'_> {
         if ratio.is_some_and(is_equal) {
             return ratio;
         }
-        if self.slopes_explain() { Some(1.0) } else { ratio }
+        if self.slopes_explain() {
+            return Some(1.0);
+        }
+        // Gravity on slopes may hide the ratio.
+        ratio.or_else(|| self.ratio_of_force(self.on_slopes(self.angle(1), 1.0).into_iter()))
     }
 
     /// Ratio of the lateral force of bends and speed times yaw rate.
@@ -227,8 +231,16 @@ impl Channels<'_> {
     }
 }
 
-/// A speed that goes with the force along y.
+/// A speed that goes with the force along y; without a speed, a yaw rate that goes with the force
+/// along x.
 pub fn exchanged_forces(channels: &Channels, _: Quantity) -> Option<Message> {
+    if !channels.has(Quantity::Speed) {
+        let surge = channels.smoothed(|(input, _)| input.specific_force.x);
+        let speed = speed_of_bends(channels, 2, &surge)?;
+        let is_expected = speed_of_bends(channels, 2, &channels.lateral()).is_some();
+        let remedy = channels.exchanged_columns([Quantity::Force(0), Quantity::Force(1)], [1.0, speed]);
+        return (!is_expected).then(|| text!["forces-exchanged-in-bends", remedy]);
+    }
     let needed = channels.speed_changes();
     if root_mean_square(&needed) < MIN_SPEED_CHANGE {
         return None;
@@ -243,6 +255,17 @@ pub fn exchanged_forces(channels: &Channels, _: Quantity) -> Option<Message> {
     }
     let remedy = channels.exchanged_columns([Quantity::Force(0), Quantity::Force(1)], [ratio(1)?, 1.0]);
     Some(text!["forces-exchanged", remedy])
+}
+
+/// The speed of bends by a rate and a force \[m/s\], of either sign; none where they are not those
+/// of bends.
+fn speed_of_bends(channels: &Channels, rate: usize, force: &[f64]) -> Option<f64> {
+    // Correlation of two signals that nothing but bends has, and speeds of bends [m/s].
+    const BEND_CORRELATION: f64 = 0.9;
+    const BEND_SPEEDS: [f64; 2] = [2.0, 80.0];
+    let found = relation(&smooth(channels.rate(rate), channels.step), force);
+    let is_clear = found.sizes[1] >= MIN_BEND_FORCE && found.correlation.abs() > BEND_CORRELATION;
+    found.slope().filter(|speed| is_clear && (BEND_SPEEDS[0]..BEND_SPEEDS[1]).contains(&speed.abs()))
 }
 
 /// Two axes of which the angle of each goes with the rate of the other.
@@ -271,10 +294,14 @@ pub fn exchanged_rates(channels: &Channels, quantity: Quantity) -> Option<Messag
 pub fn exchanged_yaw_rate(channels: &Channels, rate: Quantity) -> Option<Message> {
     let Quantity::Rate(axis) = rate else { return None };
     let lateral = channels.lateral();
-    let turning = channels.smoothed(|(input, speed)| speed * input.angular_velocity[axis]);
-    let found = relation(&turning, &lateral).slope_above(MIN_BEND_FORCE);
-    let is_expected = relation(&channels.turning(), &lateral).slope().is_some();
-    if !channels.is_measured(Quantity::Rate(2)) || is_expected || !is_same(found) {
+    let (found, is_expected) = if channels.has(Quantity::Speed) {
+        let turning = channels.smoothed(|(input, speed)| speed * input.angular_velocity[axis]);
+        let found = relation(&turning, &lateral).slope_above(MIN_BEND_FORCE).filter(|ratio| is_same(Some(*ratio)));
+        (found, relation(&channels.turning(), &lateral).slope().is_some())
+    } else {
+        (speed_of_bends(channels, axis, &lateral), channels.speed_of_bends().is_some())
+    };
+    if !channels.is_measured(Quantity::Rate(2)) || is_expected {
         return None;
     }
     let remedy = channels.exchanged_columns([rate, Quantity::Rate(2)], [1.0, found?]);
@@ -292,10 +319,23 @@ pub fn world_forces(channels: &Channels, _: Quantity) -> Option<Message> {
         let to_vehicle = Orientation::new(input.orientation).rotation.transpose();
         let own = input.specific_force - to_vehicle * gravity;
         let given = if conventions.gravity == Gravity::Removed { own } else { input.specific_force - gravity };
-        // Neither level axes nor other ones of the vehicle may explain it as well.
-        [(to_vehicle * given).x, own.x, given.x, -own.x, own.y, -own.y]
+        [to_vehicle * given, own, given]
     };
-    let left = |which: usize| channels.unexplained_speed(inputs.iter().map(|input| accelerations(input)[which]));
+    if !channels.has(Quantity::Speed) {
+        // Without a speed the forces of bends tell it.
+        let speed = |which: usize, axis: usize| {
+            speed_of_bends(channels, 2, &channels.smoothed(|(input, _)| accelerations(input)[which][axis]))
+        };
+        let is_clear = speed(0, 1).is_some_and(|speed| speed > 0.0);
+        let is_other = [(1, 0), (1, 1), (2, 0), (2, 1)].iter().all(|&(which, axis)| speed(which, axis).is_none());
+        return (is_clear && is_other).then(|| text!["world-forces-in-bends"]);
+    }
+    let explained = |input: &Input| {
+        let [world, own, given] = accelerations(input);
+        // Neither level axes nor other ones of the vehicle may explain it as well.
+        [world.x, own.x, given.x, -own.x, own.y, -own.y]
+    };
+    let left = |which: usize| channels.unexplained_speed(inputs.iter().map(|input| explained(input)[which]));
     let world = left(0)?;
     let is_clear = world < CLEAR_FRACTION && (1..6).filter_map(left).all(|other| world < CLEAR_FRACTION * other);
     is_clear.then(|| text!["world-forces"])
@@ -323,10 +363,12 @@ pub fn world_rates(channels: &Channels, _: Quantity) -> Option<Message> {
 
 /// Rates that are those of the quaternion in another convention.
 pub fn quaternion(channels: &Channels, _: Quantity) -> Option<Message> {
-    const OTHERS: [(&str, [&str; 4], Reading); 3] = [
+    const OTHERS: [(&str, [&str; 4], Reading); 5] = [
         ("its inverse", ["qw", "-qx", "-qy", "-qz"], |[w, x, y, z]| [w, -x, -y, -z]),
         ("one whose scalar part comes last", ["qz", "qw", "qx", "qy"], |[w, x, y, z]| [z, w, x, y]),
+        ("an inverse whose scalar part comes last", ["qz", "-qw", "-qx", "-qy"], |[w, x, y, z]| [z, -w, -x, -y]),
         ("one of axes that point to the right and down", ["qw", "qx", "-qy", "-qz"], |[w, x, y, z]| [w, x, -y, -z]),
+        ("an inverse of such axes", ["qw", "-qx", "qy", "qz"], |[w, x, y, z]| [w, -x, y, z]),
     ];
     if !channels.has_quaternion() || channels.conventions.axes != Axes::ForwardLeftUp {
         return None;
@@ -341,6 +383,23 @@ pub fn quaternion(channels: &Channels, _: Quantity) -> Option<Message> {
     }
     let columns = channels.conventions.columns_of(keys, &Quantity::QUATERNION);
     Some(text!["quaternion", kind = *kind, columns])
+}
+
+/// A roll that is the pitch, as the speed on slopes tells.
+pub fn exchanged_angles(channels: &Channels, _: Quantity) -> Option<Message> {
+    let Channels { conventions, .. } = channels;
+    if conventions.gravity == Gravity::Removed || conventions.mounting.is_some() {
+        return None;
+    }
+    let left = |times: f64| channels.unexplained_speed(channels.on_slopes(channels.angle(0), times).into_iter());
+    let by_pitch = [0.0, 1.0, -1.0].into_iter().filter_map(|times| channels.left_on_slopes(times));
+    let by_roll = [1.0, -1.0].into_iter().find(|&times| left(times).is_some_and(|left| left < CLEAR_FRACTION))?;
+    if left(by_roll)? >= CLEAR_FRACTION * by_pitch.fold(f64::INFINITY, f64::min) {
+        return None;
+    }
+    let quantities = [0, 1].map(Quantity::Angle);
+    let remedy = channels.exchanged_columns(quantities, [1.0, by_roll]);
+    Some(text!["angles-exchanged", remedy])
 }
 
 /// A pitch with the wrong sign, as the speed on slopes tells.
@@ -588,10 +647,17 @@ pub fn rates_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
 }
 
 /// A unit that explains the lateral force of bends. Where the speed fits the force along x, its
-/// unit is right.
+/// unit is right, and only that along y may have another one.
 pub fn unit_of_bends(channels: &Channels, _: Quantity) -> Option<Message> {
-    let sway = channels.sway_ratio().filter(|sway| *sway < 1.0 / EQUAL_RATIO)?;
+    let sway = channels.sway_ratio()?;
     if channels.surge_ratio().is_some_and(is_equal) {
+        let factor = [STANDARD_GRAVITY, 1.0 / STANDARD_GRAVITY]
+            .into_iter()
+            .find(|factor| (sway * factor).ln().abs() < UNIT_TOLERANCE && !channels.leans())?;
+        let columns = channels.conventions.scaled(&[Quantity::Force(1)], &format!("* {factor:.5}"));
+        return Some(text!["bends-scale", sway, columns]);
+    }
+    if sway >= 1.0 / EQUAL_RATIO {
         return None;
     }
     let Cause::Unit(quantity, other) = ratio_cause(channels, 1.0 / sway, Some(sway))? else { return None };
@@ -607,14 +673,23 @@ pub fn reversing(channels: &Channels, _: Quantity) -> Option<Message> {
     (!times.is_empty()).then(|| text!["reversing", times = times.join(", ")])
 }
 
-/// Bends of a vehicle without a measured speed, at one that is negative.
+/// Bends of a vehicle without a measured speed, at one that is negative, or that none has.
 pub fn backward_bends(channels: &Channels, _: Quantity) -> Option<Message> {
     // Speed of bends below which a sign is wrong [m/s].
     const BACKWARD_SPEED: f64 = -3.0;
+    // Speed of bends above which the rates are in a larger unit [m/s].
+    const FASTEST_BENDS: f64 = 200.0;
     if channels.has(Quantity::Speed) || channels.conventions.mounting.is_some() {
         return None;
     }
-    let speed = channels.speed_of_bends().filter(|speed| *speed < BACKWARD_SPEED)?;
+    let speed = channels.speed_of_bends()?;
+    if speed > FASTEST_BENDS && channels.table.unit(Quantity::Rate(2)).0 == RateUnit::DegreePerSecond.unit() {
+        let remedy = channels.unit_remedy(Quantity::Rate(2), RateUnit::RadianPerSecond.word());
+        return Some(text!["bends-too-fast", speed, remedy]);
+    }
+    if speed >= BACKWARD_SPEED {
+        return None;
+    }
     let [rate, force] = [Quantity::Rate(2), Quantity::Force(1)].map(|quantity| channels.turned(quantity));
     Some(text!["bends-backward", speed, remedy = text!["rate-or-force", rate, force]])
 }
@@ -663,6 +738,12 @@ pub fn delayed_speed(channels: &Channels, _: Quantity) -> Option<Message> {
     let expected = channels.changes(&integral(channels.force(0), channels.step));
     let delay = clear_delay(&expected, &found, MIN_SPEED_CHANGE, channels.step)?;
     Some(delay_message(Quantity::Speed, "the force along x that changes it", delay))
+}
+
+/// A lateral force that comes later or earlier than the bends.
+pub fn delayed_bends(channels: &Channels, _: Quantity) -> Option<Message> {
+    let delay = clear_delay(&channels.turning(), &channels.lateral(), MIN_BEND_FORCE, channels.step)?;
+    Some(delay_message(Quantity::Force(1), "speed times yaw rate", delay))
 }
 
 /// An angle that comes later or earlier than its rate.

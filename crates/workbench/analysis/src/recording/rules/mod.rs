@@ -61,26 +61,31 @@ const RECORDING_RULES: &[Rule] = rules! {
     // Angles before gravity: with them it is put back.
     "angle range" refuse [], TESTED_ONCE, units::angle_range;
     "angle unit" refuse [], &[Angle(0), Angle(1), Angle(2), Lean], units::angle_unit;
-    "quaternion from below" refuse [], TESTED_ONCE, units::quaternion_from_below;
+    "attitude from below" refuse [], TESTED_ONCE, units::attitude_from_below;
     "exchanged sensors" refuse [], TESTED_ONCE, units::exchanged_sensors;
     // What a sensor shows after it has stopped is no unit or axis.
-    "repeated lines" warn [], TESTED_ONCE, waveform::repeated_lines, supersedes ["stop", "gravity", "rate unit"];
+    "repeated lines" warn [], &[Time, Force(0), Rate(0), Angle(0)], waveform::repeated_lines,
+        supersedes ["stop", "gravity", "rate unit"];
+    "stopped speed" warn [], &[Speed], waveform::stopped_speed,
+        supersedes ["stop", "no force", "speed and force", "delayed speed", "delayed bends"];
     "stop" warn [Speed], &[Force(0), Rate(2)], waveform::stop, supersedes ["gravity", "rate unit"];
     "gravity" refuse [], TESTED_ONCE, units::gravity;
     "rate unit" refuse [], TESTED_ONCE, units::rate_unit;
     "repeated values" warn [], TESTED_ONCE, waveform::repeated;
     "coarse values" warn [], FORCES_AND_RATES, waveform::coarse;
-    "world forces" warn [Speed, Angle(2)], TESTED_ONCE, agreement::world_forces,
+    "world forces" warn [Angle(2)], TESTED_ONCE, agreement::world_forces,
         supersedes ["exchanged forces", "no force", "no lateral force", "speed and force", "sign of bends", "rates of bends"];
-    "exchanged forces" warn [Speed], TESTED_ONCE, agreement::exchanged_forces, supersedes ["no lateral force"];
+    "exchanged forces" warn [], TESTED_ONCE, agreement::exchanged_forces, supersedes ["no lateral force"];
     "world rates" warn [Angle(0), Angle(1), Angle(2)], TESTED_ONCE, agreement::world_rates,
         supersedes ["exchanged rates", "no rate of an angle", "sign of rates", "scale of rates", "delayed angle"];
     "quaternion" warn [], TESTED_ONCE, agreement::quaternion,
         supersedes ["exchanged rates", "no rate of an angle", "sign of rates", "scale of rates", "delayed angle"];
     "exchanged rates" warn [], &[Rate(0), Rate(1), Rate(2)], agreement::exchanged_rates,
         supersedes ["exchanged yaw rate", "no rate of an angle", "no yaw rate", "no lateral force"];
-    "exchanged yaw rate" warn [Speed], &[Rate(0), Rate(1)], agreement::exchanged_yaw_rate,
+    "exchanged yaw rate" warn [], &[Rate(0), Rate(1)], agreement::exchanged_yaw_rate,
         supersedes ["no yaw rate", "no lateral force"];
+    "exchanged angles" warn [Speed, Angle(0), Angle(1)], TESTED_ONCE, agreement::exchanged_angles,
+        supersedes ["sign of pitch", "sign of roll", "no force", "speed and force", "delayed speed"];
     "sign of pitch" warn [Speed, Angle(1)], TESTED_ONCE, agreement::sign_of_pitch,
         supersedes ["no force", "speed and force", "delayed speed"];
     "sign of roll" warn [Speed, Angle(0)], TESTED_ONCE, agreement::sign_of_roll,
@@ -101,6 +106,7 @@ const RECORDING_RULES: &[Rule] = rules! {
     "sign of rates" warn [], ALL_ANGLES, agreement::sign_of_rates;
     "scale of rates" warn [], TESTED_ONCE, agreement::scale_of_rates;
     "delayed speed" warn [Speed], TESTED_ONCE, agreement::delayed_speed;
+    "delayed bends" warn [Speed], TESTED_ONCE, agreement::delayed_bends;
     "delayed angle" warn [], ALL_ANGLES, agreement::delayed_angle;
 };
 

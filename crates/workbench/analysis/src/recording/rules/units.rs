@@ -16,10 +16,11 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
+use super::agreement::quaternion;
 use super::channels::Channels;
 use crate::message::{Message, given};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{AngleUnit, Axes, Gravity, Quantity, RateUnit, Unit};
+use crate::recording::conventions::{AngleUnit, Axes, ForceUnit, Gravity, Quantity, RateUnit, Unit};
 use crate::recording::signal::{extremes, integral, median, relation, root_mean_square, smooth, sorted};
 use crate::texts::text;
 
@@ -97,19 +98,24 @@ fn steady_ratio(channels: &Channels, axis: usize) -> Option<f64> {
     (rate.abs() > MIN_COMPARED_RATE && spread < STEADY_SPREAD * usual.abs()).then(|| usual / rate)
 }
 
-/// A quaternion of axes that point down, which turns the vehicle upside down.
-pub fn quaternion_from_below(channels: &Channels, _: Quantity) -> Option<Message> {
+/// An attitude of axes that point down, which turns the vehicle upside down.
+pub fn attitude_from_below(channels: &Channels, quantity: Quantity) -> Option<Message> {
     // Cosine of the angle to the vertical below which a vehicle is upside down.
     const UPSIDE_DOWN: f64 = -0.5;
     let up = |input: &Input| input.orientation.roll.cos() * input.orientation.pitch.cos();
-    let is_upside_down = channels.has_quaternion() && median(channels.inputs.iter().map(up)) < UPSIDE_DOWN;
-    is_upside_down.then(|| {
-        // Half a turn about x before it leads from north, east, down to north, west, up.
-        text![
-            "quaternion-from-below",
-            columns = channels.conventions.columns_of(&["-qx", "qw", "-qz", "qy"], &Quantity::QUATERNION)
-        ]
-    })
+    if median(channels.inputs.iter().map(up)) >= UPSIDE_DOWN {
+        return None;
+    }
+    if !channels.has_quaternion() {
+        return Some(text!["angles-from-below"]);
+    }
+    // Half a turn about x before it leads from north, east, down to north, west, up.
+    let from_below = || {
+        let columns = channels.conventions.columns_of(&["-qx", "qw", "-qz", "qy"], &Quantity::QUATERNION);
+        text!["quaternion-from-below", columns]
+    };
+    // The rates tell whether it is another convention.
+    Some(quaternion(channels, quantity).unwrap_or_else(from_below))
 }
 
 /// Gravity in the columns of the rates, and none in those of the forces.
@@ -130,7 +136,7 @@ pub fn exchanged_sensors(channels: &Channels, _: Quantity) -> Option<Message> {
     let unit = dimension.units().find(is_in)?;
     let is_si = unit == dimension.default_unit();
     // An offset of 1 degree a second beside forces without gravity is nothing rare.
-    let may_be_offset = !is_si && conventions.gravity == Gravity::Removed;
+    let may_be_offset = unit == ForceUnit::Gravity.unit() && conventions.gravity == Gravity::Removed;
     if may_be_offset || force.norm() > MAX_EXCHANGED_FORCE || conventions.mounting.is_some() {
         return None;
     }

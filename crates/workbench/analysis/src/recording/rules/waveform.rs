@@ -14,22 +14,30 @@ use crate::texts::text;
 
 /// Time from which a value that stays is looked at \[s\].
 const MIN_STOP_TIME: f64 = 2.0;
+/// Speed below which a vehicle stands \[m/s\].
+const STANDING_SPEED: f64 = 0.3;
 /// Times that each value is repeated, from which the steps are felt.
 const MIN_REPETITIONS: usize = 3;
 /// Least number of steps that are looked at.
 const MIN_STEPS: usize = 20;
 
-/// Lines that are repeated for seconds, after which several channels jump. Computed rides that are
-/// steady end so smoothly.
-pub fn repeated_lines(channels: &Channels, _: Quantity) -> Option<Message> {
+/// Channels of a sensor, or all, that stand still for seconds and then jump together. Computed
+/// rides that are steady end so smoothly.
+pub fn repeated_lines(channels: &Channels, sensor: Quantity) -> Option<Message> {
+    // Time for which several channels stand still [s].
+    const MIN_REPEATED_TIME: f64 = 1.4;
     // Changes of a channel in its usual ones, and the number of channels, from which they jump.
     const JUMP_SIZE: f64 = 5.0;
     const MIN_JUMPING: usize = 2;
-    // Most times that a logger repeats its last line for seconds.
-    const MAX_REPEATED_LINES: usize = 10;
+    // Part of the recording from which on a receiver of less than a value a second causes it.
+    const SLOW_FRACTION: f64 = 0.8;
     let Channels { table, step, .. } = channels;
+    let is_of_sensor = |quantity: &Quantity| {
+        sensor == Quantity::Time || std::mem::discriminant(quantity) == std::mem::discriminant(&sensor)
+    };
     let measured = table.columns.iter().filter(|(quantity, _)| channels.is_measured(**quantity));
-    let moving: Vec<&Vec<f64>> = measured.map(|(_, values)| values).filter(|values| !is_constant(values)).collect();
+    let moving = measured.filter(|(quantity, values)| is_of_sensor(quantity) && !is_constant(values));
+    let (quantities, moving): (Vec<&Quantity>, Vec<&Vec<f64>>) = moving.unzip();
     let changes = (1..table.time.len()).map(|k| f64::from(moving.iter().any(|values| values[k] != values[k - 1])));
     let changes: Vec<f64> = changes.collect();
     let jumps = |end: usize| {
@@ -39,12 +47,41 @@ pub fn repeated_lines(channels: &Channels, _: Quantity) -> Option<Message> {
         };
         moving.iter().filter(jumps).count() >= MIN_JUMPING
     };
-    let least = (MIN_STOP_TIME / step) as usize;
+    let least = (MIN_REPEATED_TIME / step) as usize;
     let is_stop = |run: &Range<usize>| changes[run.start] == 0.0 && run.len() > least && run.end < changes.len();
     let stops: Vec<Range<usize>> = runs(&changes, |a, b| a == b).filter(is_stop).collect();
-    // A receiver of less than a value a second stands still between all of them.
-    let stop = stops.iter().find(|stop| stops.len() <= MAX_REPEATED_LINES && jumps(stop.end + 1))?;
-    Some(text!["repeated-lines", from = channels.time(stop.start), to = channels.time(stop.end)])
+    let stopped: usize = stops.iter().map(Range::len).sum();
+    let stop = stops.iter().find(|stop| jumps(stop.end + 1))?;
+    let is_slow = stopped as f64 > SLOW_FRACTION * changes.len() as f64;
+    // What all channels do is told once.
+    if is_slow || sensor != Quantity::Time && repeated_lines(channels, Quantity::Time).is_some() {
+        return None;
+    }
+    let [from, to] = [stop.start, stop.end].map(|sample| channels.time(sample));
+    if sensor == Quantity::Time {
+        return Some(text!["repeated-lines", from, to]);
+    }
+    let names: Vec<&str> = quantities.iter().map(|quantity| quantity.key()).collect();
+    Some(text!["stopped-together", names = names.join(", "), from, to])
+}
+
+/// A speed that stays at one value for seconds and then jumps, as of a receiver without a fix.
+pub fn stopped_speed(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    // Acceleration that no vehicle has [m/s2], and a change of speed that is none of a collision
+    // [m/s].
+    const MAX_ACCELERATION: f64 = 15.0;
+    const MIN_SPEED_JUMP: f64 = 4.0;
+    let values = channels.table.columns.get(&quantity)?;
+    let is_same = |a: &f64, b: &f64| a == b;
+    // A receiver of 1 Hz changes once a second.
+    let usual = median(runs(values, is_same).map(|run| run.len() as f64));
+    let most = MIN_SPEED_JUMP.max(MAX_ACCELERATION * usual * channels.step);
+    let least = (MIN_STOP_TIME / channels.step) as usize;
+    let jumps =
+        |sample: usize| sample > 0 && sample < values.len() && (values[sample] - values[sample - 1]).abs() > most;
+    let stop = runs(values, is_same).find(|run| run.len() > least && (jumps(run.start) || jumps(run.end)))?;
+    let [from, to] = [stop.start, stop.end].map(|sample| channels.time(sample));
+    Some(text!["stopped-speed", name = channels.conventions.column(quantity), from, to])
 }
 
 /// A force or yaw rate that stays at one value for seconds, while the speed changes otherwise or
@@ -60,6 +97,10 @@ pub fn stop(channels: &Channels, quantity: Quantity) -> Option<Message> {
     };
     let is_contradicted = |part: &Range<usize>| {
         if is_of_force {
+            // A force that stays while the vehicle stands is a bias, or of another axis.
+            if speeds[part.clone()].iter().all(|speed| speed.abs() < STANDING_SPEED) {
+                return false;
+            }
             // On a slope the force holds the vehicle without a change of its speed.
             let along = |input: &Input| input.specific_force.x + STANDARD_GRAVITY * input.orientation.pitch.sin();
             let driven = integral(inputs[part.clone()].iter().map(along), *step);

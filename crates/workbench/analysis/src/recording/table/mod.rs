@@ -118,7 +118,7 @@ impl Table {
             let norm = quaternion(sample).norm();
             let decimals = if norm > 10.0 { 0 } else { 3 };
             let columns = conventions.scaled(&Quantity::QUATERNION, &format!("/ {norm:.decimals$}"));
-            let reason = text!["norm-of-quaternion", norm, columns];
+            let reason = if norm < NORM { text!["no-quaternion"] } else { text!["norm-of-quaternion", norm, columns] };
             return Err(self.refused_at(sample, Quantity::Quaternion(0), reason));
         }
         let angles = (0..w.len()).map(|k| UnitQuaternion::new_normalize(quaternion(k)).euler_angles());
