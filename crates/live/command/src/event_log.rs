@@ -34,6 +34,8 @@ pub enum Note {
     Mismatch(f64, Mismatch),
     /// Of so many samples so many were dropped, the last one for this reason.
     SamplesDropped(f64, [u64; 2], DropReason),
+    /// Samples, and those of them that repeat the one before.
+    SamplesRepeated(f64, [u64; 2]),
     /// Parameters were chosen; true if they are in force.
     Retuned(f64, bool),
     /// The computer was late: the session's clock has slipped by this time \[s\].
@@ -74,6 +76,10 @@ fn line(note: &Note) -> Option<String> {
         Note::SamplesDropped(time, [received, dropped], reason) => {
             format!("{time:9.3} s  {dropped} of {received} samples dropped: {reason}")
         }
+        Note::SamplesRepeated(time, [received, same]) => format!(
+            "{time:9.3} s  {same} of {received} samples repeat the one before: the motion changes in steps. Let the \
+             source send each sample once"
+        ),
         Note::Retuned(_, true) => return None,
         Note::Retuned(time, false) => format!("{time:9.3} s  refused: these parameters cannot change now"),
         Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),

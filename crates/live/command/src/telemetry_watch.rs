@@ -14,6 +14,10 @@ pub struct TelemetryWatch {
     /// Samples, and dropped ones of them, at the last line, and its time \[s\].
     counts: [u64; 2],
     dropped_at: f64,
+    /// Samples, and repeated ones of them, at the last look, and its time \[s\].
+    looked: [u64; 2],
+    looked_at: f64,
+    is_repetition_told: bool,
     delay: Option<f64>,
 }
 
@@ -24,6 +28,9 @@ impl Default for TelemetryWatch {
             objection: None,
             counts: [0; 2],
             dropped_at: f64::NEG_INFINITY,
+            looked: [0; 2],
+            looked_at: 0.0,
+            is_repetition_told: false,
             delay: None,
         }
     }
@@ -50,6 +57,7 @@ impl TelemetryWatch {
         }
         self.objection = objection;
         self.check_dropped(session, now, &mut note);
+        self.check_repeated(session, now, &mut note);
         let delay = session.delay();
         if session.is_delay_long() && self.delay.is_none_or(|known| delay > DELAY_GROWTH * known) {
             self.delay = Some(delay);
@@ -77,6 +85,27 @@ impl TelemetryWatch {
             note(Note::SamplesDropped(now, [received, dropped], reason));
         }
         self.counts = [counts.received, counts.dropped()];
+    }
+
+    /// Tells once of samples that come several times, as of a source slower than its packets.
+    fn check_repeated(&mut self, session: &Session, now: f64, note: &mut impl FnMut(Note)) {
+        // Time between looks [s], the part of the samples that are the same, and the number of others
+        // a second below which their steps are felt.
+        const LOOK_INTERVAL: f64 = 5.0;
+        const SAME_PART: f64 = 0.6;
+        const FELT_SAMPLE_RATE: f64 = 20.0;
+        let passed = now - self.looked_at;
+        if passed < LOOK_INTERVAL {
+            return;
+        }
+        let counts = session.source().counts();
+        let [received, same] = [counts.received - self.looked[0], counts.same - self.looked[1]];
+        (self.looked, self.looked_at) = ([counts.received, counts.same], now);
+        let is_slow = ((received - same) as f64) < FELT_SAMPLE_RATE * passed;
+        if is_slow && same as f64 > SAME_PART * received as f64 && !self.is_repetition_told {
+            self.is_repetition_told = true;
+            note(Note::SamplesRepeated(now, [received, same]));
+        }
     }
 }
 
@@ -147,6 +176,20 @@ mod tests {
             }
         });
         assert_eq!(times(&few), []);
+    }
+
+    #[test]
+    fn samples_that_come_several_times_are_told_once() {
+        // 10 and 50 different samples a second, of a vehicle that drives or stands.
+        let repeated = |rate: f64, speed: f64| {
+            let notes = told(16, |t| {
+                let mut sample = moving((rate * t + 1e-6).floor() / rate);
+                sample.motion.0[9] = speed;
+                Sample { time: Some(t), ..sample }
+            });
+            notes.iter().filter(|note| matches!(note, Note::SamplesRepeated(..))).count()
+        };
+        assert_eq!([repeated(10.0, 9.0), repeated(50.0, 9.0), repeated(10.0, 0.0)], [1, 0, 0]);
     }
 
     #[test]

@@ -42,6 +42,17 @@ impl Sums {
 }
 
 impl Relation {
+    /// The same with the signs that go together.
+    pub fn of_either_sign(&self) -> Relation {
+        Relation { correlation: self.correlation.abs(), ..*self }
+    }
+
+    /// Root mean square of what the signals differ by.
+    pub fn difference(&self) -> f64 {
+        let [one, other] = self.sizes;
+        (one * one + other * other - 2.0 * self.correlation * one * other).max(0.0).sqrt()
+    }
+
     /// True for signals that go together, and whose ratio is this one but for a factor.
     pub fn is_near(&self, ratio: f64, factor: f64, correlation: f64) -> bool {
         self.correlation > correlation && (1.0 / factor..factor).contains(&(self.ratio / ratio))
@@ -66,6 +77,8 @@ mod tests {
         let relation = sums.relation();
         assert!(relation.is_near(4.0, 1.1, 0.7) && !relation.is_near(4.0, 1.05, 0.7));
         assert!(!relation.is_near(4.0, 1.1, 0.75));
+        // The second one is nine times the square of cos and sin of 45 degrees; less the first, 2 sin + 3 cos.
+        assert!((relation.difference() - 6.5_f64.sqrt()).abs() < 1e-9);
         assert_eq!(Sums::default().relation().correlation, 0.0);
     }
 }

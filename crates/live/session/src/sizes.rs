@@ -7,7 +7,8 @@
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
-use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
+use moris_washout::motion::orientation::Orientation;
 use nalgebra::Vector3;
 
 use crate::motion::{Channels, Sample};
@@ -29,6 +30,15 @@ const LEVEL_ANGLE: f64 = 0.3;
 const LARGEST_ANGLE: f64 = 1.6;
 /// Angular velocity that no head keeps \[rad/s\].
 const FASTEST_RATE: f64 = 10.0;
+
+/// Correlation below which two channels are not the same quantity.
+const OTHER_CORRELATION: f64 = 0.5;
+/// Windows with which another reading of a channel is judged, and the part of what the given one
+/// leaves unexplained that it may leave, as for recordings.
+const CLEAR_WINDOWS: f64 = 20.0;
+const CLEAR_PART: f64 = 0.3;
+/// Speed below which the source has none \[m/s\].
+const NO_SPEED: f64 = 0.1;
 
 /// Time for which the mean force must be of one kind, to contradict or to agree \[s\].
 const GRAVITY_HELD: f64 = 1.5;
@@ -52,6 +62,18 @@ pub enum Mismatch {
     Exchanged(usize, usize),
     /// The force along y is this part of that of bends.
     Bends(f64),
+    /// The force along y changes the speed, or follows the yaw rate along x.
+    ExchangedForces,
+    /// The forces change the speed once they are taken from the world's axes to the vehicle's.
+    WorldForces,
+    /// Roll, 0, or pitch, 1, has the wrong sign, as gravity tells.
+    Attitude(usize),
+    /// Roll and pitch turn the vehicle upside down.
+    UpsideDown,
+    /// The force along x is nothing while the speed changes.
+    MissingForce,
+    /// The rate about this axis is nothing while its angle changes.
+    MissingRate(usize),
 }
 
 /// Axis of a horizontal force.
@@ -108,7 +130,10 @@ impl Display for Mismatch {
                 "wx, wy and wz are beyond {FASTEST_RATE:.0} rad/s for much of the time: in their lines set unit = \"deg/s\""
             ),
             Mismatch::Angles(angle) => {
-                write!(f, "roll or pitch reach {angle:.0} rad: in the lines of roll, pitch and yaw set unit = \"deg\"")
+                write!(
+                    f,
+                    "roll, pitch or yaw reach {angle:.0} rad: in the lines of roll, pitch and yaw set unit = \"deg\""
+                )
             }
             Mismatch::Gravity(fault, force) => {
                 write!(f, "the vertical force is {force:.1} m/s2 in the mean and not 9.8: ")?;
@@ -152,6 +177,32 @@ impl Display for Mismatch {
                 "the lateral force of bends is missing: ay is {part:.2} times speed times wz. In the line of ay name the \
                  accelerometer's column, not the change of a velocity in the vehicle's axes"
             ),
+            Mismatch::ExchangedForces => {
+                write!(f, "the force along y changes the speed, not that along x: exchange `at` of ax and ay")
+            }
+            Mismatch::WorldForces => {
+                write!(f, "the speed follows the forces along fixed axes: set force-axes = \"world\"")
+            }
+            Mismatch::Attitude(axis) => {
+                let (angle, rate) = (ANGLE_NAMES[axis], RATE_NAMES[axis]);
+                write!(
+                    f,
+                    "gravity pulls as with the opposite {angle}: turn the scale in its line, and in that of {rate} if \
+                     their signs agree"
+                )
+            }
+            Mismatch::UpsideDown => write!(
+                f,
+                "roll and pitch turn the vehicle upside down, as those of axes that point down: leave roll, pitch and \
+                 yaw out, or send them without the half turn"
+            ),
+            Mismatch::MissingForce => {
+                write!(f, "ax is nothing while the speed changes: in its line name the column of the force")
+            }
+            Mismatch::MissingRate(axis) => {
+                let (angle, rate) = (ANGLE_NAMES[axis], RATE_NAMES[axis]);
+                write!(f, "{rate} is nothing while {angle} changes: in its line name the column of the rate")
+            }
         }
     }
 }
@@ -181,7 +232,9 @@ pub struct Sizes {
     time: f64,
     windows: f64,
     fast_windows: f64,
+    upside_down_windows: f64,
     largest_angle: f64,
+    largest_yaw: f64,
     fastest: f64,
     has_attitude: bool,
     /// Derivatives of the angles, by column, and rates, by row.
@@ -190,8 +243,24 @@ pub struct Sizes {
     surge: Sums,
     /// Speed times each rate, and the force along y without gravity's part.
     bends: [Sums; 3],
-    /// The yaw rate and the force along y.
-    yaw: Sums,
+    /// The change of speed with so many times gravity's part, 0 and the opposite one, and the force
+    /// along x.
+    slopes: [Sums; 2],
+    /// The change of speed, and the force along x turned from the world's axes, without gravity or
+    /// with it.
+    world: [Sums; 2],
+    /// The change of speed with gravity's part, and the force along y.
+    crossed: Sums,
+    /// Speed times yaw rate with so many times gravity's part, 1, 0 and the opposite one, and the
+    /// force along y.
+    banks: [Sums; 3],
+    /// Speed times yaw rate and the force along y, whatever the attitude.
+    turns: Sums,
+    /// Speed times yaw rate, and gravity's part along y.
+    leaning: Sums,
+    /// Each rate and the force along y, and the yaw rate and the force along x.
+    sways: [Sums; 3],
+    yaw_surge: Sums,
     gravity: MeanForce,
     found: Option<Mismatch>,
 }
@@ -249,28 +318,51 @@ impl Sizes {
         const MAX_LEAN_FRACTION: f64 = 0.25;
         // Speed below which a vehicle may be reversing, or hardly moves [m/s].
         const MANOEUVRING_SPEED: f64 = 1.5;
+        // Cosine of the angle to the vertical below which a vehicle is upside down.
+        const UPSIDE_DOWN: f64 = -0.5;
         let [roll, pitch, speed] = [mean[6], mean[7], mean[9]];
         self.windows += 1.0;
         self.fast_windows += f64::from((3..6).any(|k| mean[k].abs() > FASTEST_RATE));
         self.fastest = self.fastest.max(speed.abs());
+        self.upside_down_windows += f64::from(libm::cos(roll) * libm::cos(pitch) < UPSIDE_DOWN);
         // Columns of zeros are no attitude.
         let has_attitude = sample.has_angles && (roll != 0.0 || pitch != 0.0);
         self.has_attitude |= has_attitude;
         let is_level = |most: f64| roll.abs() < most && pitch.abs() < most;
         if has_attitude && is_level(LEVEL_IN_DEGREES) {
             self.largest_angle = self.largest_angle.max(roll.abs()).max(pitch.abs());
+            self.largest_yaw = self.largest_yaw.max(mean[8].abs());
             for angle in (0..3).filter(|angle| (slope[6 + angle] * time).abs() < WHOLE_TURN_CHANGE) {
                 (0..3).for_each(|rate| self.rates[rate][angle].add(slope[6 + angle], mean[3 + rate]));
             }
         }
         let gravity = if has_attitude && is_level(LARGEST_ANGLE) { STANDARD_GRAVITY } else { 0.0 };
-        self.yaw.add(mean[5], mean[1]);
+        (0..3).for_each(|rate| self.sways[rate].add(mean[3 + rate], mean[1]));
+        self.yaw_surge.add(mean[5], mean[0]);
         if speed.abs() < MANOEUVRING_SPEED {
             return;
         }
         // Nose up, gravity's reaction is forward; with the left side up, to the left.
-        self.surge.add(slope[9] - gravity * libm::sin(pitch), mean[0]);
+        let uphill = -gravity * libm::sin(pitch);
+        self.surge.add(slope[9] + uphill, mean[0]);
+        self.crossed.add(slope[9] + uphill, mean[1]);
         let banked = gravity * libm::sin(roll) * libm::cos(pitch);
+        let turn = speed * mean[5];
+        self.turns.add(turn, mean[1]);
+        if gravity > 0.0 {
+            [0.0, -1.0]
+                .iter()
+                .zip(&mut self.slopes)
+                .for_each(|(part, sums)| sums.add(slope[9] + part * uphill, mean[0]));
+            let parts = [1.0, 0.0, -1.0];
+            parts.iter().zip(&mut self.banks).for_each(|(part, sums)| sums.add(turn + part * banked, mean[1]));
+            self.leaning.add(turn, banked);
+            let to_vehicle = Orientation::new(RollPitchYaw::new(roll, pitch, mean[8])).rotation.transpose();
+            let [force, up] = [Vector3::new(mean[0], mean[1], mean[2]), to_vehicle * Vector3::z() * gravity];
+            self.world[0].add(slope[9] + uphill, (to_vehicle * force).x);
+            // Live has put gravity back along the vehicle's axes.
+            self.world[1].add(slope[9], (to_vehicle * (force - up)).x);
+        }
         if banked.abs() <= MAX_LEAN_FRACTION * (speed * mean[5]).abs().max(speed * mean[3].abs()) {
             (0..3).for_each(|rate| self.bends[rate].add(speed * mean[3 + rate], mean[1] - banked));
         }
@@ -284,9 +376,98 @@ impl Sizes {
     fn judge(&self) -> Option<Mismatch> {
         self.units_of_rates()
             .or_else(|| self.gravity.fault())
+            .or_else(|| self.attitude())
             .or_else(|| self.exchanged_rates())
+            .or_else(|| self.world_forces())
+            .or_else(|| self.exchanged_forces())
             .or_else(|| self.units_of_forces())
             .or_else(|| self.missing_bends())
+            .or_else(|| self.missing_channel())
+    }
+
+    /// An attitude that gravity contradicts: upside down, or of the opposite sign.
+    fn attitude(&self) -> Option<Mismatch> {
+        // Least force that an attitude of the wrong sign leaves, as a root mean square [m/s2].
+        const LEAST_WRONG_FORCE: f64 = 0.1;
+        // Part of speed times yaw rate below which gravity's part may be another scale of the speed: a
+        // car rolls a little in bends.
+        const LEANING_PART: f64 = 0.67;
+        if self.windows >= ENOUGH_WINDOWS && self.upside_down_windows == self.windows {
+            return Some(Mismatch::UpsideDown);
+        }
+        let is_wrong = |[right, level, opposite]: [&Sums; 3]| {
+            let [right, level, opposite] = [right, level, opposite].map(|sums| sums.relation());
+            let others = right.difference().min(level.difference());
+            let is_clear = others >= LEAST_WRONG_FORCE && opposite.difference() < CLEAR_PART * others;
+            level.count >= CLEAR_WINDOWS && is_clear
+        };
+        let leaning = self.leaning.relation();
+        let may_be_scale = leaning.correlation.abs() > SAME_CORRELATION && leaning.ratio < LEANING_PART;
+        let [level, opposite] = &self.slopes;
+        if is_wrong([&self.surge, level, opposite]) {
+            return Some(Mismatch::Attitude(1));
+        }
+        (!may_be_scale && is_wrong(self.banks.each_ref())).then_some(Mismatch::Attitude(0))
+    }
+
+    fn world_forces(&self) -> Option<Mismatch> {
+        // Another axis of the vehicle, of either sign, may explain it as well.
+        let own =
+            [&self.surge, &self.crossed, &self.slopes[0]].map(|sums| sums.relation().of_either_sign().difference());
+        let others = own.into_iter().fold(f64::INFINITY, f64::min);
+        let is_clear = |sums: &Sums| {
+            let relation = sums.relation();
+            let is_large = relation.count >= CLEAR_WINDOWS && relation.sizes[0] >= LEAST_FORCE;
+            is_large && relation.difference() < CLEAR_PART * others.min(relation.sizes[0])
+        };
+        self.world.iter().any(is_clear).then_some(Mismatch::WorldForces)
+    }
+
+    fn exchanged_forces(&self) -> Option<Mismatch> {
+        let [surge, crossed] = [self.surge, self.crossed].map(|sums| sums.relation().of_either_sign());
+        let is_other = surge.correlation < OTHER_CORRELATION || crossed.difference() < CLEAR_PART * surge.difference();
+        let by_speed = crossed.count >= ENOUGH_WINDOWS
+            && crossed.sizes[0] >= LEAST_FORCE
+            && crossed.is_near(1.0, UNIT_FACTOR, SAME_CORRELATION)
+            && is_other;
+        let by_bends = self.is_speed_of_bends(&self.yaw_surge) && self.has_other_bends(2);
+        (by_speed || by_bends).then_some(Mismatch::ExchangedForces)
+    }
+
+    /// True for a rate and a force whose ratio is the speed of bends, where the source has none.
+    fn is_speed_of_bends(&self, sums: &Sums) -> bool {
+        const SPEEDS_OF_BENDS: [f64; 2] = [2.0, 80.0];
+        let relation = sums.relation();
+        self.fastest < NO_SPEED
+            && relation.count >= CLEAR_WINDOWS
+            && relation.sizes[1] >= LEAST_FORCE
+            && relation.correlation.abs() > STRICT_CORRELATION
+            && (SPEEDS_OF_BENDS[0]..SPEEDS_OF_BENDS[1]).contains(&relation.ratio)
+    }
+
+    /// True where the force along y does not follow this rate.
+    fn has_other_bends(&self, rate: usize) -> bool {
+        self.sways[rate].relation().correlation.abs() < OTHER_CORRELATION
+    }
+
+    /// A force or rate that is nothing beside what it changes. Tables may have no rates at all.
+    fn missing_channel(&self) -> Option<Mismatch> {
+        // Least change of speed and of angles that shows it, as root mean squares [m/s2, rad/s], the
+        // part of it below which a channel is nothing, and rates of a table that has them [rad/s].
+        const LEAST_CHANGES: [f64; 2] = [0.7, 0.02];
+        const NOTHING_PART: f64 = 0.02;
+        const LEAST_OTHER_RATE: f64 = 1e-3;
+        let is_nothing = |relation: &Relation, least: f64| {
+            let is_known = relation.count >= CLEAR_WINDOWS && relation.sizes[0] >= least;
+            is_known && relation.sizes[1] < NOTHING_PART * relation.sizes[0]
+        };
+        if self.has_attitude && is_nothing(&self.surge.relation(), LEAST_CHANGES[0]) {
+            return Some(Mismatch::MissingForce);
+        }
+        let rates = [0, 1, 2].map(|axis| self.rates[axis][axis].relation());
+        let has_rates = rates.iter().any(|relation| relation.sizes[1] >= LEAST_OTHER_RATE);
+        let missing = (0..3).find(|&axis| has_rates && is_nothing(&rates[axis], LEAST_CHANGES[1]));
+        missing.map(Mismatch::MissingRate)
     }
 
     fn units_of_rates(&self) -> Option<Mismatch> {
@@ -296,8 +477,8 @@ impl Sizes {
         const TIGHTEST_RADIUS: f64 = 1.0;
         // Part of the windows that must be faster than any head.
         const FAST_PART: f64 = 0.1;
-        // Speed below which the source has none [m/s].
-        const NO_SPEED: f64 = 0.1;
+        // Yaw that counts turns, beyond a whole one, or is no radians [rad].
+        const WHOLE_TURN: f64 = 6.4;
         // Radians in a degree.
         const DEGREE: f64 = PI / 180.0;
         // Windows with which rates in degrees are found: few, to find them before the platform engages.
@@ -306,24 +487,27 @@ impl Sizes {
             let is_clear = relation.is_near(in_degrees, UNIT_FACTOR, STRICT_CORRELATION);
             relation.count >= if is_clear { DEGREES_WINDOWS } else { ENOUGH_WINDOWS }
         };
-        let of_angles = (0..3).map(|axis| self.rates[axis][axis].relation());
-        let by_angles = of_angles.filter(|relation| is_enough(relation, 1.0 / DEGREE)).find_map(|relation| {
+        let of_angles = (0..3).map(|axis| (axis, self.rates[axis][axis].relation()));
+        let mut known = of_angles.filter(|(_, relation)| is_enough(relation, 1.0 / DEGREE));
+        let by_angles = known.find_map(|(axis, relation)| {
             let is_near = |ratio: f64| relation.is_near(ratio, UNIT_FACTOR, SAME_CORRELATION);
-            let is_angle = self.largest_angle > LARGEST_ANGLE;
+            let is_angle = self.largest_angle > LARGEST_ANGLE || axis == 2 && self.largest_yaw > WHOLE_TURN;
             let is_large = relation.sizes[usize::from(is_angle)] >= LEAST_RATE;
             if is_large && is_near(DEGREE) && is_angle {
-                Some(Mismatch::Angles(self.largest_angle))
+                Some(Mismatch::Angles(self.largest_angle.max(self.largest_yaw)))
             } else {
                 (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then_some(Mismatch::Rates(relation.ratio))
             }
         });
         let is_lateral = |relation: &Relation| is_enough(relation, DEGREE) && relation.sizes[1] >= LEAST_FORCE;
         let by_bends = || {
-            let bends = Some(self.bends[2].relation()).filter(is_lateral)?;
-            bends.is_near(DEGREE, UNIT_FACTOR, SAME_CORRELATION).then_some(Mismatch::Rates(1.0 / bends.ratio))
+            // Angles in degrees as well leave no level bends.
+            let mut all = [self.bends[2], self.turns].into_iter().map(|sums| sums.relation()).filter(is_lateral);
+            let bends = all.find(|bends| bends.is_near(DEGREE, UNIT_FACTOR, SAME_CORRELATION))?;
+            Some(Mismatch::Rates(1.0 / bends.ratio))
         };
         let by_radius = || {
-            let yaw = Some(self.yaw.relation()).filter(is_lateral)?;
+            let yaw = Some(self.sways[2].relation()).filter(is_lateral)?;
             let is_tight = yaw.correlation > SAME_CORRELATION && yaw.ratio < TIGHTEST_RADIUS * yaw.sizes[0];
             (self.fastest < NO_SPEED && is_tight).then_some(Mismatch::Rates(1.0 / DEGREE))
         };
@@ -334,10 +518,8 @@ impl Sizes {
     /// A rate that is that of another angle, or of bends, while the right one is neither.
     fn exchanged_rates(&self) -> Option<Mismatch> {
         // Least rates that say something, as root mean squares [rad/s].
-        const LEAST_EXCHANGED_RATE: f64 = 0.02;
-        // Correlation below which two channels are not the same quantity, and the factor between
-        // them beyond which they are not.
-        const OTHER_CORRELATION: f64 = 0.5;
+        const LEAST_EXCHANGED_RATE: f64 = 0.01;
+        // Factor between two channels beyond which they are not the same quantity.
         const OTHER_FACTOR: f64 = 2.0;
         let is_same = |relation: &Relation| {
             let is_known = relation.count >= ENOUGH_WINDOWS && relation.sizes[0] >= LEAST_EXCHANGED_RATE;
@@ -358,7 +540,9 @@ impl Sizes {
             let strict = bends[rate].is_near(1.0, UNIT_FACTOR, STRICT_CORRELATION);
             strict && bends[rate].count >= ENOUGH_WINDOWS && bends[rate].sizes[1] >= LEAST_FORCE
         };
-        let by_bends = || (0..2).find(|rate| is_bend(*rate) && is_other(&bends[2])).map(|rate| (rate, 2));
+        let by_sways = |rate: usize| self.is_speed_of_bends(&self.sways[rate]) && self.has_other_bends(2);
+        let by_bends =
+            || (0..2).find(|&rate| is_bend(rate) && is_other(&bends[2]) || by_sways(rate)).map(|rate| (rate, 2));
         by_angles.or_else(by_bends).map(|(rate, angle)| Mismatch::Exchanged(rate, angle))
     }
 
@@ -373,8 +557,6 @@ impl Sizes {
     }
 
     fn missing_bends(&self) -> Option<Mismatch> {
-        // Windows with which a force is judged missing.
-        const ENOUGH_BENDS: f64 = 20.0;
         // Least lateral force of bends, by speed and yaw rate, beside which a force is missing
         // [m/s2], and the part of it below which it is.
         const LEAST_BENDS: f64 = 0.7;
@@ -382,7 +564,7 @@ impl Sizes {
         let relation = self.bends[2].relation();
         // A vehicle without an attitude may lean.
         let is_missing = self.has_attitude
-            && relation.count >= ENOUGH_BENDS
+            && relation.count >= CLEAR_WINDOWS
             && relation.sizes[0] >= LEAST_BENDS
             && relation.sizes[1] < MISSING_PART * relation.sizes[0];
         is_missing.then_some(Mismatch::Bends(relation.ratio))

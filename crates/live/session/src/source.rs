@@ -40,6 +40,8 @@ pub struct Counts {
     pub bad: u64,
     /// With an earlier time than one before: dropped.
     pub repeated: u64,
+    /// The same as the one before, of a vehicle that moves.
+    pub same: u64,
     /// Changes of the place.
     pub teleports: u64,
     /// Spikes that no vehicle causes: dropped, and counted among the bad ones.
@@ -154,10 +156,14 @@ impl Source {
             self.confirming = 0;
             return accepted;
         }
-        if !self.is_inside && self.standing.is_paused(arrival, sample) {
-            self.says_paused = false;
-            accepted.events[0] = self.pause(arrival);
-            return accepted;
+        if !self.is_inside {
+            let changes = self.standing.changes();
+            if self.standing.is_paused(arrival, sample) {
+                self.says_paused = false;
+                accepted.events[0] = self.pause(arrival);
+                return accepted;
+            }
+            self.counts.same += u64::from(self.standing.changes() == changes);
         }
         let (time, restarted) = match self.clock.stamp(arrival, sample.time) {
             Stamp::Repeated => {

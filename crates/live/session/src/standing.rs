@@ -16,6 +16,8 @@ pub struct Standing {
     motion_since: f64,
     position_since: f64,
     position_changes: u32,
+    /// Samples that are not the one before of a vehicle that moves.
+    changes: u64,
     /// Longest time between two changes of the position of a vehicle that moves \[s\].
     longest_wait: f64,
 }
@@ -30,14 +32,22 @@ impl Standing {
         const LONG_GAP: f64 = 0.2;
         let Some((before, last)) = self.last.replace((arrival, *sample)) else {
             (self.motion_since, self.position_since) = (arrival, arrival);
+            self.changes += 1;
             return false;
         };
-        if sample.motion != last.motion || sample.position != last.position {
+        let changes = sample.motion != last.motion || sample.position != last.position;
+        if changes {
             self.motion_since = arrival;
         }
         let moves = sample.motion.speed().abs() > LEAST_SPEED || sample.motion.rates().amax() > LEAST_RATE;
+        self.changes += u64::from(changes || !moves);
         let all_stand = moves && arrival - self.motion_since >= STANDSTILL_TIME;
         all_stand | self.position_stands(arrival, arrival - before > LONG_GAP, sample, &last)
+    }
+
+    /// Number of samples that are not the one before of a vehicle that moves.
+    pub fn changes(&self) -> u64 {
+        self.changes
     }
 
     fn position_stands(&mut self, arrival: f64, is_after_gap: bool, sample: &Sample, last: &Sample) -> bool {

@@ -7,6 +7,7 @@ use moris_live::sizes::Sizes;
 use moris_live::{Event, Motion, Refusal, Sample, Session, Settings, State};
 use moris_washout::Parameters;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY as G};
+use moris_washout::motion::orientation::Orientation;
 use nalgebra::Vector3;
 
 const DEGREE: f64 = TAU / 360.0;
@@ -74,9 +75,10 @@ fn without_angles(sample: &mut Sample) {
 fn right_tables_are_not_objected_to() {
     assert_eq!(found(car), None);
     assert_eq!(found(motorcycle), None);
-    let changes: [(&str, Change); 6] = [
+    let changes: [(&str, Change); 7] = [
         ("no angles", without_angles),
         ("no speed", |sample| sample.motion.0[9] = 0.0),
+        ("no rates", |sample| scale(sample, 3..6, 0.0)),
         ("no angles, no speed", |sample| {
             without_angles(sample);
             sample.motion.0[9] = 0.0;
@@ -106,7 +108,7 @@ fn right_tables_are_not_objected_to() {
 /// comes up and its cue in.
 #[test]
 fn a_wrong_table_is_named_by_its_line() {
-    let changes: [(&str, Change); 19] = [
+    let changes: [(&str, Change); 33] = [
         ("wx, wy and wz are 57 times as large", |sample| scale(sample, 3..6, 1.0 / DEGREE)),
         ("in their lines set unit = \"deg/s\"", |sample| {
             without_angles(sample);
@@ -144,6 +146,48 @@ fn a_wrong_table_is_named_by_its_line() {
         ("the lateral force of bends is missing", |sample| {
             sample.motion.0[1] -= sample.motion.0[9] * sample.motion.0[5];
         }),
+        ("set unit = \"deg/s\"", |sample| scale(sample, 3..9, 1.0 / DEGREE)),
+        ("in the lines of roll, pitch and yaw set unit = \"deg\"", |sample| scale(sample, 8..9, 1.0 / DEGREE)),
+        ("wx is the rate of pitch, and wy is not", |sample| sample.motion.0.swap_rows(3, 4)),
+        ("wx is the rate of yaw, and wz is not", |sample| {
+            without_angles(sample);
+            sample.motion.0.swap_rows(3, 5);
+            sample.motion.0[9] = 0.0;
+        }),
+        ("exchange `at` of ax and ay", |sample| sample.motion.0.swap_rows(0, 1)),
+        ("exchange `at` of ax and ay", |sample| {
+            without_angles(sample);
+            sample.motion.0.swap_rows(0, 1);
+        }),
+        ("exchange `at` of ax and ay", |sample| {
+            without_angles(sample);
+            sample.motion.0.swap_rows(0, 1);
+            sample.motion.0[9] = 0.0;
+        }),
+        ("set force-axes = \"world\"", |sample| {
+            sample.motion.0[8] += 2.1;
+            let force = Orientation::new(sample.motion.angles()).rotation * sample.motion.force();
+            sample.motion.0.fixed_rows_mut::<3>(0).copy_from(&force);
+        }),
+        ("set force-axes = \"world\"", |sample| {
+            // Without gravity in the packets: live has put it back.
+            sample.motion.0[8] += 2.1;
+            let rotation = Orientation::new(sample.motion.angles()).rotation;
+            let up = rotation.transpose() * Vector3::z() * G;
+            let force = rotation * (sample.motion.force() - up) + up;
+            sample.motion.0.fixed_rows_mut::<3>(0).copy_from(&force);
+        }),
+        ("gravity pulls as with the opposite pitch", |sample| {
+            scale(sample, 4..5, -1.0);
+            scale(sample, 7..8, -1.0);
+        }),
+        ("gravity pulls as with the opposite roll", |sample| {
+            scale(sample, 3..4, -1.0);
+            scale(sample, 6..7, -1.0);
+        }),
+        ("roll and pitch turn the vehicle upside down", |sample| sample.motion.0[6] += 0.5 * TAU),
+        ("ax is nothing while the speed changes", |sample| scale(sample, 0..1, 0.0)),
+        ("wz is nothing while yaw changes", |sample| scale(sample, 5..6, 0.0)),
     ];
     for (words, change) in changes {
         let (time, text) = found(with(change)).unwrap_or_else(|| panic!("nothing is found: {words}"));
