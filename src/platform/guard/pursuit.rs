@@ -16,8 +16,8 @@ const BISECTION_STEPS: usize = 6;
 
 impl ActuatorGuard {
     /// The certified state nearest to a pursuit of the demand, with its plan, if there is one.
-    /// `followed` is the plan held, at the step's end. With `homing_fraction`, neutral is pursued on the
-    /// straight way there, with this fraction of the speed.
+    /// `followed` is the plan held, at the step's end. With `homing_fraction`, neutral is pursued
+    /// on the straight way there, with this fraction of the speed.
     pub(super) fn nearest(
         &self,
         demand: &PlatformState,
