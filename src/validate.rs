@@ -4,7 +4,7 @@ use alloc::{borrow::ToOwned, format, string::String, vec, vec::Vec};
 use core::ops::RangeInclusive;
 
 use moris_interface::{
-    Condition, Group, Kind, ParameterError, Row, check_fixed, four_decimals, refuse, shown, slot_count, slots_of,
+    Condition, Group, Kind, ParameterError, Row, Shown, check_fixed, four_decimals, refuse, shown, slot_count, slots_of,
 };
 use nalgebra::Vector2;
 
@@ -272,7 +272,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
     if min_length >= max_length {
         return refuse(
             "actuator.minLength",
-            format!("is {min_length} m; it must be below actuator.maxLength, {max_length} m"),
+            format!("is {} m; it must be below actuator.maxLength, {} m", Shown(min_length), Shown(max_length)),
         );
     }
     let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig));
@@ -284,7 +284,10 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
                     "is {height}, and there actuator {leg} would be {length:.4} m long, outside its stroke from {min_length} to \
                      {max_length} m; correct it, or rig.base[{leg}], rig.platform[{leg}], actuator.minLength or .maxLength{numbering}",
                     numbering = numbering_advice(rig),
-                    height = rig.neutral_height,
+                    height = Shown(rig.neutral_height),
+                    length = Shown(*length),
+                    min_length = Shown(min_length),
+                    max_length = Shown(max_length),
                     leg = i + 1
                 ),
             );
@@ -312,9 +315,10 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
 /// Positions of the actuators as a text: lengths of legs, or angles of cranks.
 fn positions_text(rig: &Rig, positions: &[f64; 6]) -> String {
     if rig.has_cranks() {
-        format!("angles of {:.1?} degrees", positions.map(|arc| (arc / rig.crank_arm).to_degrees()))
+        let angles = positions.map(|arc| format!("{:.1}", Shown((arc / rig.crank_arm).to_degrees())));
+        format!("angles of [{}] degrees", angles.join(", "))
     } else {
-        format!("lengths of {positions:.3?} m")
+        format!("lengths of [{}] m", positions.map(|length| format!("{:.3}", Shown(length))).join(", "))
     }
 }
 
@@ -322,18 +326,24 @@ fn positions_text(rig: &Rig, positions: &[f64; 6]) -> String {
 /// must reach its joint, with the arm within its angles and away from a dead centre.
 fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
     let Rig { crank_min_angle, crank_max_angle, crank_rod, crank_arm, .. } = *rig;
-    let degrees = f64::to_degrees;
+    let degrees = |angle: f64| Shown(angle.to_degrees());
     if crank_min_angle >= crank_max_angle {
         return refuse(
             "crank.minAngle",
-            format!("is {crank_min_angle} rad; it must be below crank.maxAngle, {crank_max_angle} rad"),
+            format!(
+                "is {} rad; it must be below crank.maxAngle, {} rad",
+                Shown(crank_min_angle),
+                Shown(crank_max_angle)
+            ),
         );
     }
     if crank_rod <= crank_arm {
         return refuse(
             "crank.rod",
             format!(
-                "is {crank_rod} m; it must be longer than crank.arm, {crank_arm} m, or the crank passes a dead centre"
+                "is {} m; it must be longer than crank.arm, {} m, or the crank passes a dead centre",
+                Shown(crank_rod),
+                Shown(crank_arm)
             ),
         );
     }
@@ -341,8 +351,9 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
         return refuse(
             "crank.arm",
             format!(
-                "is {crank_arm} m, with which the arms of cranks {first} and {second} meet above the base; shorten the arms, or \
-                 correct crank.heading[{first}], crank.heading[{second}] or the base joints"
+                "is {} m, with which the arms of cranks {first} and {second} meet above the base; shorten the arms, or \
+                 correct crank.heading[{first}], crank.heading[{second}] or the base joints",
+                Shown(crank_arm)
             ),
         );
     }
@@ -355,10 +366,13 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
             return refuse(
                 "crank.rod",
                 format!(
-                    "is {crank_rod} m, but at neutral the rod of crank {} needs {shortest:.4} to {longest:.4} m to reach its joint; \
-                     correct crank.rod, crank.arm or rig.neutralHeight, {} m{}",
+                    "is {} m, but at neutral the rod of crank {} needs {:.4} to {:.4} m to reach its joint; correct crank.rod, \
+                     crank.arm or rig.neutralHeight, {} m{}",
+                    Shown(crank_rod),
                     i + 1,
-                    rig.neutral_height,
+                    Shown(shortest),
+                    Shown(longest),
+                    Shown(rig.neutral_height),
                     heading_advice(rig)
                 ),
             );
@@ -373,7 +387,7 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
                 format!(
                     "is {} m, and there the arm of crank {} would stand at {:.2} degrees, outside its angles from {:.2} to \
                      {:.2}; correct it, or crank.heading[{}], crank.minAngle or .maxAngle{}",
-                    rig.neutral_height,
+                    Shown(rig.neutral_height),
                     i + 1,
                     degrees(angle),
                     degrees(crank_min_angle),
@@ -389,9 +403,9 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
                 format!(
                     "is {}, but at neutral crank {} has only {:.3}: it is near a dead centre, where rod and arm are in line; reduce \
                      it, or choose another crank.rod, crank.heading[{}] or rig.neutralHeight{}",
-                    cranks.least_transmission,
+                    Shown(cranks.least_transmission),
                     i + 1,
-                    transmission,
+                    Shown(transmission),
                     i + 1,
                     heading_advice(rig)
                 ),
@@ -448,9 +462,11 @@ fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Res
     refuse(
         "solver.maxStep",
         format!(
-            "is {longest_step} s: in half of it an actuator within its limits moves by up to {reserve:.4} m, but at neutral one \
-             is only {room:.4} m from an end of its stroke; reduce solver.maxStep or the actuators' limits, or lengthen \
-             the stroke"
+            "is {} s: in half of it an actuator within its limits moves by up to {:.4} m, but at neutral one is only {:.4} m \
+             from an end of its stroke; reduce solver.maxStep or the actuators' limits, or lengthen the stroke",
+            Shown(longest_step),
+            Shown(reserve),
+            Shown(room)
         ),
     )
 }

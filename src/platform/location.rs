@@ -3,7 +3,7 @@
 
 use alloc::format;
 
-use moris_interface::{ParameterError, refuse, shown};
+use moris_interface::{ParameterError, Shown, refuse};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -86,8 +86,8 @@ pub fn check_torso(torso_length: f64, head_height: f64, ground: &str) -> Result<
         "head.torsoLength",
         format!(
             "is {} m, which puts the seat below the {ground}; it must not exceed head.height, {} m",
-            shown(torso_length),
-            shown(head_height)
+            Shown(torso_length),
+            Shown(head_height)
         ),
     )
 }

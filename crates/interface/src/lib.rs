@@ -42,7 +42,7 @@ pub use row::{
     Causality, Condition, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, four_decimals, row_count,
     with_tunable,
 };
-pub use shown::shown;
+pub use shown::{Shown, shown};
 pub use slot_model::SlotModel;
 pub use slots::{Reader, Slot, Writer, slot_count, slot_of, slot_table, slots_of};
 pub use start::start_values;

@@ -9,7 +9,7 @@ use alloc::{
 };
 use core::ops::RangeInclusive;
 
-use crate::shown::shown;
+use crate::shown::{Shown, shown};
 use crate::{Field, ParameterError, Unit};
 
 /// Who sets a variable (FMI 2.0, 2.2.7).
@@ -284,11 +284,11 @@ impl Row {
                     Kind::Integer if value % 1.0 != 0.0 => "a whole number ",
                     _ => "",
                 };
-                format!("{number}from {} to {}", shown(min), shown(max))
+                format!("{number}from {} to {}", Shown(min), Shown(max))
             }
         };
         let hint = self.degrees_hint(value, self.usual.or(self.range).unwrap_or_default());
-        format!("is {}, but must be {expected}{hint}", shown(value))
+        format!("is {}, but must be {expected}{hint}", Shown(value))
     }
 
     /// True for a value beyond the usual range. 0 switches off, and is usual.
@@ -305,7 +305,7 @@ impl Row {
         Some(format!(
             "{name} is {}, but the usual range is {} to {}{}",
             with_unit(value),
-            shown(least),
+            Shown(least),
             with_unit(greatest),
             self.degrees_hint(value, (least, greatest))
         ))
@@ -317,7 +317,7 @@ impl Row {
         let in_radians = value.to_radians();
         match self.kind {
             Kind::Real(unit) if unit.name.starts_with("rad") && (least..=greatest).contains(&in_radians) => {
-                format!("; in degrees it would be {} {}", shown(four_decimals(in_radians)), unit.name)
+                format!("; in degrees it would be {} {}", Shown(four_decimals(in_radians)), unit.name)
             }
             _ => String::new(),
         }

@@ -260,7 +260,8 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     fn set_multiplier_change(&self, projection: &[f64], change: &mut [f64]) {
         let change = &mut change[..self.active];
         change.copy_from_slice(&projection[..self.active]);
-        for (k, column) in columns(&self.triangle).enumerate().take(self.active).rev() {
+        let columns = self.triangle.as_slice().as_chunks::<N>().0;
+        for (k, column) in columns[..self.active].iter().enumerate().rev() {
             change[k] /= column[k];
             let (before, value) = change[..k + 1].split_at_mut(k);
             add_scaled(before, -value[0], &column[..k]);
@@ -270,10 +271,9 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     /// The active row whose multiplier vanishes first, and the step at which it does.
     fn blocking(&self, change: &[f64]) -> (usize, f64) {
         let (mut first, mut shortest) = (0, f64::INFINITY);
-        for (k, &change) in change.iter().enumerate().take(self.active) {
-            let step = self.multipliers[k] / change;
-            if change > 0.0 && step < shortest {
-                (first, shortest) = (k, step);
+        for (k, (&change, &multiplier)) in change.iter().zip(self.multipliers.iter()).enumerate().take(self.active) {
+            if change > 0.0 && multiplier / change < shortest {
+                (first, shortest) = (k, multiplier / change);
             }
         }
         (first, shortest)
@@ -321,8 +321,19 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
                 (column[k], column[k + 1]) = (cos * above + sin * below, cos * below - sin * above);
             }
             let (left, right) = self.factor.as_mut_slice()[k * N..(k + 2) * N].split_at_mut(N);
-            for (left, right) in left.iter_mut().zip(right) {
+            let rotate = |left: &mut f64, right: &mut f64| {
                 (*left, *right) = (cos * *left + sin * *right, cos * *right - sin * *left);
+            };
+            // Fours of values stay in registers.
+            let ((fours, rest), (others, others_rest)) = (left.as_chunks_mut::<4>(), right.as_chunks_mut::<4>());
+            for ([a, b, c, d], [e, f, g, h]) in fours.iter_mut().zip(others) {
+                rotate(a, e);
+                rotate(b, f);
+                rotate(c, g);
+                rotate(d, h);
+            }
+            for (left, right) in rest.iter_mut().zip(others_rest) {
+                rotate(left, right);
             }
         }
     }
