@@ -23,11 +23,13 @@ MAX_FRAMES = 3000
 """Of the example: a minute at 50 Hz."""
 SETS = ["classical", "adaptive", "optimal", "robust", "default", "preview", "paper"]
 STEP = 0.001
+PREVIEWED_ROWS = 4000
+"""At the end of a drive: a preview has 20 elements, 0.2 s apart."""
 BUFFER_SIZES = {"classical": 24 << 10, "predictive": 240 << 10}
-MAX_FLASH = 320_000
-MAX_INSTRUCTIONS = {"classical": 50_000, "default": 150_000, "preview": 150_000}
+MAX_FLASH = 300_000
+MAX_INSTRUCTIONS = {"classical": 50_000, "default": 150_000, "preview": 380_000}
 """Of a step of 1 ms of the drive, on the Cortex-M7."""
-MAX_STACKS = {"classical": (80_000, 16_000), "default": (150_000, 20_000)}
+MAX_STACKS = {"classical": (66_000, 16_000), "default": (136_000, 18_000)}
 """Bytes to make a washout and to step it, on the Cortex-M7."""
 MAX_SECONDS = 600
 """For a build or a run that hangs."""
@@ -76,11 +78,10 @@ def drive(count):
 
 
 def hash_of_outputs(parameters, rows):
-    """FNV-1a of the bits of all outputs at all rows, on this machine."""
+    """FNV-1a of the bits of all outputs at all rows but those that are previewed alone, on this machine."""
     washout, result = moris.Washout(parameters=parameters), 0xCBF29CE484222325
-    for k, row in enumerate(rows):
-        ahead = rows[k + 200 :: 200][:20, :2]
-        preview = ahead if len(ahead) else None
+    for k, row in enumerate(rows[:-PREVIEWED_ROWS]):
+        preview = rows[k + 200 :: 200][:20, :2] if parameters == "preview" else None
         output = washout.step(STEP, row[:3], row[3:6], row[6:9], row[9], row[10], preview=preview, preview_step=0.2)
         for (bits,) in struct.iter_unpack("<Q", np.array(list(output.values()), dtype="<f8").tobytes()):
             result = (result ^ bits) * 0x100000001B3 % 2**64
@@ -92,7 +93,7 @@ def test_the_outputs_of_all_strategies_are_those_of_the_pc_to_the_bit(board, cou
     built = ["--quiet", "--profile", "board", "--target", BOARDS[board]]
     program = cargo(BOARDS[board], "build", "--package", "moris-board-tests", *built) / "moris-board-tests"
     cargo(BOARDS[board], "build", "--package", "moris-laps", "--no-default-features", *built)
-    rows = drive(count)
+    rows = drive(count + PREVIEWED_ROWS)
     (tmp_path / "drive.bin").write_bytes(struct.pack("<d", STEP) + rows.astype("<f8").tobytes())
     command = emulator(board, program, 0, "-serial", "none", "-semihosting-config", "enable=on,target=native")
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=MAX_SECONDS)
@@ -123,7 +124,7 @@ def example(folder, strategy, parameters, rig="default"):
 
 
 @pytest.mark.parametrize(("strategy", "parameters"), [("classical", "classical"), ("predictive", "default")])
-def test_a_program_in_c_with_one_strategy_has_at_most_320_kb_of_code_and_constants(strategy, parameters, tmp_path):
+def test_a_program_in_c_with_one_strategy_has_at_most_300_kb_of_code_and_constants(strategy, parameters, tmp_path):
     program = example(tmp_path, strategy, parameters)
     printed = subprocess.run(["arm-none-eabi-size", program], capture_output=True, text=True, check=True).stdout
     text, data = map(int, printed.splitlines()[1].split()[:2])

@@ -184,32 +184,49 @@ impl Ahead {
         self.values[self.count - 1]
     }
 
-    /// The pieces up to a time: duration, and the reference at the beginning and at the end.
-    fn pieces(&self, until: f64) -> impl Iterator<Item = (f64, f64, f64)> {
-        (1..self.count).map_while(move |k| {
-            let (start, end) = (self.times[k - 1], self.times[k]);
-            let (from, to) = (self.values[k - 1], self.values[k]);
-            let fraction = ((until - start) / (end - start)).min(1.0);
-            (fraction > 0.0).then_some((fraction * (end - start), from, from + fraction * (to - from)))
-        })
+    /// A piece up to a time: duration, and the reference at the beginning and at the end. None if
+    /// the piece begins after that time.
+    #[inline(always)]
+    fn piece(&self, piece: usize, until: f64) -> Option<(f64, f64, f64)> {
+        let (start, end) = (self.times[piece - 1], self.times[piece]);
+        let (from, to) = (self.values[piece - 1], self.values[piece]);
+        let fraction = ((until - start) / (end - start)).min(1.0);
+        (fraction > 0.0).then_some((fraction * (end - start), from, from + fraction * (to - from)))
     }
 
-    /// Integral of the reference from now to a time \[m/s\]; nothing is added after the end.
-    fn integral(&self, until: f64) -> f64 {
-        self.pieces(until).map(|(duration, from, to)| 0.5 * duration * (from + to)).sum()
+    /// Integrals of the reference from now to each of ascending times \[m/s\]; nothing is added
+    /// after the end.
+    fn integrals<const N: usize>(&self, until: [f64; N]) -> [f64; N] {
+        let area = |(duration, from, to): (f64, f64, f64)| 0.5 * duration * (from + to);
+        let (mut piece, mut whole) = (1, 0.0);
+        until.map(|until| {
+            while piece < self.count {
+                let Some(part) = self.piece(piece, until).map(area) else { break };
+                if until < self.times[piece] {
+                    return whole + part;
+                }
+                (piece, whole) = (piece + 1, whole + part);
+            }
+            whole
+        })
     }
 
     /// The reference at a time up to the end \[m/s2\].
     fn value(&self, time: f64) -> f64 {
-        self.pieces(time).last().map_or(self.values[0], |(.., to)| to)
+        let piece = self.times[..self.count - 1].partition_point(|&start| start < time);
+        if piece == 0 { self.values[0] } else { self.piece(piece, time).map_or(self.values[0], |(.., to)| to) }
     }
 
-    /// A first-order low-pass of the reference, `low` now, at a time up to the end.
-    pub fn low_pass(&self, low: f64, time_constant: f64, until: f64) -> f64 {
-        self.pieces(until).fold(low, |low, (duration, from, to)| {
-            let lag = (to - from) / duration * time_constant;
-            to - lag + (low - from + lag) * libm::exp(-duration / time_constant)
-        })
+    /// First-order low-passes of the reference, `low` now, at a time up to the end.
+    pub fn low_passes<const N: usize>(&self, mut low: [f64; N], time_constants: [f64; N], until: f64) -> [f64; N] {
+        for (duration, from, to) in (1..self.count).map_while(|piece| self.piece(piece, until)) {
+            let slope = (to - from) / duration;
+            for (low, time_constant) in low.iter_mut().zip(time_constants) {
+                let lag = slope * time_constant;
+                *low = to - lag + (*low - from + lag) * libm::exp(-duration / time_constant);
+            }
+        }
+        low
     }
 }
 
@@ -230,10 +247,10 @@ impl Previewed<'_> {
     pub fn over(&self, horizon: Horizon) -> Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let length = self.ahead.length();
-        let integral = |time: f64| self.ahead.integral(time) + self.after.integral((time - length).max(0.0));
+        let previewed = self.ahead.integrals(ends);
         let mut before = 0.0;
         let means = SVector::from_fn(|k, _| {
-            let to_end = integral(ends[k]);
+            let to_end = previewed[k] + self.after.integral((ends[k] - length).max(0.0));
             (to_end - core::mem::replace(&mut before, to_end)) / durations[k]
         });
         Forecast { means, end: self.parts(ends[BLOCKS - 1]) }
@@ -242,7 +259,7 @@ impl Previewed<'_> {
     /// The slow and the fast part of the reference at a time.
     fn parts(&self, time: f64) -> [f64; 2] {
         let length = self.ahead.length();
-        let mut slow = self.ahead.low_pass(self.slow, self.slow_time, time.min(length));
+        let [mut slow] = self.ahead.low_passes([self.slow], [self.slow_time], time.min(length));
         if time <= length {
             return [slow, self.ahead.value(time) - slow];
         }
@@ -315,12 +332,12 @@ mod tests {
             low += (middle - low) * (1.0 - (-step / 0.3_f64).exp());
             if (k + 1) % 10_000 == 0 {
                 let time = f64::from(k + 1) * step;
-                assert!((ahead.integral(time) - integral).abs() < 1e-8);
+                assert!((ahead.integrals([time])[0] - integral).abs() < 1e-8);
                 assert!((ahead.value(time) - reference(time)).abs() < 1e-9);
-                assert!((ahead.low_pass(0.2, 0.3, time) - low).abs() < 1e-7);
+                assert!((ahead.low_passes([0.2], [0.3], time)[0] - low).abs() < 1e-7);
             }
         }
-        assert!((ahead.integral(9.0) - integral).abs() < 1e-8, "nothing comes after the end");
+        assert!((ahead.integrals([9.0])[0] - integral).abs() < 1e-8, "nothing comes after the end");
     }
 
     #[test]
@@ -339,7 +356,7 @@ mod tests {
             let forecast = previewed.over(horizon);
             let total = forecast.means.dot(&SVector::from(*horizon.durations()));
             let end = horizon.ends()[BLOCKS - 1];
-            assert!((total - ahead.integral(1.5) - after.integral(end - 1.5)).abs() < 1e-12);
+            assert!((total - ahead.integrals([1.5])[0] - after.integral(end - 1.5)).abs() < 1e-12);
             let first = 0.5 + 0.5 * (reference(horizon.durations()[0]) - 0.5);
             assert!((forecast.means[0] - first).abs() < 1e-12);
         }
@@ -348,7 +365,7 @@ mod tests {
         assert!((fast + 0.2 * (-3.0 * 1.5_f64).exp()).abs() < 1e-12);
         let [slow, fast] = previewed.parts(0.8);
         assert!((slow + fast - reference(0.8)).abs() < 1e-12);
-        assert!((slow - ahead.low_pass(0.2, 0.6, 0.8)).abs() < 1e-12);
+        assert!((slow - ahead.low_passes([0.2], [0.6], 0.8)[0]).abs() < 1e-12);
     }
 
     #[test]
@@ -358,7 +375,7 @@ mod tests {
             let ahead = ahead(&alone(PreviewedCue { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
             let length = ahead.length();
             let previewed = Previewed { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
-            let mut low = ahead.low_pass(0.2, 0.6, length);
+            let mut low = ahead.low_passes([0.2], [0.6], length)[0];
             let (ends, step) = (Horizon::Near.ends(), 1e-4);
             for k in 0..29_000 {
                 let time = (f64::from(k) + 0.5) * step;
@@ -427,7 +444,7 @@ mod tests {
             for (from, to) in [(0.0, 0.2), (0.1, 0.4), (0.5, 1.4), (1.0, 1.3)] {
                 let exact = |time: f64| 0.2 * time * time - (TAU * 4.7 * time).cos() / (TAU * 4.7);
                 let expected = (exact(1.0 + to) - exact(1.0 + from)) / (to - from);
-                let found = (ahead.integral(to) - ahead.integral(from)) / (to - from);
+                let found = (ahead.integrals([to])[0] - ahead.integrals([from])[0]) / (to - from);
                 assert!((found - expected).abs() < 0.03, "{period} s: {found} beside {expected}");
             }
         }

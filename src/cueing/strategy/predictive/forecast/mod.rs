@@ -345,12 +345,10 @@ impl Forecaster {
             return None;
         }
         let mut end = StoredSample { value: ahead.last(), ..StoredSample::default() };
-        // No forecast uses the last one.
-        for (low, (now, time)) in
-            end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)).take(QUICK_LOW_PASS)
-        {
-            *low = ahead.low_pass(*now, time, ahead.length());
-        }
+        // No forecast uses the last one, of vibration alone.
+        let [low, times] = [&self.low_passes.data.0[0], &TIME_CONSTANTS].map(|all| core::array::from_fn(|k| all[k]));
+        let low: [f64; QUICK_LOW_PASS] = ahead.low_passes(low, times, ahead.length());
+        end.low_passes.fixed_rows_mut::<QUICK_LOW_PASS>(0).copy_from_slice(&low);
         let fitted = self.fitted * end.features();
         let after = self.expected(&end, &fitted, tables, kind);
         Some(Previewed { ahead, after, slow: self.low_passes[SLOW_LOW_PASS], slow_time: TIME_CONSTANTS[SLOW_LOW_PASS] })
