@@ -108,11 +108,6 @@ def python():
     return interpreter
 
 
-def features(options):
-    """Parts of the workbench that are compiled only where they are asked for."""
-    return ["--features", "moris-live-command/serial"] if options.all else []
-
-
 def cases(options):
     """The variable by which tests that search try all cases."""
     return {"MORIS_ALL_CASES": "1"} if options.all else {}
@@ -131,7 +126,7 @@ def pytest(options, processes, *arguments):
         "OPENBLAS_NUM_THREADS": "1",
         "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
         "CARGO_ALIAS_MORIS": "run --bin moris --",
-        "CARGO_ALIAS_LIVE": " ".join(["run", "--bin", "moris-live", *features(options), "--"]),
+        "CARGO_ALIAS_LIVE": "run --bin moris-live --",
         "CARGO_ALIAS_HUNTER": "run --bin hunter --",
     }
     run(*command, allowed=allowed, at_once=options.beside, are_tests=True, **environment)
@@ -178,7 +173,7 @@ def failure(program, directory, *arguments, **environment):
 def rust(options):
     """all tests in Rust"""
     chosen = [options.k] if options.k else []
-    command = ["cargo", "test", "--workspace", *features(options)]
+    command = ["cargo", "test", "--workspace"]
     programs = test_programs(command)
     tests = [(program, directory, *chosen, "--quiet") for program, directory in programs]
     # The examples in the documentation are compiled once more, by one core.
@@ -204,7 +199,7 @@ def examples():
 
 def program(options):
     """Compiles the commands for tests that start them, so that none waits for cargo while others compile."""
-    run("cargo", "build", "--bin", "moris", "--bin", "moris-live", *features(options))
+    run("cargo", "build", "--bin", "moris", "--bin", "moris-live")
     os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
 
 

@@ -1,30 +1,24 @@
 //! Places to which frames go: an address, a serial line, or standard output.
 
-#[cfg(feature = "serial")]
 use std::cell::RefCell;
-#[cfg(feature = "serial")]
 use std::io::Read as _;
 use std::io::{self, Write, stdout};
 use std::net::UdpSocket;
-#[cfg(feature = "serial")]
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
-#[cfg(feature = "serial")]
 use serialport::{SerialPort as _, SerialPortBuilder};
 
 /// Time in which a serial line must take a frame.
-#[cfg(feature = "serial")]
 const LINE_TIME: Duration = Duration::from_millis(100);
 
 /// A serial line.
-#[cfg(all(feature = "serial", unix))]
+#[cfg(unix)]
 type Line = serialport::TTYPort;
-#[cfg(all(feature = "serial", not(unix)))]
+#[cfg(not(unix))]
 type Line = serialport::COMPort;
 
 /// A serial line; closed once it is pulled, so that its name is free for the one that comes back.
-#[cfg(feature = "serial")]
 pub struct Serial {
     settings: SerialPortBuilder,
     line: RefCell<Option<Line>>,
@@ -34,7 +28,6 @@ pub struct Serial {
 pub enum Sink {
     /// Address of a device.
     Udp(UdpSocket),
-    #[cfg(feature = "serial")]
     Serial(Serial),
     /// No device: frames go to standard output.
     Dry,
@@ -58,7 +51,6 @@ impl Sink {
         Ok(Sink::Udp(socket))
     }
 
-    #[cfg(feature = "serial")]
     fn open_serial(line: &str) -> Result<Sink> {
         let (line, baud) = line.rsplit_once(':').context("--to is serial:LINE:BAUD")?;
         let baud = baud.parse().context("--to is serial:LINE:BAUD")?;
@@ -67,20 +59,11 @@ impl Sink {
         Ok(Sink::Serial(Serial { settings, line: RefCell::new(Some(open)) }))
     }
 
-    #[cfg(not(feature = "serial"))]
-    fn open_serial(_: &str) -> Result<Sink> {
-        bail!(
-            "moris-live was built without serial lines; build it with `cargo build --release --package moris-live-command \
-             --features serial`"
-        )
-    }
-
     /// A packet that a device has sent, if there is one; only after [`Sink::listen`]. Of a line,
     /// some bytes.
     pub fn receive<'a>(&self, packet: &'a mut [u8]) -> Option<&'a [u8]> {
         let length = match self {
             Sink::Udp(socket) => socket.recv(packet).ok()?,
-            #[cfg(feature = "serial")]
             Sink::Serial(serial) => {
                 let mut line = serial.line.borrow_mut();
                 let port = line.as_mut()?;
@@ -97,24 +80,17 @@ impl Sink {
     /// \[s\]; 0 by other ways.
     pub fn line_time(&self, bytes: usize) -> f64 {
         match self {
-            #[cfg(feature = "serial")]
             Sink::Serial(serial) => {
                 let baud = serial.line.borrow().as_ref().and_then(|line| line.baud_rate().ok());
                 baud.map_or(0.0, |baud| 10.0 * bytes as f64 / f64::from(baud))
             }
-            _ => {
-                let _ = bytes;
-                0.0
-            }
+            _ => 0.0,
         }
     }
 
     /// True for a way on which answers are lines, in parts as they come.
     pub fn is_line(&self) -> bool {
-        #[cfg(feature = "serial")]
-        return matches!(self, Sink::Serial(_));
-        #[cfg(not(feature = "serial"))]
-        false
+        matches!(self, Sink::Serial(_))
     }
 
     /// Lets [`Sink::receive`] not wait.
@@ -127,14 +103,12 @@ impl Sink {
             Sink::Dry => Ok(()),
             #[cfg(test)]
             Sink::Panicking(_) => Ok(()),
-            #[cfg(feature = "serial")]
             Sink::Serial(_) => bail!("this device answers by UDP: --to udp:HOST:PORT"),
         }
     }
 
     /// Closes a line that takes no frames.
     pub fn close(&self) {
-        #[cfg(feature = "serial")]
         if let Sink::Serial(serial) = self {
             serial.line.replace(None);
         }
@@ -142,7 +116,6 @@ impl Sink {
 
     /// Opens a closed line, if it has come back.
     pub fn reopen(&self) {
-        #[cfg(feature = "serial")]
         if let Sink::Serial(Serial { settings, line }) = self
             && line.borrow().is_none()
         {
@@ -165,7 +138,6 @@ impl Sink {
         match self {
             _ if bytes.is_empty() => Ok(()),
             Sink::Udp(socket) => socket.send(bytes).map(drop),
-            #[cfg(feature = "serial")]
             Sink::Serial(serial) => match &mut *serial.line.borrow_mut() {
                 Some(line) => line.write_all(bytes),
                 None => Err(io::ErrorKind::NotConnected.into()),

@@ -13,7 +13,6 @@ mod page;
 mod place;
 mod rig;
 mod road;
-#[cfg(feature = "serial")]
 mod serial;
 mod sources;
 
