@@ -13,6 +13,7 @@ use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
 use crate::texts::text;
 use moris_simulation::Simulation;
+use moris_simulation::fit::Aims;
 
 /// Tunes on sets of recordings.
 pub struct Tuner<'a> {
@@ -190,9 +191,15 @@ pub fn full_costs(objectives: &[&Objective], setup: &Setup) -> Result<Vec<Cost>,
     objectives.par_iter().map(|objective| full_cost(objective, setup)).collect()
 }
 
-/// The largest ratio of a recording's error to the error before.
+/// The largest ratio of a recording's error to the error before. More than [`WORST_RATIO`] where
+/// surge or sway is inverted for longer than `fit` and the verdict permit, and than before.
 pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
-    before.iter().zip(after).map(|(before, after)| after.error / before.error).fold(0.0, f64::max)
+    let inverted = |cost: &Cost| cost.shape.most_inverted().map_or(0.0, |most| most.1);
+    let ratio = |(before, after): (&Cost, &Cost)| {
+        let inversion = inverted(after) / inverted(before).max(Aims::default().inverted);
+        (after.error / before.error).max(if inversion > 1.0 { WORST_RATIO * inversion } else { 0.0 })
+    };
+    before.iter().zip(after).map(ratio).fold(0.0, f64::max)
 }
 
 /// Cost of a recording with these parameters, in their internal steps.
@@ -202,4 +209,26 @@ pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 pub fn full_cost(objective: &Objective, setup: &Setup) -> Result<Cost, TuneError> {
     let parameters = objective.recording().parameters(&setup.parameters);
     Ok(objective.cost(&Simulation::of(&objective.recording().replay(), &parameters, || ())?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_simulation::measures::shape::{AxisShape, Shape};
+
+    use super::*;
+
+    #[test]
+    fn more_inverted_time_than_the_verdict_permits_is_a_worsening() {
+        let cost = |error, inverted| {
+            let axes = [Some(AxisShape { shape: 0.9, size: 0.5, inverted }), None];
+            Cost { error, shape: Shape { axes, ..Shape::default() }, ..Cost::default() }
+        };
+        let is_worse = |before, after| worst_ratio(&[before], &[after]) > WORST_RATIO;
+        assert!(!is_worse(cost(0.5, 0.0), cost(0.5, 0.02)));
+        assert!(is_worse(cost(0.5, 0.0), cost(0.4, 0.021)));
+        // What was inverted before may be so for as long.
+        assert!(!is_worse(cost(0.5, 0.08), cost(0.4, 0.08)));
+        assert!(is_worse(cost(0.5, 0.08), cost(0.4, 0.09)));
+        assert!(is_worse(cost(0.5, 0.0), cost(0.53, 0.0)));
+    }
 }
