@@ -92,8 +92,14 @@ impl Limit {
             return vec!["was not measured".to_owned()];
         };
         let of = |what: &str, value: f64, [low, high]: [Option<f64>; 2], digits: usize| {
-            let below = low.filter(|low| value < *low).map(|low| format!("{what} {value:.digits$} is below {low}"));
-            below.or(high.filter(|high| value > *high).map(|high| format!("{what} {value:.digits$} is above {high}")))
+            let (word, bound) = match (low, high) {
+                (Some(low), _) if value < low => ("below", low),
+                (_, Some(high)) if value > high => ("above", high),
+                _ => return None,
+            };
+            // The digit that decides is shown.
+            let digits = (digits..12).find(|digits| format!("{value:.digits$}").parse() != Ok(bound)).unwrap_or(12);
+            Some(format!("{what} {value:.digits$} is {word} {bound}"))
         };
         let phase = nearest_turn(phase(response, self.output), self.phase);
         let found = [of("modulus", modulus(response, self.output), self.modulus, 3), of("phase", phase, self.phase, 0)];

@@ -189,6 +189,10 @@ fn bounds_of_one_s_own_are_held_or_named_with_the_value() {
     let [below, above] = &limits[1].broken_by(measured)[..] else { panic!("two bounds are broken") };
     assert!(below.starts_with(&format!("modulus {modulus:.3} is below")), "{below}");
     assert!(above.starts_with("phase") && above.contains("is above"), "{above}");
+    // A bound that the value misses by less than the digits shown: more are shown.
+    let shown = below.split(' ').nth(1).unwrap();
+    let missed = read(&format!("heave,10,{shown},{shown},,\n")).unwrap()[0].broken_by(measured);
+    assert!(missed.len() == 1 && !missed[0].contains(&format!(" {shown} is")), "{missed:?}");
     let (are_held, text) = table::verdicts(&limits, measured);
     assert!(!are_held && text.starts_with("bounds: 1 of 2 held\n  not held: heave at 9.900 rad/s: modulus"), "{text}");
     assert_eq!(read("pitch rate to surge,0.2,,,,\n").unwrap()[0].broken_by(measured), ["was not measured"]);

@@ -56,7 +56,8 @@ def plot_felt(simulations: Sequence[Simulation], figure: Any = None) -> Any:
             for one in of_it:
                 axis.plot(one.time, one["rider.specificForce"][:, k], linewidth=0.9, label=one.name)
             _frame(axis, f"{recording.name}: {FORCES[k]} [m/s²]")
-        row[0].legend(loc="upper right", fontsize="small")
+        # Beside the curves, none of which it may hide.
+        row[1].legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize="small")
     for axis in axes[-1]:
         axis.set_xlabel("time [s]")
     return figure
