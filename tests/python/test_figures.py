@@ -34,7 +34,7 @@ CLAIMS = [
     ("docs/guide.md", "is not # at rest", *GRAVITY),
     ("docs/guide.md", "add # to z", *GRAVITY),
     ("docs/guide.md", "and `.y` at # or less", "docs/parameter-sets.md", "| `scale.angularVelocity.y` | | # |"),
-    ("docs/strategies.md", "a plan of the next # s", HORIZON, "FORECAST: f64 = #;"),
+    ("docs/strategies.md", "a plan of the next # s", HORIZON, "FORECAST_TIME: f64 = #;"),
     ("docs/strategies.md", "critically damped at # rad/s", COORDINATED, "RETURN_FREQUENCY: f64 = #;"),
     ("docs/strategies.md", "and the tilt at # rad/s", COORDINATED, "LEVEL_FREQUENCY: f64 = #;"),
     ("docs/strategies.md", "(# rad/s³)/A", TILT, "ALLOWED_JERK: f64 = #;"),
