@@ -24,8 +24,8 @@ pub struct Instance<M> {
     pub(crate) warned_of_range: bool,
     /// Parameters changed between steps that have had their warning.
     pub(crate) warned_parameters: Vec<u32>,
-    /// The first step has been made, before which its input is checked.
-    pub(crate) has_stepped: bool,
+    /// Steps made until the input is checked, no more.
+    pub(crate) first_steps: u8,
 }
 
 impl<M: Model> Instance<M> {
@@ -40,7 +40,7 @@ impl<M: Model> Instance<M> {
             warnings: Vec::new(),
             warned_of_range: false,
             warned_parameters: Vec::new(),
-            has_stepped: false,
+            first_steps: 0,
         }
     }
 
@@ -65,7 +65,7 @@ impl<M: Model> Instance<M> {
         self.state = InstanceState::fresh(self.tables.start);
         self.warned_of_range = false;
         self.warned_parameters.clear();
-        self.has_stepped = false;
+        self.first_steps = 0;
     }
 
     /// Marks the instance as unusable until it is reset or a state restored: the model

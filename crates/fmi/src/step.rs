@@ -9,6 +9,9 @@ const LIMIT_TOLERANCE: f64 = 1e-9;
 /// Most of a step by which the rounding of a host in single precision may shift its time. A step
 /// that is repeated or left out is off by a whole one.
 const MOST_ROUNDING: f64 = 0.9;
+/// Number of the step whose input is checked. Some hosts connect inputs from the second step on, and
+/// write zeros before.
+const CHECKED_STEP: u8 = 2;
 
 /// The rounding of a time that the host has in single precision \[s\]: a unit in the last place.
 /// A half is that of the time itself, a half that of the one before, to which the host has added a
@@ -63,9 +66,11 @@ impl<M: Model> Instance<M> {
         if !fits {
             return Err(self.why_no_step(time, step));
         }
-        if !self.has_stepped {
-            self.has_stepped = true;
-            self.warnings.extend(M::input_warnings_in(&self.state.values));
+        if self.first_steps < CHECKED_STEP {
+            self.first_steps += 1;
+            if self.first_steps == CHECKED_STEP {
+                self.warnings.extend(M::input_warnings_in(&self.state.values));
+            }
         }
         let derivatives = self.state.derivatives_given.then_some(&*self.state.derivatives);
         model.step_slots(&self.state.values, derivatives, step);

@@ -233,7 +233,7 @@ const ROWS: &[Row] = rows! {
         => ["All channels stay at one value from 10.0 s to 11.6 s"], "";
     // One sensor of several, by what it measures.
     SIX, "", |k, ride| Sample { rate: ride[if (500..700).contains(&k) { 500 } else { k }].rate, ..ride[k] }
-        => ["Columns wx, wy, wz stay at one value from 10.0 s to 14.0 s and then jump: the sensor had stopped"], "";
+        => ["Columns wx, wy, wz stay at one value from 10.0 s to 14.0 s and then jump: the sensor has stopped"], "";
     ANGLES, "", |k, ride| Sample { angle: ride[if (600..800).contains(&k) { 600 } else { k }].angle, ..ride[k] }
         => ["Columns roll, pitch, yaw stay at one value from 12.0 s to 16.0 s and then jump", "!wx, wy"], "";
     // A receiver that has no fix yet.
