@@ -547,7 +547,7 @@ fn every_strategy_stands_beside_the_first() {
 #[test]
 fn the_page_of_a_long_recording_has_its_largest_size() {
     let directory = tempfile::tempdir().unwrap();
-    let seconds: u32 = crate::cases::cases(60, 30);
+    let seconds: u32 = crate::cases::cases(60, 45);
     let mut long = "time,ax,ay,az,wx,wy,wz\n".to_owned();
     for k in 0..seconds * 1000 {
         let t = f64::from(k) / 1000.0;
