@@ -9,8 +9,8 @@ const LIMIT_TOLERANCE: f64 = 1e-9;
 /// Most of a step by which the rounding of a host in single precision may shift its time. A step
 /// that is repeated or left out is off by a whole one.
 const MOST_ROUNDING: f64 = 0.9;
-/// Number of the step whose input is checked. Some hosts connect inputs from the second step on, and
-/// write zeros before.
+/// Number of the step whose input is checked. Some hosts connect inputs from the second step on,
+/// and write zeros before.
 const CHECKED_STEP: u8 = 2;
 
 /// The rounding of a time that the host has in single precision \[s\]: a unit in the last place.
