@@ -40,20 +40,15 @@ pub enum Verdict {
 
 impl Check {
     /// The contradiction, and the line of the table to change.
-    pub fn remedy(self) -> &'static str {
-        match self {
-            Check::Braking => {
-                "ax and the change of speed differ in sign: set scale = -1 in the table's line of ax (or speed)"
-            }
-            Check::LeftTurn => "ay and wz differ in sign in bends: set scale = -1 in the table's line of ay (or wz)",
-            Check::Roll => {
-                "wx and the change of roll differ in sign: set scale = -1 in the table's line of wx (or roll)"
-            }
-            Check::Pitch => {
-                "wy and the change of pitch differ in sign: set scale = -1 in the table's line of wy (or pitch)"
-            }
-            Check::Yaw => "wz and the change of yaw differ in sign: set scale = -1 in the table's line of wz (or yaw)",
-        }
+    pub fn remedy(self) -> String {
+        let (field, compared, other) = match self {
+            Check::Braking => ("ax", "the change of speed differ in sign", "speed"),
+            Check::LeftTurn => ("ay", "wz differ in sign in bends", "wz"),
+            Check::Roll => ("wx", "the change of roll differ in sign", "roll"),
+            Check::Pitch => ("wy", "the change of pitch differ in sign", "pitch"),
+            Check::Yaw => ("wz", "the change of yaw differ in sign", "yaw"),
+        };
+        format!("{field} and {compared}: set scale = -1 in the table's line of {field} (or {other})")
     }
 
     /// Least mean square of both quantities with which it decides.

@@ -363,7 +363,7 @@ impl Sizes {
             // Live has put gravity back along the vehicle's axes.
             self.world[1].add(slope[9], (to_vehicle * (force - up)).x);
         }
-        if banked.abs() <= MAX_LEAN_FRACTION * (speed * mean[5]).abs().max(speed * mean[3].abs()) {
+        if banked.abs() <= MAX_LEAN_FRACTION * turn.abs().max(speed * mean[3].abs()) {
             (0..3).for_each(|rate| self.bends[rate].add(speed * mean[3 + rate], mean[1] - banked));
         }
     }
