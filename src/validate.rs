@@ -175,7 +175,7 @@ const MAX_FIRST_ANGLE: f64 = 1.6;
 /// Fastest rotation of a vehicle at the beginning \[rad/s\].
 const MAX_FIRST_RATE: f64 = 5.0;
 
-/// Doubts about the first step's input, in sentences; the washout takes it as it is.
+/// Doubts about the first step's input, in sentences; the washout uses it unchanged.
 ///
 /// - The washout is not engaged.
 /// - Gravity is missing, has the wrong sign, is there twice or in units of g; or it is there

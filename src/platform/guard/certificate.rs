@@ -60,7 +60,7 @@ impl Machine {
             return self.certify_cranks_home_by_bounds(cranks, from, to, safety, step);
         }
         let duration = self.certify_within::<false>(&self.lever_of_legs(), from, to, safety, step)?;
-        self.sees_home_by_bounds(to, duration).then_some(duration)
+        self.has_way_home_by_bounds(to, duration).then_some(duration)
     }
 
     /// The same as [`Machine::certify_by_bounds`] with the actuators as levers; the transmission

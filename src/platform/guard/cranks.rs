@@ -197,7 +197,7 @@ impl Machine {
         self.arms_see_home_by_bounds(cranks, &arms, &lever, to, duration).then_some(duration)
     }
 
-    /// As [`Machine::sees_home_by_bounds`], for cranks.
+    /// As [`Machine::has_way_home_by_bounds`], for cranks.
     #[inline(never)]
     pub(super) fn cranks_see_home_by_bounds(&self, cranks: &Cranks, to: &PlatformState, duration: f64) -> bool {
         let arms = cranks.arms_in(&self.geometry, &to.motion.pose());

@@ -66,7 +66,7 @@ impl Machine {
     /// duration from the candidate. That stop moves no joint by more than half the duration times
     /// its speed.
     #[inline(always)]
-    pub fn sees_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
+    pub fn has_way_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
         if let Some(cranks) = &self.geometry.cranks {
             return self.cranks_see_home_by_bounds(cranks, to, duration);
         }

@@ -169,8 +169,9 @@ impl ActuatorGuard {
     ) -> Option<StopPlan> {
         let plan = self.certified(to, followed, safety, step)?;
         let [.., duration] = plan.durations().breakpoints();
-        let sees = self.machine.sees_home_by_bounds(to, duration) || self.machine.has_way_home(&plan.at(duration));
-        sees.then_some(plan)
+        let returns =
+            self.machine.has_way_home_by_bounds(to, duration) || self.machine.has_way_home(&plan.at(duration));
+        returns.then_some(plan)
     }
 
     /// True if the platform may join the demand. The positions must differ from what the

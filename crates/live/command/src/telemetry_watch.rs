@@ -17,7 +17,7 @@ pub struct TelemetryWatch {
     /// Samples, and repeated ones of them, at the last look, and its time \[s\].
     looked: [u64; 2],
     looked_at: f64,
-    is_repetition_told: bool,
+    is_repetition_reported: bool,
     delay: Option<f64>,
 }
 
@@ -30,7 +30,7 @@ impl Default for TelemetryWatch {
             dropped_at: f64::NEG_INFINITY,
             looked: [0; 2],
             looked_at: 0.0,
-            is_repetition_told: false,
+            is_repetition_reported: false,
             delay: None,
         }
     }
@@ -102,8 +102,8 @@ impl TelemetryWatch {
         let [received, same] = [counts.received - self.looked[0], counts.same - self.looked[1]];
         (self.looked, self.looked_at) = ([counts.received, counts.same], now);
         let is_slow = ((received - same) as f64) < FELT_SAMPLE_RATE * passed;
-        if is_slow && same as f64 > SAME_PART * received as f64 && !self.is_repetition_told {
-            self.is_repetition_told = true;
+        if is_slow && same as f64 > SAME_PART * received as f64 && !self.is_repetition_reported {
+            self.is_repetition_reported = true;
             note(Note::SamplesRepeated(now, [received, same]));
         }
     }

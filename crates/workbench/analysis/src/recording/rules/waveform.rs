@@ -53,7 +53,7 @@ pub fn repeated_lines(channels: &Channels, sensor: Quantity) -> Option<Message> 
     let stopped: usize = stops.iter().map(Range::len).sum();
     let stop = stops.iter().find(|stop| jumps(stop.end + 1))?;
     let is_slow = stopped as f64 > SLOW_FRACTION * changes.len() as f64;
-    // What all channels do is told once.
+    // A stop of all channels is reported once.
     if is_slow || sensor != Quantity::Time && repeated_lines(channels, Quantity::Time).is_some() {
         return None;
     }
