@@ -30,8 +30,8 @@ pub struct Disturbance {
     pub fast: f64,
 }
 
-/// Least travel that the weights refer to \[m\]. A shorter one would drop many times the force's slow
-/// part, 7.6 times it at 30 mm, and a force that changes would be felt as a jolt.
+/// Least travel that the weights refer to \[m\]. A shorter one would drop many times the force's
+/// slow part, 7.6 times it at 30 mm, and a force that changes would be felt as a jolt.
 const MIN_WEIGHED_TRAVEL: f64 = 0.06;
 /// Factor by which gamma^-2 changes until it is bracketed, and how often it may.
 const BRACKET_FACTOR: f64 = 16.0;
