@@ -1,4 +1,4 @@
-/* The board that QEMU emulates (mps2-an500): start, serial line and clock. Another board has its own. */
+/* The board that QEMU emulates (mps2-an500): start, serial line and clock. It has no servos. */
 #include "board.h"
 
 #define REGISTER(address) (*(volatile uint32_t *)(address))
@@ -12,8 +12,9 @@
 #define COPROCESSOR_ACCESS REGISTER(0xE000ED88u)
 #define TICKS_PER_MILLISECOND 25000u
 
+double board_buffer[BUFFER_SIZE / sizeof(double)];
+
 extern uint32_t __stack_top;
-int main(void);
 void reset(void);
 
 void reset(void)
@@ -25,7 +26,7 @@ void reset(void)
     TIMER_RELOAD = 0xFFFFFFFFu;
     TIMER_VALUE = 0xFFFFFFFFu;
     TIMER_CONTROL = 1u;
-    main();
+    run_platform();
     for (;;) {
     }
 }
@@ -52,6 +53,11 @@ void board_send(const char *text)
         }
         UART_DATA = (uint32_t)(unsigned char)*text;
     }
+}
+
+void board_send_pulses(const int *pulses)
+{
+    (void)pulses;
 }
 
 uint32_t board_milliseconds(void)

@@ -116,7 +116,7 @@ def example(folder, strategy, parameters, rig="default"):
     library = cargo("thumbv7em-none-eabihf", "build-board", strategy, "--quiet") / "libmoris_board.a"
     command = [*MORIS, "parameters", "--parameters", parameters, "--rig", rig, "--c-header"]
     (folder / "moris_parameters.h").write_bytes(subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout)
-    sources = [EXAMPLE / "main.c", EXAMPLE / "mps2.c", library, "-lgcc", "-T", EXAMPLE / "mps2.ld"]
+    sources = [EXAMPLE / "platform.c", EXAMPLE / "mps2.c", library, "-lgcc", "-T", EXAMPLE / "mps2.ld"]
     include = ["-I", ROOT / "crates" / "board" / "include", "-I", folder, f"-DBUFFER_SIZE={BUFFER_SIZES[strategy]}"]
     program = folder / f"{strategy}.elf"
     subprocess.run(["arm-none-eabi-gcc", *CORTEX_M7, *C_FLAGS, *include, *sources, "-o", program], check=True)
@@ -138,6 +138,30 @@ def test_a_strategy_that_is_not_built_in_is_refused_with_the_remedy(tmp_path):
             assert board.stdout.readline() == "strategy: is predictive, which is not built in; build with the feature predictive\n"
         finally:
             board.kill()
+
+
+ARDUINO = """
+#include <stdint.h>
+#define DMAMEM __attribute__((section(".dmabuffers"), used))
+extern struct SerialLine { void begin(uint32_t); int read(); void print(const char *); } Serial;
+extern "C" { uint32_t millis(void); void analogWrite(uint8_t, int); uint32_t analogWriteResolution(uint32_t); void analogWriteFrequency(uint8_t, float); }
+"""
+"""What the example for a Teensy uses of its core, as that declares it."""
+
+
+def test_the_example_for_a_teensy_has_all_functions_of_a_board(tmp_path):
+    needs("arm-none-eabi-g++", "gcc-arm-none-eabi")
+    (tmp_path / "Arduino.h").write_text(ARDUINO)
+    flags = [*CORTEX_M7, *(flag for flag in C_FLAGS if flag != "-std=c99"), "-std=gnu++17", "-I", tmp_path]
+    made = tmp_path / "teensy.o"
+    subprocess.run(["arm-none-eabi-g++", *flags, "-c", EXAMPLE / "teensy.cpp", "-o", made], check=True)
+
+    def symbols(kind):
+        return subprocess.run(["arm-none-eabi-nm", kind, made], capture_output=True, text=True, check=True).stdout.split()
+
+    board = set(re.findall(r"\bboard_\w+(?=[(\[])", (EXAMPLE / "board.h").read_text()))
+    assert len(board) == 5 and board <= set(symbols("--defined-only"))
+    assert "run_platform" in symbols("--undefined-only")
 
 
 MIRRORED = np.array([1, -1, 1, -1, 1, -1])

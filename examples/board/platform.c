@@ -19,11 +19,6 @@
 #define REST_SPEED 1e-4         /* speed of an actuator below which it is at rest [m/s] ... */
 #define REST_STEPS 1000         /* ... if it lasts for so many steps */
 
-#ifndef BUFFER_SIZE
-#define BUFFER_SIZE (24 * 1024) /* at least moris_buffer_size() [bytes] */
-#endif
-static double buffer[BUFFER_SIZE / sizeof(double)];
-
 /* Servos with cranks: pulse at which the arm is level [us], as trimmed on the platform, and 1 where a
  * longer pulse raises the arm, -1 where the servo is mounted the other way round. */
 static const struct {
@@ -83,25 +78,28 @@ static double pulse_of(int actuator, const double *output, double lift)
 
 static void send_frame(const double *output, double lift)
 {
+    int pulses[6];
+    for (int actuator = 0; actuator < 6; actuator++)
+        pulses[actuator] = (int)(pulse_of(actuator, output, lift) + 0.5);
+    board_send_pulses(pulses);
     char text[64], *end = text;
     *end++ = 'P';
     for (int actuator = 0; actuator < 6; actuator++) {
-        int pulse = (int)(pulse_of(actuator, output, lift) + 0.5);
         *end++ = ' ';
         for (int unit = 1000; unit > 0; unit /= 10)
-            *end++ = (char)('0' + pulse / unit % 10);
+            *end++ = (char)('0' + pulses[actuator] / unit % 10);
     }
     *end = '\0';
     board_send(text);
     board_send(lift == 0.0 ? " parked\n" : "\n");
 }
 
-int main(void)
+int run_platform(void)
 {
     char line[96], message[256];
     size_t length = 0;
     moris_washout *washout =
-        moris_create(buffer, sizeof buffer, moris_parameters, MORIS_PARAMETER_COUNT, message, sizeof message);
+        moris_create(board_buffer, BUFFER_SIZE, moris_parameters, MORIS_PARAMETER_COUNT, message, sizeof message);
     if (washout == NULL) {
         board_send(message);
         board_send("\n");
