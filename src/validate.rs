@@ -9,8 +9,8 @@ use moris_interface::{
 use nalgebra::Vector2;
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig, RollPitchYaw};
-use crate::platform::reach::{Axis, reach_margin, single_axis_range};
-use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
+use crate::platform::reach::{Axis, single_axis_range, stroke_clearance};
+use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, step_margin};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
@@ -70,15 +70,15 @@ pub fn warnings(parameters: &Parameters) -> Vec<String> {
     beyond.chain(doubtful_rig).chain(Changed::of(parameters).warnings()).collect()
 }
 
-/// Room of a leg at neutral, relative to the stroke, below which a rig is warned of. In the middle
-/// of the stroke it is a half.
-const MIN_ROOM_FRACTION: f64 = 0.1;
+/// Clearance of a leg at neutral, relative to the stroke, below which a rig is warned of. In the
+/// middle of the stroke it is a half.
+const MIN_CLEARANCE_FRACTION: f64 = 0.1;
 
 fn near_an_end(rig: &Rig) -> Option<String> {
-    let (room, stroke) = (reach_margin(rig, &Pose::neutral(rig)), rig.stroke_length());
-    (room < MIN_ROOM_FRACTION * stroke).then(|| {
+    let (clearance, stroke) = (stroke_clearance(rig, &Pose::neutral(rig)), rig.stroke_length());
+    (clearance < MIN_CLEARANCE_FRACTION * stroke).then(|| {
         format!(
-            "rig.neutralHeight is {} m, where a leg is only {room:.4} m from an end of its stroke of {stroke:.3} m: the \
+            "rig.neutralHeight is {} m, where a leg is only {clearance:.4} m from an end of its stroke of {stroke:.3} m: the \
              platform can move by little more than that; choose a height at which the legs are near the middle of their stroke",
             rig.neutral_height
         )
@@ -293,7 +293,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
             );
         }
     }
-    check_stroke_reserve(rig, longest_step, &neutral)?;
+    check_step_margin(rig, longest_step, &neutral)?;
     if is_default(rig) {
         return Ok(());
     }
@@ -438,7 +438,7 @@ fn crossing_arms(rig: &Rig) -> Option<[usize; 2]> {
 /// turned by half a circle.
 fn heading_advice(rig: &Rig) -> String {
     let turned = Rig { crank_heading: rig.crank_heading.map(|angle| angle + core::f64::consts::PI), ..*rig };
-    if reach_margin(&turned, &Pose::neutral(&turned)) > 0.0 {
+    if stroke_clearance(&turned, &Pose::neutral(&turned)) > 0.0 {
         return ". With the headings turned by 180 degrees it would fit".to_owned();
     }
     numbering_advice(rig)
@@ -451,12 +451,12 @@ fn numbering_advice(rig: &Rig) -> String {
 
 /// Rest at neutral is certified only if no leg can leave its stroke from there
 /// between two ends of a step.
-fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), ParameterError> {
-    let reserve = stroke_reserve(rig, longest_step);
+fn check_step_margin(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), ParameterError> {
+    let margin = step_margin(rig, longest_step);
     let [start, end] = rig.stroke();
     let least = neutral.iter().map(|length| (length - start).min(end - length));
-    let room = least.fold(f64::INFINITY, f64::min);
-    if room > reserve {
+    let clearance = least.fold(f64::INFINITY, f64::min);
+    if clearance > margin {
         return Ok(());
     }
     refuse(
@@ -465,8 +465,8 @@ fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Res
             "is {} s: in half of it an actuator within its limits moves by up to {:.4} m, but at neutral one is only {:.4} m \
              from an end of its stroke; reduce solver.maxStep or the actuators' limits, or lengthen the stroke",
             Shown(longest_step),
-            Shown(reserve),
-            Shown(room)
+            Shown(margin),
+            Shown(clearance)
         ),
     )
 }

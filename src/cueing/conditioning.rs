@@ -195,8 +195,8 @@ pub fn soft_limit(value: f64, limit: f64) -> f64 {
     if value.abs() <= knee {
         return value;
     }
-    let room = limit - knee;
-    (knee + room * libm::tanh((value.abs() - knee) / room)).copysign(value)
+    let span = limit - knee;
+    (knee + span * libm::tanh((value.abs() - knee) / span)).copysign(value)
 }
 
 /// Conditioning that changes in motion: scales, limits and cutoffs glide to new values, and what

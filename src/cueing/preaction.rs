@@ -8,8 +8,8 @@
 //! - Surge: it adds the force that the tilt lacks before the stop, and cancels the rest of the tilt
 //!   after it, as far as the stroke reaches. The platform moves backwards ever faster until the
 //!   stop, and slows down after it.
-//! - Reserve: well before the stop the platform moves forward, too gently to be felt,
-//!   to make room for that.
+//! - Positioning: well before the stop the platform moves forward, too gently to be felt,
+//!   to make way for that.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,9 +62,9 @@ const LAUNCH_TIME: f64 = 1.5;
 /// The fractions of the safety limits that the launch uses.
 const FRACTION_OF_POSITION: f64 = 0.9;
 const FRACTION_OF_VELOCITY: f64 = 0.8;
-/// Fraction of the room behind the platform for which the launch is planned: the stop may
+/// Fraction of the clearance behind the platform for which the launch is planned: the stop may
 /// come later than foreseen.
-const FRACTION_OF_ROOM: f64 = 0.9;
+const FRACTION_OF_CLEARANCE: f64 = 0.9;
 /// Time before the stop at which the platform begins to move forward \[s\].
 const POSITIONING_TIME: f64 = 9.0;
 /// Acceleration of this forward motion, which riders hardly perceive \[m/s2\], and its
@@ -140,8 +140,8 @@ impl StopPreaction {
     fn move_surge(&mut self, force: f64, safety: &SafetyParameters, step: f64) {
         let farthest = FRACTION_OF_POSITION * safety.position_limit.x;
         // The recovery covers a third of its time times the present speed.
-        let room = (self.surge.position + farthest).max(0.0);
-        let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * room;
+        let clearance = (self.surge.position + farthest).max(0.0);
+        let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * clearance;
         self.phase = match self.phase {
             // Cancelled before the platform moved backwards: there is nothing to recover from.
             Phase::Launching { .. } if !launching && self.surge.velocity > -RECOVERED_SPEED => Phase::Waiting,
@@ -151,8 +151,8 @@ impl StopPreaction {
                 // Both halves together cover acceleration * time^2 / 3, at a speed of at most
                 // acceleration * time / 2.
                 let fastest = FRACTION_OF_VELOCITY * safety.velocity_limit.x;
-                let room = FRACTION_OF_ROOM * room;
-                let acceleration = (3.0 * room / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
+                let clearance = FRACTION_OF_CLEARANCE * clearance;
+                let acceleration = (3.0 * clearance / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
                 Phase::Launching { acceleration: acceleration.min(safety.acceleration_limit.x) }
             }
             phase => phase,
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn the_launch_uses_what_the_scarcest_limit_leaves() {
-        // By the room behind the platform, by the speed, and by the acceleration.
+        // By the clearance behind the platform, by the speed, and by the acceleration.
         for (limits, expected) in [
             (safety(0.2, 10.0, 10.0), 3.0 * 0.9 * (0.9 * 0.2) / (1.5 * 1.5)),
             (safety(0.5, 0.3, 10.0), 2.0 * 0.8 * 0.3 / 1.5),

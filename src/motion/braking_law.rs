@@ -47,7 +47,7 @@ impl Limits {
     pub fn follow(&self, motion: &Motion, target: &Motion, catch_up: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
         let behind = target.position - position - 0.5 * (velocity + target.velocity) * step;
-        let demanded = target.velocity + approach_velocity(behind, catch_up, self.reserve(step));
+        let demanded = target.velocity + approach_velocity(behind, catch_up, self.braking_step(step));
         self.at_velocity(motion, demanded, step)
     }
 
@@ -76,15 +76,15 @@ impl Limits {
         let Motion { position, velocity, .. } = *motion;
         // Where the step would end if the velocity at its end were zero; each metre per second adds half a step.
         let coasted = position + 0.5 * velocity * step;
-        let reserve = self.reserve(step);
-        let fastest = min(approach_velocity(self.max - coasted, self.acceleration, reserve), self.velocity);
-        let slowest = max(approach_velocity(self.min - coasted, self.acceleration, reserve), -self.velocity);
+        let braking_step = self.braking_step(step);
+        let fastest = min(approach_velocity(self.max - coasted, self.acceleration, braking_step), self.velocity);
+        let slowest = max(approach_velocity(self.min - coasted, self.acceleration, braking_step), -self.velocity);
         let change = self.acceleration * step;
         max(min(demanded, fastest), slowest).clamp(velocity - change, velocity + change)
     }
 
     /// The step that [`approach_velocity`] needs where the one after this may be longer.
-    fn reserve(&self, step: f64) -> f64 {
+    fn braking_step(&self, step: f64) -> f64 {
         0.5 * (step + self.longest_step)
     }
 }

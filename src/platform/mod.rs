@@ -41,7 +41,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use coordinates::PlatformCoordinates;
 pub use crank::Cranks;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
-pub(crate) use guard::{ActuatorGuard, stroke_reserve};
+pub(crate) use guard::{ActuatorGuard, step_margin};
 pub(crate) use inverse::joint_distances;
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub(crate) use jacobian::lengths_with_jacobian;

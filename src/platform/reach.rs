@@ -60,16 +60,17 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
     }
 }
 
-/// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\].
-/// Negative where a leg would have to be beyond its stroke. With cranks, the stroke is the arc of
-/// the arms' ends, and what their transmission has beyond its limit counts as well, times the arm.
-pub fn reach_margin(rig: &Rig, pose: &Pose) -> f64 {
+/// Clearance of the strokes in a pose: smallest distance of a leg from either end of its
+/// stroke \[m\]. Negative where a leg would have to be beyond its stroke. With cranks, the
+/// stroke is the arc of the arms' ends, and what their transmission has beyond its limit
+/// counts as well, times the arm.
+pub fn stroke_clearance(rig: &Rig, pose: &Pose) -> f64 {
     let geometry = Geometry::from(rig);
     let [start, end] = rig.stroke();
     let lengths = leg_lengths(&geometry, pose);
-    let margin = lengths.iter().map(|length| (length - start).min(end - length)).fold(f64::INFINITY, f64::min);
-    let Some(cranks) = &geometry.cranks else { return margin };
-    margin.min(cranks.arm * (cranks.transmission(&geometry, pose) - cranks.least_transmission))
+    let clearance = lengths.iter().map(|length| (length - start).min(end - length)).fold(f64::INFINITY, f64::min);
+    let Some(cranks) = &geometry.cranks else { return clearance };
+    clearance.min(cranks.arm * (cranks.transmission(&geometry, pose) - cranks.least_transmission))
 }
 
 /// Lengths of the shortest and of the longest leg at neutral \[m\].
@@ -107,13 +108,13 @@ pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
     Range { min: -reach_along(rig, axis, -1.0), max: reach_along(rig, axis, 1.0) }
 }
 
-/// Stroke from which on reserves have their full size \[m\].
-const FULL_STROKE: f64 = 0.3;
+/// Stroke from which on margins have their full size \[m\].
+const FULL_MARGIN_STROKE: f64 = 0.3;
 
-/// Fraction of a reserve at the ends of the stroke that a rig keeps: in proportion to a short
-/// stroke, which the whole reserve would use up.
-pub fn reserve_fraction(rig: &Rig) -> f64 {
-    (rig.stroke_length() / FULL_STROKE).min(1.0)
+/// Factor on a margin at the ends of the stroke, 1 from a stroke of 0.3 m on: a short stroke would
+/// be used up by the whole margin.
+pub fn short_stroke_factor(rig: &Rig) -> f64 {
+    (rig.stroke_length() / FULL_MARGIN_STROKE).min(1.0)
 }
 
 /// Smaller of the two reaches of surge and of sway, as [`single_axis_range`] but in
@@ -149,7 +150,7 @@ const BISECTION_STEPS: u32 = 40;
 
 fn reach_along(rig: &Rig, axis: Axis, sign: f64) -> f64 {
     let farthest = if axis.is_rotation() { SEARCH_LIMITS[1] } else { SEARCH_LIMITS[0] * rig.farthest_joint() };
-    let inside = |amount: f64| reach_margin(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
+    let inside = |amount: f64| stroke_clearance(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
     let amount_at = |part: u32| farthest * f64::from(part) / f64::from(SEARCH_POINTS);
     let Some(beyond) = (1..=SEARCH_POINTS).find(|&part| !inside(amount_at(part))) else { return farthest };
     let (mut within, mut without) = (amount_at(beyond - 1), amount_at(beyond));
@@ -196,9 +197,9 @@ mod tests {
     }
 
     #[test]
-    fn short_strokes_have_smaller_reserves() {
+    fn short_strokes_have_smaller_margins() {
         let stroke =
-            |stroke: f64| reserve_fraction(&Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() });
+            |stroke: f64| short_stroke_factor(&Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() });
         assert!((stroke(0.1) - 1.0 / 3.0).abs() < 1e-12 && (stroke(0.15) - 0.5).abs() < 1e-12);
         assert_eq!([0.31, 0.6, 1.5].map(stroke), [1.0; 3]);
     }

@@ -52,7 +52,7 @@
 use moris_interface::shown;
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::reach::{Axis, displaced, reach_margin, single_axis_range};
+use moris_washout::platform::reach::{Axis, displaced, single_axis_range, stroke_clearance};
 use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{ParameterError, Rig, check};
 use schemars::JsonSchema;
@@ -432,7 +432,7 @@ impl RigFile {
         let head_height = self.head.height.unwrap_or(defaults.structure.head_height);
         let vector = |given: Option<[f64; 3]>, default| given.map_or(default, Vector3::from);
         // Legs that do not reach neutral reach nothing, and a limit of nothing would be refused before they are.
-        let reaches_neutral = reach_margin(&rig, &displaced(&rig, Axis::Heave, 0.0)) >= 0.0;
+        let reaches_neutral = stroke_clearance(&rig, &displaced(&rig, Axis::Heave, 0.0)) >= 0.0;
         let reach = || {
             if !reaches_neutral {
                 return defaults.safety.position_limit;

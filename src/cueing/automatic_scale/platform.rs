@@ -44,7 +44,7 @@ impl Platform {
         let AxisModel { angle_limit, rate_limit, acceleration_limit, .. } = *model;
         let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, step);
         self.tilt = limits.at_velocity(&tilt, tilt.velocity + tilting * step, step);
-        // a = r + e - g q + H alpha, as far as travel has room.
+        // a = r + e - g q + H alpha, as far as travel reaches.
         let swung = model.head_height * self.tilt.acceleration;
         let gravity = model.gravity * tilt.position;
         let acceleration = reference + dropped_force - gravity + swung;
@@ -59,8 +59,8 @@ fn within_reach(travel: &Motion, demanded: f64, model: &AxisModel, step: f64) ->
     let Motion { position, velocity, .. } = *travel;
     let coasted = position + 0.5 * velocity * step;
     let fastest = |side: f64| {
-        let room = model.position_limit - side * coasted;
-        min(approach_velocity(room, BRAKING_DECELERATION, step), model.velocity_limit)
+        let clearance = model.position_limit - side * coasted;
+        min(approach_velocity(clearance, BRAKING_DECELERATION, step), model.velocity_limit)
     };
     let next = max(min(demanded, fastest(1.0)), -fastest(-1.0));
     Motion { position: coasted + 0.5 * next * step, velocity: next, acceleration: (next - velocity) / step }

@@ -34,7 +34,7 @@ use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::motion::square_root::square_root;
-use crate::platform::reach::{clear_stroke, neutral_lengths, reserve_fraction};
+use crate::platform::reach::{clear_stroke, neutral_lengths, short_stroke_factor};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
 
 /// The soft limits with their state.
@@ -48,7 +48,7 @@ pub struct SoftLimits {
     /// The same of surge and sway, of heave twice, and of two legs.
     axes: [TwoEnds; 2],
     legs: TwoEnds,
-    /// The part of the relaxation that there is room for.
+    /// The part of the relaxation for which the clearance at neutral suffices.
     relaxation_fraction: f64,
     /// The rows that acted in the last step.
     acting_rows: ActingRows,
@@ -66,7 +66,7 @@ const VELOCITY_PACE: f64 = 25.0;
 const VELOCITY_SLOPE: f64 = 25.0;
 /// Largest slope of psi on the way to a limit of position \[m/s3\].
 const POSITION_SLOPE: f64 = 15.0;
-/// A function of the room that is left: `pace` times the room at first, and then a root, so that
+/// A function of the clearance: `pace` times the clearance at first, and then a root, so that
 /// the function times its derivative is at most `slope`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct GentleSlope {
@@ -81,9 +81,9 @@ impl GentleSlope {
     }
 
     #[inline(always)]
-    fn value(self, room: f64) -> f64 {
-        let (linear, knee) = (self.pace * room, self.knee());
-        if linear <= knee { linear } else { square_root(2.0 * self.slope * room - knee * knee) }
+    fn value(self, clearance: f64) -> f64 {
+        let (linear, knee) = (self.pace * clearance, self.knee());
+        if linear <= knee { linear } else { square_root(2.0 * self.slope * clearance - knee * knee) }
     }
 }
 
@@ -95,22 +95,22 @@ struct Ends {
     velocity: f64,
     acceleration: f64,
     /// Distances from neutral to `min` and to `max`.
-    room: [f64; 2],
+    neutral_clearance: [f64; 2],
 }
 
 impl Ends {
     /// The limits of a quantity that is between `neutral[0]` and `neutral[1]` at neutral. At either
-    /// end the margin takes at most half the room there is at neutral. No velocity is larger than
+    /// end the margin takes at most half the clearance at neutral. No velocity is larger than
     /// what the acceleration can brake at this pace.
     fn new([min, max]: [f64; 2], neutral: [f64; 2], velocity: f64, acceleration: f64, margin: f64, pace: f64) -> Self {
-        let room = [neutral[0] - min, max - neutral[1]].map(|room| self::max(room, 0.0));
-        let [below, above] = room.map(|room| self::min(margin, 0.5 * room));
+        let clearance = [neutral[0] - min, max - neutral[1]].map(|clearance| self::max(clearance, 0.0));
+        let [below, above] = clearance.map(|clearance| self::min(margin, 0.5 * clearance));
         Ends {
             min: min + below,
             max: max - above,
             velocity: if pace > 0.0 { self::min(velocity, acceleration / pace) } else { velocity },
             acceleration: ACCELERATION_FRACTION * acceleration,
-            room: [room[0] - below, room[1] - above],
+            neutral_clearance: [clearance[0] - below, clearance[1] - above],
         }
     }
 
@@ -124,9 +124,9 @@ impl Ends {
     fn range(&self, position: f64, velocity: f64, pace: f64) -> (f64, f64) {
         let approach = GentleSlope { pace, slope: POSITION_SLOPE };
         let to_velocity = GentleSlope { pace: VELOCITY_PACE, slope: VELOCITY_SLOPE };
-        // Towards an end, `room` before it, at the velocity `towards`.
-        let largest = |room: f64, towards: f64| {
-            let by_position = approach.value(pace * room - towards) - pace * towards;
+        // Towards an end, `clearance` before it, at the velocity `towards`.
+        let largest = |clearance: f64, towards: f64| {
+            let by_position = approach.value(pace * clearance - towards) - pace * towards;
             min(by_position, to_velocity.value(self.velocity - towards))
         };
         let (upper, lower) = (largest(self.max - position, velocity), -largest(position - self.min, -velocity));
@@ -182,7 +182,7 @@ impl SoftLimits {
     /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
     pub fn new(parameters: &Parameters, heave: f64) -> Self {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
-        let (margin, pace) = (soft_limit.margin * reserve_fraction(rig), soft_limit.pace);
+        let (margin, pace) = (soft_limit.margin * short_stroke_factor(rig), soft_limit.pace);
         let farthest = |k: usize| if k == 2 { min(safety.position_limit[k], heave) } else { safety.position_limit[k] };
         let geometry = Geometry::from(rig);
         let axes = [0, 1, 2].map(|k: usize| {
@@ -201,7 +201,9 @@ impl SoftLimits {
             axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, pace)),
             legs: TwoEnds::of([leg; 2], pace),
             relaxation_fraction: Relaxation::fraction_within(
-                axes.iter().chain([&leg]).fold(f64::INFINITY, |least, ends| ends.room.into_iter().fold(least, min)),
+                axes.iter()
+                    .chain([&leg])
+                    .fold(f64::INFINITY, |least, ends| ends.neutral_clearance.into_iter().fold(least, min)),
             ),
             acting_rows: ActingRows::default(),
             relaxation: Relaxation::default(),

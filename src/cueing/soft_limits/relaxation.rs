@@ -7,9 +7,9 @@
 //!     y'' = -alpha x r - w^2 y - w y',    r from the platform's origin to the head
 //! ```
 //!
-//! along each row, and never beyond where they are. Where there is little room, y is a part of
+//! along each row, and never beyond where they are. Where the clearance is small, y is a part of
 //! that: limits that come and go fast would jolt. Along a row y counts as y/(1 + (y/r)^4)^(1/4),
-//! with r a part of the room that the row has at neutral. Limits that relaxed farther would
+//! with r a part of the clearance that the row has at neutral. Limits that relaxed farther would
 //! contradict each other, and none would be kept.
 
 use nalgebra::Vector3;
@@ -24,8 +24,8 @@ use crate::motion::square_root::square_root;
 const RETURN_RATE: f64 = 0.8;
 /// Largest relaxation of an end, as a fraction of its distance from neutral.
 const MAX_RELAXATION_FRACTION: f64 = 0.5;
-/// Least room at neutral from which on the relaxation is whole \[m\].
-const FULL_RELAXATION_ROOM: f64 = 0.1;
+/// Least clearance at neutral from which on the relaxation is whole \[m\].
+const FULL_RELAXATION_CLEARANCE: f64 = 0.1;
 /// Time within which the relaxation sets in, so that it does so without a jump \[s\].
 const ONSET_TIME: f64 = 0.2;
 
@@ -38,9 +38,10 @@ pub struct Relaxation {
 }
 
 impl Relaxation {
-    /// The fraction of a relaxation that a machine can make with this least room at neutral \[m\].
-    pub fn fraction_within(room: f64) -> f64 {
-        min(room / FULL_RELAXATION_ROOM, 1.0)
+    /// The fraction of a relaxation that a machine can make with this least
+    /// clearance at neutral \[m\].
+    pub fn fraction_within(clearance: f64) -> f64 {
+        min(clearance / FULL_RELAXATION_CLEARANCE, 1.0)
     }
 
     /// True while a row acts.
@@ -73,8 +74,8 @@ impl Relaxation {
         let Motion { position, velocity, acceleration } = &self.travel;
         let [position, velocity, acceleration] = [position, velocity, acceleration].map(|part| direction.dot(part));
         // The end that comes nearer: the other one stays where it is.
-        let room = if position > 0.0 { ends.room[0] } else { ends.room[1] };
-        let largest = max(MAX_RELAXATION_FRACTION * room, f64::MIN_POSITIVE);
+        let clearance = if position > 0.0 { ends.neutral_clearance[0] } else { ends.neutral_clearance[1] };
+        let largest = max(MAX_RELAXATION_FRACTION * clearance, f64::MIN_POSITIVE);
         let part = position / largest;
         let to_fourth = 1.0 + (part * part) * (part * part);
         let root = square_root(square_root(to_fourth));

@@ -98,10 +98,10 @@ fn an_end_is_approached_critically_damped_and_never_passed() {
     let ends = Ends::new([-0.45, 0.45], [0.0; 2], 1.0, 10.0, margin, pace);
     assert!((ends.max - 0.44).abs() < 1e-15 && (ends.min + 0.44).abs() < 1e-15);
     let narrow = Ends::new([-0.01, 0.01], [0.0; 2], 1.0, 10.0, margin, pace);
-    assert!((narrow.max - 0.005).abs() < 1e-15, "at most half the room at neutral");
+    assert!((narrow.max - 0.005).abs() < 1e-15, "at most half the clearance at neutral");
     let low = Ends::new([0.7, 1.0], [0.704, 0.706], 1.0, 10.0, margin, pace);
     assert!((low.min - 0.702).abs() < 1e-15 && (low.max - 0.99).abs() < 1e-15);
-    assert!((low.room[0] - 0.002).abs() < 1e-15 && (low.room[1] - 0.284).abs() < 1e-15);
+    assert!((low.neutral_clearance[0] - 0.002).abs() < 1e-15 && (low.neutral_clearance[1] - 0.284).abs() < 1e-15);
     // From here on psi is in its linear part.
     let (mut x, mut v) = (0.3, 0.3);
     for k in 0..100_000 {
@@ -188,7 +188,7 @@ fn what_keeps_the_ranges_is_within_them() {
 fn a_relaxation_leaves_neutral_within_the_limits() {
     let ends = Ends::new([-0.1, 0.4], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
     let direction = Vector3::x();
-    // A tilt that would make limits relax by far more than there is room for.
+    // A tilt that would make limits relax by far more than the clearance permits.
     for side in [1.0, -1.0] {
         let mut relaxation = Relaxation::default();
         for _ in 0..3000 {

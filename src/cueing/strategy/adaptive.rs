@@ -87,8 +87,8 @@ impl Law for Adaptive {
     fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
         let StepContext { parameters, guard, .. } = law_input.context;
         let longer = (parameters.rig.stroke_length() / NEAR_END_STROKE).max(1.0);
-        let scaled_margin = guard.stroke_margin() / longer;
-        Some(self.decide(&law_input.states, law_input.references, scaled_margin, step))
+        let scaled_clearance = guard.stroke_clearance() / longer;
+        Some(self.decide(&law_input.states, law_input.references, scaled_clearance, step))
     }
 }
 
@@ -114,15 +114,15 @@ impl Adaptive {
     }
 
     /// Decision for a step of `step` seconds. It begins in these states and has these references at
-    /// its end. The actuators have `scaled_margin` left of their strokes \[m\].
+    /// its end. The actuators' clearance is `scaled_clearance` \[m\].
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],
         references: [f64; 2],
-        scaled_margin: f64,
+        scaled_clearance: f64,
         step: f64,
     ) -> [Decision; 2] {
-        let near_end = (1.0 - scaled_margin / NEAR_END).max(0.0);
+        let near_end = (1.0 - scaled_clearance / NEAR_END).max(0.0);
         let weight_scale = 1.0 + LARGEST_INCREASE * near_end * near_end;
         let parameters = if self.glide.is_over() { self.parameters } else { self.gliding(step) };
         [0, 1].map(|k: usize| {
@@ -425,7 +425,7 @@ mod tests {
     #[test]
     fn travel_weighs_more_near_the_ends_of_the_strokes() {
         let parameters = AdaptiveParameters { gain1: 1e-3, ..fixed([0.7, 0.2]) };
-        let change = |margin: f64, tenfold: f64| {
+        let change = |clearance: f64, tenfold: f64| {
             let weights = AdaptiveParameters {
                 weight_position: tenfold * parameters.weight_position,
                 weight_velocity: tenfold * parameters.weight_velocity,
@@ -434,14 +434,14 @@ mod tests {
             let mut adaptive = Adaptive::new(&[FREE; 2], &weights);
             adaptive.axes[1].to_travel_gain = [0.3, 0.4];
             let state = AxisState { position: 0.2, velocity: 0.1, ..AxisState::default() };
-            adaptive.decide(&[state; 2], [1.0; 2], margin, STEP);
+            adaptive.decide(&[state; 2], [1.0; 2], clearance, STEP);
             assert_ne!(adaptive.axes[0], adaptive.axes[1], "each axis has its own sensitivities");
             adaptive.axes[1].gains[0]
         };
-        for (margin, factor) in
+        for (clearance, factor) in
             [(0.3, 1.0), (NEAR_END, 1.0), (0.05, 1.0 + LARGEST_INCREASE / 4.0), (0.0, 1.0 + LARGEST_INCREASE)]
         {
-            assert!((change(margin, 1.0) - change(1.0, factor)).abs() < 1e-15, "{margin} m");
+            assert!((change(clearance, 1.0) - change(1.0, factor)).abs() < 1e-15, "{clearance} m");
         }
         assert_ne!(change(0.05, 1.0), change(1.0, 1.0));
     }

@@ -477,7 +477,7 @@ mod tests {
         let mut parameters = parameters(StrategyKind::Predictive);
         parameters.angular.omega1.pitch *= 2.0;
         parameters.angular.omega1.yaw *= 3.0;
-        // Of the room at neutral, whose length is 0.04 mm below the stroke's middle, half is left.
+        // Of the clearance at neutral, whose length is 0.04 mm below the stroke's middle, half is left.
         for (margin, kept, rounding) in [(0.02, 0.02, 1e-12), (10.0, 0.15, 2e-5)] {
             parameters.predictive.leg_margin = margin;
             in_circumstances(&parameters, 1.0, |context| {

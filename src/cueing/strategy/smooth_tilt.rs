@@ -137,8 +137,8 @@ mod tests {
         let fast = AxisState { tilt: 0.0, tilt_rate: 0.04, tilt_acceleration: 0.2, ..AxisState::default() };
         let far = AxisState { tilt: 0.25, tilt_rate: 0.01, tilt_acceleration: 0.1, ..AxisState::default() };
         for (state, limited, limit) in [(fast, 1, 0.05), (far, 0, 0.257)] {
-            let room = AxisState { tilt_acceleration: 0.0, ..state };
-            let largest = limits.nearest_acceleration(&room, 0.0, step);
+            let without_acceleration = AxisState { tilt_acceleration: 0.0, ..state };
+            let largest = limits.nearest_acceleration(&without_acceleration, 0.0, step);
             assert_eq!(largest, 0.0, "there is room");
             let bound = TiltLimits { build_up: 1e12, ..limits };
             let by = |demanded| {

@@ -149,7 +149,7 @@ impl Machine {
 
     /// The stop from the candidate within the safety limits. All coordinates stop in one
     /// duration that suits the fastest leg and the safety limits of acceleration. An axis with
-    /// less room stops sooner.
+    /// less clearance stops sooner.
     fn stop_plan(&self, to: &PlatformState, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motion { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
@@ -161,11 +161,11 @@ impl Machine {
             let speed = velocity[k].abs();
             // From the candidate on: one that is back inside a tightened limit stays inside.
             let (lowest, highest) = reachable(&to.coordinates, safety, k);
-            let room = if velocity[k] >= 0.0 { highest - position[k] } else { position[k] - lowest };
+            let clearance = if velocity[k] >= 0.0 { highest - position[k] } else { position[k] - lowest };
             // At rest, the quotient is infinite or no number.
-            durations.linear[k] = min(2.0 * room / speed, duration);
+            durations.linear[k] = min(2.0 * clearance / speed, duration);
             let brakes = speed <= safety.acceleration_limit[k] * WITH_ROUNDING * durations.linear[k];
-            if !(brakes && room >= 0.0) {
+            if !(brakes && clearance >= 0.0) {
                 return None;
             }
         }
@@ -173,7 +173,7 @@ impl Machine {
     }
 
     /// True if the legs keep speed and acceleration at every instant of the transition. Their
-    /// lengths need no check: both ends are inside the stroke by the reserve.
+    /// lengths need no check: both ends are inside the stroke by the margin.
     fn transition_keeps_legs(&self, from: &PlatformState, to: &PlatformState, step: f64) -> bool {
         let (now, next) = (&from.coordinates, &to.coordinates);
         let (linear, angles) =

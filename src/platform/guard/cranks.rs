@@ -33,7 +33,7 @@
 
 use super::bounds::JointBounds;
 use super::home::{Distance, Point, keep_chords};
-use super::machine::{CLEARANCE_FRACTION, Machine, STOP_FRACTION, Speed};
+use super::machine::{HOME_MARGIN_FRACTION, Machine, STOP_FRACTION, Speed};
 use crate::interface::SafetyParameters;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
@@ -237,9 +237,9 @@ impl Machine {
             && start >= 0.0
             && start + neutral >= 0.5 * way.square_bend
             && below >= 0.0
-            && below + self.home.clear_beyond[0] >= way.joint * way.joint + turned
+            && below + self.home.joints_beyond_margin[0] >= way.joint * way.joint + turned
             && above >= 0.0
-            && above + self.home.clear_beyond[1] >= turned
+            && above + self.home.joints_beyond_margin[1] >= turned
     }
 
     /// Bounds on the way home over this distance, from within `travel` of where the arms are.
@@ -302,6 +302,6 @@ impl Machine {
     /// The smallest transmission that the way home needs at the fraction `s` of it.
     fn transmission_needed(&self, cranks: &Cranks, s: f64) -> f64 {
         let least = cranks.least_transmission;
-        least + CLEARANCE_FRACTION * s * (self.home.transmission - least)
+        least + HOME_MARGIN_FRACTION * s * (self.home.transmission - least)
     }
 }

@@ -11,7 +11,7 @@
 //! more than c (s - a)(b - s) below the line between its ends. It stays above zero if its values at
 //! the ends add up to c (b - a)² or more.
 //!
-//! The way is certified if every leg is inside its stroke by at least s times a clearance. From any
+//! The way is certified if every leg is inside its stroke by at least s times a margin. From any
 //! point of a certified way the rest of it is certified as well.
 
 use super::cranks::Lever;
@@ -49,7 +49,7 @@ impl Distance {
 /// A point of the way home.
 #[derive(Clone, Copy)]
 pub(super) struct Point {
-    /// Room of each actuator to either end of its stroke, less the clearance there.
+    /// Clearance of each actuator from either end of its stroke, less the margin there.
     pub(super) beyond: [[f64; 2]; 6],
     /// The smallest transmission of the cranks; 1 with legs.
     pub(super) transmission: f64,
@@ -70,7 +70,7 @@ impl Machine {
         if let Some(cranks) = &self.geometry.cranks {
             return self.cranks_see_home_by_bounds(cranks, to, duration);
         }
-        let Home { longest, beyond_clearance: [below, above], per_two_lengths, .. } = self.home;
+        let Home { longest, beyond_margin: [below, above], per_two_lengths, .. } = self.home;
         let speed = Speed::of(&to.coordinates);
         let (travel, turn) = (0.5 * duration * speed.of_joints(self.radius), 0.5 * duration * speed.angular);
         let distance = Distance::of(&to.coordinates, self.radius);
@@ -88,9 +88,9 @@ impl Machine {
         let distance = Distance::of(rest, self.radius);
         let turning = distance.angular * distance.angular * self.radius;
         let chord_gap = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
-        let [low, high] = self.home.clearance;
+        let [low, high] = self.home.margin;
         let cranks = self.geometry.cranks.as_ref();
-        // Beyond the clearances, at the fraction s of the way: squares of lengths, and lengths. Arcs of
+        // Beyond the margins, at the fraction s of the way: squares of lengths, and lengths. Arcs of
         // cranks count as they are.
         let beyond = |s: f64, lengths: &[f64; 6]| {
             let shortest = self.limits.min + low * s;

@@ -12,8 +12,8 @@ use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_le
 /// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
 /// accelerations that the legs' rotation causes.
 pub(super) const STOP_FRACTION: f64 = 0.6;
-/// The clearance at neutral, as a fraction of the room that the legs have there.
-pub(super) const CLEARANCE_FRACTION: f64 = 1.0 / 16.0;
+/// The margin of the way home at neutral, as a fraction of the legs' clearance there.
+pub(super) const HOME_MARGIN_FRACTION: f64 = 1.0 / 16.0;
 
 /// The legs with their limits, as the certificate needs them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,7 +23,7 @@ pub struct Machine {
     /// The farthest joint from the platform's origin \[m\].
     pub(super) radius: f64,
     /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke
-    /// by [`stroke_reserve`].
+    /// by [`step_margin`].
     pub limits: Limits,
     /// Duration of a stop for each m/s of a leg \[s2/m\].
     pub(super) stop_time_per_speed: f64,
@@ -60,16 +60,16 @@ pub struct Home {
     pub(super) joints: [f64; 2],
     /// The smallest transmission of the cranks; 1 with legs.
     pub(super) transmission: f64,
-    /// The clearances at neutral from the shortest and the longest length \[m\].
-    pub(super) clearance: [f64; 2],
-    /// Least distance of the legs beyond their clearances at neutral \[m\].
-    pub(super) beyond_clearance: [f64; 2],
+    /// The margins at neutral from the shortest and the longest length \[m\].
+    pub(super) margin: [f64; 2],
+    /// Least distance of the legs beyond their margins at neutral \[m\].
+    pub(super) beyond_margin: [f64; 2],
     /// 1/(2 times the shortest length) \[1/m\].
     pub(super) per_two_lengths: f64,
     /// Of cranks: cosine and sine of the lowest and of the highest angle, and what the joints have
-    /// beyond their clearances of arms there ([`Arms::clear_of`]) \[m2\]. Zero with legs.
+    /// beyond their margins from arms there ([`Arms::clear_of`]) \[m2\]. Zero with legs.
     pub(super) ends: [[f64; 2]; 2],
-    pub(super) clear_beyond: [f64; 2],
+    pub(super) joints_beyond_margin: [f64; 2],
 }
 
 impl Home {
@@ -81,7 +81,7 @@ impl Home {
         };
         let length = leg_lengths(geometry, neutral);
         let [shortest, longest] = extremes(&length);
-        let room = [shortest - limits.min, limits.max - longest];
+        let clearance = [shortest - limits.min, limits.max - longest];
         let arms = geometry.cranks.as_ref().map(|cranks| (cranks, cranks.arms_in(geometry, neutral)));
         let ends = arms.map_or([[0.0; 2]; 2], |(cranks, _)| {
             [limits.min, limits.max].map(|arc| libm::sincos(arc / cranks.arm)).map(|(sin, cos)| [cos, sin])
@@ -91,33 +91,34 @@ impl Home {
             longest,
             joints: extremes(&leg_lengths(&geometry.with_legs(), neutral)),
             transmission: arms.as_ref().map_or(1.0, |(_, arms)| arms.least_transmission()),
-            clearance: room.map(|room| CLEARANCE_FRACTION * room),
-            beyond_clearance: room.map(|room| (1.0 - CLEARANCE_FRACTION) * room),
+            margin: clearance.map(|clearance| HOME_MARGIN_FRACTION * clearance),
+            beyond_margin: clearance.map(|clearance| (1.0 - HOME_MARGIN_FRACTION) * clearance),
             per_two_lengths: 0.5 / limits.min,
             ends,
-            clear_beyond: arms
-                .map_or([0.0; 2], |(_, arms)| arms.clear_of(ends).map(|room| (1.0 - CLEARANCE_FRACTION) * room)),
+            joints_beyond_margin: arms.map_or([0.0; 2], |(_, arms)| {
+                arms.clear_of(ends).map(|clearance| (1.0 - HOME_MARGIN_FRACTION) * clearance)
+            }),
         }
     }
 }
 
-/// The reserve of a stroke at either end for what happens between the ends of a step \[m\].
+/// The margin of a stroke at either end for what happens between the ends of a step \[m\].
 ///
 /// It is what a leg can move beyond both ends of a transition: A h²/8 for the longest step h, or V
 /// h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
-pub fn stroke_reserve(rig: &Rig, longest_step: f64) -> f64 {
+pub fn step_margin(rig: &Rig, longest_step: f64) -> f64 {
     (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
 }
 
 impl Machine {
     /// The machine of a rig; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
-        let reserve = stroke_reserve(rig, longest_step);
+        let margin = step_margin(rig, longest_step);
         let geometry = Geometry::from(rig);
         let [start, end] = rig.stroke();
         let limits = Limits {
-            min: start + reserve,
-            max: end - reserve,
+            min: start + margin,
+            max: end - margin,
             velocity: rig.velocity_limit,
             acceleration: rig.acceleration_limit,
             longest_step,
@@ -167,9 +168,9 @@ impl Machine {
     /// The limits within which each leg pursues a demand: a little inside the certified stroke. A
     /// leg at the end of the stroke is then drawn back and does not keep the others from moving.
     pub fn pursuit_limits(&self) -> Limits {
-        const INSET: f64 = 1e-5;
-        let inset = INSET * (self.limits.max - self.limits.min);
-        Limits { min: self.limits.min + inset, max: self.limits.max - inset, ..self.limits }
+        const PURSUIT_MARGIN_FRACTION: f64 = 1e-5;
+        let margin = PURSUIT_MARGIN_FRACTION * (self.limits.max - self.limits.min);
+        Limits { min: self.limits.min + margin, max: self.limits.max - margin, ..self.limits }
     }
 }
 

@@ -23,7 +23,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::machine::stroke_reserve;
+pub use self::machine::step_margin;
 use self::machine::{Machine, Speed};
 use super::stop_plan::{StopDurations, StopPlan};
 use super::{Geometry, Legs, PlatformCoordinates, PlatformState, leg_accelerations};
@@ -222,19 +222,19 @@ impl ActuatorGuard {
     }
 
     /// The smallest distance of a leg from either end of its stroke \[m\].
-    pub fn stroke_margin(&self) -> f64 {
+    pub fn stroke_clearance(&self) -> f64 {
         let [shortest, longest] = self.stroke;
         let [least, greatest] = self.now.legs.extremes();
         min(least - shortest, longest - greatest)
     }
 
-    /// The time derivative of [`ActuatorGuard::stroke_margin`] \[m/s\].
-    pub fn stroke_margin_rate(&self) -> f64 {
-        self.margins().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, rate)| rate)
+    /// The time derivative of [`ActuatorGuard::stroke_clearance`] \[m/s\].
+    pub fn stroke_clearance_rate(&self) -> f64 {
+        self.clearances().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, rate)| rate)
     }
 
     /// Each leg's distance from each end of its stroke, and the rate of it.
-    fn margins(&self) -> impl Iterator<Item = (f64, f64)> {
+    fn clearances(&self) -> impl Iterator<Item = (f64, f64)> {
         let Legs { length, velocity } = self.now.legs;
         (0..6)
             .flat_map(move |i| [(length[i] - self.stroke[0], velocity[i]), (self.stroke[1] - length[i], -velocity[i])])

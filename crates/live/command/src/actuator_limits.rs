@@ -38,7 +38,7 @@ impl Actuators {
         let [shortest, longest] = self.stroke;
         let by_braking = GLIDE_BRAKING_FRACTION * self.acceleration * time * time;
         // The speed of this step is that of which the rest of the stroke is the way to rest.
-        let most = |room: f64| (by_braking * (by_braking + 2.0 * room.max(0.0))).sqrt() - by_braking;
+        let most = |clearance: f64| (by_braking * (by_braking + 2.0 * clearance.max(0.0))).sqrt() - by_braking;
         length.clamp((last - most(last - shortest)).max(shortest), (last + most(longest - last)).min(longest))
     }
 }
@@ -237,11 +237,12 @@ impl FrameLimiter {
         const REST_WAY: f64 = 0.9;
         let (_, last) = self.last?;
         let [shortest, longest] = self.actuators.stroke;
-        let room = |k: usize| {
+        let clearance = |k: usize| {
             let end = if last.velocity[k] > 0.0 { longest } else { shortest };
             (end - last.length[k]).abs()
         };
-        let fades = (0..6).map(|k| REST_WAY * room(k) / last.velocity[k].abs().max(1e-9)).fold(REST_TIME, f64::min);
+        let fades =
+            (0..6).map(|k| REST_WAY * clearance(k) / last.velocity[k].abs().max(1e-9)).fold(REST_TIME, f64::min);
         let fades = fades.max(MAX_GLIDE_STEP);
         let speeds = last.velocity.iter().chain(&self.change[6..]);
         let left = (-time / fades).exp();

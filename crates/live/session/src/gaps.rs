@@ -42,7 +42,7 @@ impl Gaps {
     /// The delay with which this part of the gaps is covered, with a reserve \[s\].
     pub fn delay(&self, part: f64) -> f64 {
         // Reserve of the delay beyond the time between samples.
-        const DELAY_RESERVE: f64 = 1.1;
+        const DELAY_FACTOR: f64 = 1.1;
         // Gaps from which on the longest alone does not count.
         const MIN_COUNTED_GAPS: f64 = 20.0;
         let all = self.weights.iter().sum::<f64>();
@@ -56,11 +56,7 @@ impl Gaps {
             sum += weight;
             if sum > 0.0 && sum >= wanted * (1.0 - 1e-12) {
                 // Samples that come before their time need none.
-                return if class == 0 {
-                    0.0
-                } else {
-                    (DELAY_RESERVE * (class + 1) as f64 * CLASS_WIDTH).min(MAX_DELAY)
-                };
+                return if class == 0 { 0.0 } else { (DELAY_FACTOR * (class + 1) as f64 * CLASS_WIDTH).min(MAX_DELAY) };
             }
         }
         0.0

@@ -54,7 +54,7 @@ impl Tuning {
             return;
         }
         let parameters = Parameters::read(&mut Reader::new(&self.target));
-        let (safety, tilt) = (with_room(&parameters, washout), with_tilt(&parameters, washout));
+        let (safety, tilt) = (safety_in_motion(&parameters, washout), tilt_in_motion(&parameters, washout));
         let gentle = Parameters { safety, tilt, ..parameters };
         self.waits = gentle != parameters;
         // Limits on the way may be refused where both ends are not: the next ones follow.
@@ -64,7 +64,7 @@ impl Tuning {
 
 /// The tilt's limits of these parameters. Where a tilt is beyond smaller ones, or could not end
 /// within them, those in force stay.
-fn with_tilt(parameters: &Parameters, washout: &Washout) -> TiltParameters {
+fn tilt_in_motion(parameters: &Parameters, washout: &Washout) -> TiltParameters {
     let (before, mut tilt) = (&washout.parameters().tilt, parameters.tilt);
     let output = washout.output();
     let axes = [(output.tilt_roll, output.tilt_roll_rate), (output.tilt_pitch, output.tilt_pitch_rate)];
@@ -86,7 +86,7 @@ fn with_tilt(parameters: &Parameters, washout: &Washout) -> TiltParameters {
 
 /// The safety units' limits of these parameters. On an axis where the platform is beyond smaller
 /// ones, or too fast to stay within them gently, those in force stay.
-fn with_room(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
+fn safety_in_motion(parameters: &Parameters, washout: &Washout) -> SafetyParameters {
     // Least pace with which a limit is approached [1/s], where the soft limits have none.
     const MIN_PACE: f64 = 1.0;
     let (before, mut safety) = (&washout.parameters().safety, parameters.safety);

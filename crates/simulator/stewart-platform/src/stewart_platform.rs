@@ -206,7 +206,7 @@ impl Model for StewartPlatform {
             total_power: (now.total_power - before.total_power) * per_second,
             felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
             felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
-            stroke_margin: self.stroke_margin(&self.now.legs).1,
+            stroke_margin: self.stroke_clearance(&self.now.legs).1,
             angle: now.angular_rate,
             angular_rate: self.angles(&self.now.acceleration.into()),
             ..Output::default()
@@ -370,7 +370,7 @@ impl StewartPlatform {
             total_power: drive.dot(&Vector6::from(legs.velocity)),
             felt_specific_force: felt.specific_force,
             felt_angular_velocity: felt.angular_velocity,
-            stroke_margin: self.stroke_margin(legs).0,
+            stroke_margin: self.stroke_clearance(legs).0,
             angle: self.angles(&legs.length),
             angular_rate: self.angles(&legs.velocity),
             ..Output::default()
@@ -385,11 +385,12 @@ impl StewartPlatform {
     }
 
     /// The smallest distance of a leg from an end of its stroke \[m\], and its rate \[m/s\].
-    fn stroke_margin(&self, legs: &Legs) -> (f64, f64) {
+    fn stroke_clearance(&self, legs: &Legs) -> (f64, f64) {
         let [start, end] = self.parameters.rig.stroke();
-        let margins = legs.length.iter().zip(&legs.velocity);
-        let margins = margins.flat_map(|(&length, &velocity)| [(length - start, velocity), (end - length, -velocity)]);
-        margins.fold((f64::INFINITY, 0.0), |nearest, next| if next.0 < nearest.0 { next } else { nearest })
+        let clearances = legs.length.iter().zip(&legs.velocity);
+        let clearances =
+            clearances.flat_map(|(&length, &velocity)| [(length - start, velocity), (end - length, -velocity)]);
+        clearances.fold((f64::INFINITY, 0.0), |nearest, next| if next.0 < nearest.0 { next } else { nearest })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use moris_washout::platform::reach::{Axis, Range, displaced, reach_margin, single_axis_range};
+use moris_washout::platform::reach::{Axis, Range, displaced, single_axis_range, stroke_clearance};
 use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
 use moris_washout::{ParameterError, Parameters, Rig, check, warnings};
 
@@ -131,7 +131,7 @@ impl Capabilities {
 
 /// True if the legs reach neutral.
 fn can_stand(rig: &Rig) -> bool {
-    reach_margin(rig, &Pose::neutral(rig)) > 0.0
+    stroke_clearance(rig, &Pose::neutral(rig)) > 0.0
 }
 
 impl AxisAlone {

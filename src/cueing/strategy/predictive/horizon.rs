@@ -51,15 +51,15 @@ impl Horizon {
     }
 }
 
-/// Time in a plan from which its reserves at the ends of stroke and travel are kept \[s\].
-const RESERVE_TIME: f64 = 0.2;
+/// Time in a plan from which its margins at the ends of stroke and travel are kept \[s\].
+const FULL_MARGIN_TIME: f64 = 0.2;
 
-/// The part of a reserve that a plan keeps after `time` seconds.
+/// The fraction of a margin that a plan keeps after `time` seconds.
 ///
-/// It grows from none: what the plan before did not see takes some of the reserve. To give that
+/// It grows from none: what the plan before did not see takes some of the margin. To give that
 /// back at once would jolt.
-pub fn reserved(time: f64) -> f64 {
-    min(time / RESERVE_TIME, 1.0)
+pub fn margin_ramp(time: f64) -> f64 {
+    min(time / FULL_MARGIN_TIME, 1.0)
 }
 
 /// Number of samples from now to the end of each block of the near horizon.

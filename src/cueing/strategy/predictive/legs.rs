@@ -8,7 +8,7 @@ use super::program::Nodes;
 use crate::cueing::strategy::law::StepContext;
 use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
-use crate::platform::reach::{neutral_lengths, reserve_fraction};
+use crate::platform::reach::{neutral_lengths, short_stroke_factor};
 use crate::platform::{Geometry, Pose, lengths_with_jacobian};
 
 /// The rig, and the motion of the platform that is not planned.
@@ -19,7 +19,7 @@ pub struct LegContext<'a> {
     pub neutral_height: f64,
     /// Shortest and longest length of an actuator \[m\].
     pub stroke: [f64; 2],
-    /// Reserve of a plan at either end of the stroke \[m\].
+    /// Margin of a plan at either end of the stroke \[m\].
     pub margin: f64,
     /// Heave from neutral \[m\] and its velocity \[m/s\].
     pub heave: f64,
@@ -79,7 +79,7 @@ impl<'a> LegContext<'a> {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,
             stroke: rig.stroke(),
-            margin: predictive.leg_margin * reserve_fraction(rig),
+            margin: predictive.leg_margin * short_stroke_factor(rig),
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,
             heave_bound: LARGEST_HEAVE,
@@ -92,7 +92,7 @@ impl<'a> LegContext<'a> {
 
     /// Shortest and longest length of an actuator in a plan \[m\].
     ///
-    /// The margin at an end takes at most half the room that the actuators have there at neutral.
+    /// The margin at an end takes at most half the clearance there at neutral.
     /// So neutral is always within these lengths.
     pub fn planned_stroke(&self) -> [f64; 2] {
         let [shortest, longest] = neutral_lengths(self.geometry, self.neutral_height);
@@ -283,7 +283,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_margin_leaves_half_the_room_at_neutral() {
+    fn a_margin_leaves_half_the_clearance_at_neutral() {
         let rig = Rig::default();
         let geometry = Geometry::from(&rig);
         let neutral = leg_context(&geometry);

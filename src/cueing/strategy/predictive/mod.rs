@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Status};
 use self::forecast::{Forecaster, Memory, Tables};
-use self::horizon::{BLOCKS, Horizon, PLAN_INTERVAL, reserved};
+use self::horizon::{BLOCKS, Horizon, PLAN_INTERVAL, margin_ramp};
 use self::idle_return::IdleReturn;
 use self::legs::{LARGEST_HEAVE, LegContext, leg_rows};
 use self::preview::{PreviewedCue, TIME_ROUNDING};
@@ -369,7 +369,7 @@ impl Predictive {
         let ends = self.horizon.ends();
         // After a change of horizon the plan's nodes are at other times: the rows are less exact for once.
         for (node, legs) in leg_rows(leg_context, &self.plan.nodes, self.horizon).iter().enumerate() {
-            let part = reserved(ends[node]);
+            let part = margin_ramp(ends[node]);
             let [min, max] = [0, 1].map(|end: usize| {
                 let stroke = leg_context.stroke[end];
                 stroke + part * (planned[end] - stroke)

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dual_active_set::{Rows, Search};
 use super::expected::Forecast;
-use super::horizon::{BLOCKS, Horizon, reserved};
+use super::horizon::{BLOCKS, Horizon, margin_ramp};
 use super::legs::LegRow;
 use crate::cueing::strategy::law::{AxisState, Unsolvable};
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
@@ -217,7 +217,7 @@ impl RowScales {
     fn new(model: &AxisModel, horizon: Horizon) -> Self {
         let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = *model;
         let (ends, durations) = (horizon.ends(), horizon.durations());
-        let position = |time| 1.0 / (position_limit * (1.0 - reserved(time) * (1.0 - POSITION_FRACTION)));
+        let position = |time| 1.0 / (position_limit * (1.0 - margin_ramp(time) * (1.0 - POSITION_FRACTION)));
         let limits = model.tilt_limits();
         // What the tilt approaches is linear in its state.
         let [by_tilt, by_rate, by_acceleration] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, acceleration_limit]]
@@ -724,7 +724,7 @@ mod tests {
     fn rows_are_motions_relative_to_their_limits() {
         for (program, model) in program(Horizon::Near).axes.iter().zip(MODELS) {
             let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = model;
-            // The reserve grows over 0.2 s, in which there are three nodes and two middles.
+            // The margin grows over 0.2 s, in which there are three nodes and two middles.
             let farthest = |part: f64| (1.0 - part * 0.015 / 0.45) * position_limit;
             let at_nodes = [0.2, 0.5, 1.0].into_iter().chain(std::iter::repeat(1.0));
             let in_middles = [0.35, 0.75].into_iter().chain(std::iter::repeat(1.0));

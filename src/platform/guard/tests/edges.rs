@@ -12,7 +12,7 @@ use super::{JointBounds, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law;
-use crate::platform::guard::machine::{Machine, stroke_reserve};
+use crate::platform::guard::machine::{Machine, step_margin};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates};
@@ -120,13 +120,12 @@ fn most(a: f64, b: f64) -> f64 {
 impl Conditions {
     fn new(case: &Case, limits: &Limits) -> Self {
         let rig = limits.rig();
-        let reserve =
-            (rig.acceleration_limit * LONGEST_STEP.powi(2) / 8.0).min(rig.velocity_limit * LONGEST_STEP / 2.0);
+        let margin = (rig.acceleration_limit * LONGEST_STEP.powi(2) / 8.0).min(rig.velocity_limit * LONGEST_STEP / 2.0);
         Conditions {
             case: case.clone(),
             radius: rig.platform.iter().map(|joint| joint.norm()).reduce(f64::max).unwrap(),
-            shortest: rig.min_length + reserve,
-            longest: rig.max_length - reserve,
+            shortest: rig.min_length + margin,
+            longest: rig.max_length - margin,
             safety: limits.safety(),
             rig,
         }
@@ -198,7 +197,7 @@ impl Conditions {
         [position.min(-limit) - rounding, position.max(limit) + rounding]
     }
 
-    /// Each axis stops in the common duration, or sooner where it has less room.
+    /// Each axis stops in the common duration, or sooner where it has less clearance.
     fn stop(&self) -> Option<StopDurations> {
         let next = &self.case.next;
         let fastest = self.legs(next).velocity.iter().fold(0.0, |fastest, velocity| most(fastest, velocity.abs()));
@@ -206,10 +205,10 @@ impl Conditions {
         for k in 0..3 {
             let (position, velocity) = (next.linear.position[k], next.linear.velocity[k]);
             let [lowest, highest] = self.reachable(next, k);
-            let room = if velocity > 0.0 { highest - position } else { position - lowest };
+            let clearance = if velocity > 0.0 { highest - position } else { position - lowest };
             // It stops half its speed times the duration farther on.
-            if velocity.abs() * durations.linear[k] / 2.0 > room {
-                durations.linear[k] = 2.0 * room / velocity.abs();
+            if velocity.abs() * durations.linear[k] / 2.0 > clearance {
+                durations.linear[k] = 2.0 * clearance / velocity.abs();
             }
             if velocity.abs() / durations.linear[k] > self.safety.acceleration_limit[k] * (1.0 + ROUNDING) {
                 return None;
@@ -341,19 +340,19 @@ impl Conditions {
     }
 }
 
-/// Room of an axis beyond its position, as a fraction of what its stop in the
+/// Clearance of an axis beyond its position, as a fraction of what its stop in the
 /// common duration takes.
 #[derive(Clone, Copy, PartialEq)]
-enum Room {
+enum Clearance {
     Enough,
     Less,
 }
 
-/// The limits with so little room for one axis that it has to stop sooner than the others.
+/// The limits with so little clearance for one axis that it has to stop sooner than the others.
 fn hurried(case: &Case, limits: &Limits, axis: usize, fraction: f64) -> Option<Limits> {
     let Motion { position, velocity, .. } = case.next.linear.axis(axis);
-    let room = fraction * 0.5 * velocity.abs() * Conditions::new(case, limits).stop()?.angular;
-    let limit = position * velocity.signum() + room;
+    let clearance = fraction * 0.5 * velocity.abs() * Conditions::new(case, limits).stop()?.angular;
+    let limit = position * velocity.signum() + clearance;
     let mut limits = *limits;
     limits.0[4 + axis] = limit;
     (limit > position.abs()).then_some(limits)
@@ -361,12 +360,12 @@ fn hurried(case: &Case, limits: &Limits, axis: usize, fraction: f64) -> Option<L
 
 /// Finds the edge of each limit, where the conditions change their answer, and compares both sides.
 /// Returns how many edges each limit had.
-fn compare(count: u32, gap: f64, by_bounds: bool, room: Room) -> [u32; LIMITS] {
+fn compare(count: u32, gap: f64, by_bounds: bool, clearance: Clearance) -> [u32; LIMITS] {
     let found = std::cell::Cell::new([0; LIMITS]);
     search(count)
         .run(&(cases(gap), 0.0..0.6_f64, 0.0..0.6_f64, 0..3_usize), |(case, slower, softer, axis)| {
             let mut start = Limits::LOOSE.tightened(2, 0.1 * slower).tightened(3, 0.2 * softer);
-            if room == Room::Less {
+            if clearance == Clearance::Less {
                 let Some(limits) = hurried(&case, &start, axis, 0.2 + slower) else { return Ok(()) };
                 start = limits;
             }
@@ -424,7 +423,7 @@ fn compare(count: u32, gap: f64, by_bounds: bool, room: Room) -> [u32; LIMITS] {
 #[test]
 fn bounds_on_the_whole_way_certify_what_their_conditions_say() {
     for gap in [0.0, 0.2] {
-        let edges = compare(300, gap, true, Room::Enough);
+        let edges = compare(300, gap, true, Clearance::Enough);
         assert!(edges.iter().all(|&count| count > 50), "{edges:?}");
     }
 }
@@ -432,7 +431,7 @@ fn bounds_on_the_whole_way_certify_what_their_conditions_say() {
 #[test]
 fn points_on_the_way_certify_what_their_conditions_say() {
     for gap in [0.0, 0.2] {
-        let edges = compare(300, gap, false, Room::Enough);
+        let edges = compare(300, gap, false, Clearance::Enough);
         assert!(edges.iter().all(|&count| count > 50), "{edges:?}");
     }
 }
@@ -440,7 +439,7 @@ fn points_on_the_way_certify_what_their_conditions_say() {
 #[test]
 fn points_on_the_way_certify_a_stop_in_pieces_as_their_conditions_say() {
     for gap in [0.0, 0.2] {
-        let edges = compare(600, gap, false, Room::Less);
+        let edges = compare(600, gap, false, Clearance::Less);
         assert!(edges.iter().all(|&count| count > 50), "{edges:?}");
     }
 }
@@ -468,11 +467,11 @@ fn the_bounds_of_a_joint_are_the_written_out_ones() {
 }
 
 #[test]
-fn the_stroke_keeps_a_reserve_for_what_a_leg_does_within_a_step() {
+fn the_stroke_keeps_a_margin_for_what_a_leg_does_within_a_step() {
     let rig = |acceleration_limit, velocity_limit| Rig { acceleration_limit, velocity_limit, ..Rig::default() };
     // A h²/8, the farthest that a leg gets beyond both ends of a step; V h/2 if it is too slow for that.
-    assert_eq!(stroke_reserve(&rig(8.0, 1.0), 0.25), 0.0625);
-    assert_eq!(stroke_reserve(&rig(8.0, 0.25), 0.25), 0.03125);
+    assert_eq!(step_margin(&rig(8.0, 1.0), 0.25), 0.0625);
+    assert_eq!(step_margin(&rig(8.0, 0.25), 0.25), 0.03125);
 }
 
 #[test]

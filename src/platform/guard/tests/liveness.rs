@@ -6,7 +6,7 @@ use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::platform::guard::{ActuatorGuard, Deviation, REST_BEFORE_RETURN};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, stroke_reserve};
+use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, step_margin};
 
 const STEP: f64 = 0.005;
 
@@ -24,7 +24,7 @@ impl Numbers {
     }
 }
 
-/// A small machine, about which its joints are displaced, with little room at neutral.
+/// A small machine, about which its joints are displaced, with little clearance at neutral.
 fn small_rig(numbers: &mut Numbers) -> Rig {
     let size = 0.4 + 0.1 * numbers.next();
     let mut rig = Rig::default();
@@ -36,8 +36,8 @@ fn small_rig(numbers: &mut Numbers) -> Rig {
     let least = lengths.into_iter().fold(f64::INFINITY, f64::min);
     let most = lengths.into_iter().fold(0.0, f64::max);
     // At neutral, the legs are near one end of the stroke, or near both.
-    let room = [0.017, 0.3 * size];
-    let [below, above] = [[0, 1], [1, 0], [0, 0]][((numbers.next() + 1.0) * 1.5) as usize].map(|k: usize| room[k]);
+    let clearance = [0.017, 0.3 * size];
+    let [below, above] = [[0, 1], [1, 0], [0, 0]][((numbers.next() + 1.0) * 1.5) as usize].map(|k: usize| clearance[k]);
     rig.min_length = least - below;
     rig.max_length = most + above;
     rig.acceleration_limit = 8.3;
@@ -104,7 +104,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     let legs = now.legs;
     let shortest = legs.length.into_iter().fold(f64::INFINITY, f64::min);
     let neutral = leg_lengths(&geometry, &Pose::neutral(&rig)).into_iter().fold(f64::INFINITY, f64::min);
-    rig.min_length = shortest - stroke_reserve(&rig, STEP);
+    rig.min_length = shortest - step_margin(&rig, STEP);
     rig.max_length = rig.max_length.max(legs.length.into_iter().fold(0.0, f64::max) + 0.05);
     let mut safety = SafetyParameters::default();
     safety.position_limit.y = rest.linear.position.y.abs();

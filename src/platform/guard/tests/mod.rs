@@ -436,8 +436,10 @@ fn a_plan_followed_in_parts_is_the_plan() {
 fn legs_pursue_their_demands_a_little_inside_the_certified_stroke() {
     let machine = Machine::new(&Rig::default(), 1e-3);
     let (certified, pursued) = (machine.limits, machine.pursuit_limits());
-    let inset = 1e-5 * (certified.max - certified.min);
-    assert!((pursued.min - certified.min - inset).abs() < 1e-12 && (certified.max - pursued.max - inset).abs() < 1e-12);
+    let margin = 1e-5 * (certified.max - certified.min);
+    assert!(
+        (pursued.min - certified.min - margin).abs() < 1e-12 && (certified.max - pursued.max - margin).abs() < 1e-12
+    );
     assert_eq!(pursued.acceleration, certified.acceleration);
 }
 
@@ -503,7 +505,7 @@ fn a_trajectory_that_ends_beyond_a_position_limit_is_refused() {
 }
 
 #[test]
-fn the_rate_of_the_stroke_margin_is_its_derivative() {
+fn the_rate_of_the_stroke_clearance_is_its_derivative() {
     let (rig, step) = (Rig::default(), 1e-4);
     let mut guard = ActuatorGuard::new(&rig, step);
     let at = |time: f64| {
@@ -515,19 +517,19 @@ fn the_rate_of_the_stroke_margin_is_its_derivative() {
         let linear = Motion::from_axes(|k| axis([0.05, -0.04, 0.06][k], [3.0, 4.0, 5.0][k]));
         PlatformCoordinates { linear, angles: Motion::from_axes(|k| axis([0.04, 0.03, -0.05][k], 2.0)) }
     };
-    let (mut margins, mut rates) = (Vec::new(), Vec::new());
+    let (mut clearances, mut rates) = (Vec::new(), Vec::new());
     for k in 1..=15_000 {
         let demand = at(f64::from(k) * step);
         guard.advance(&guard.state(demand), &SafetyParameters::default(), false, step);
-        margins.push(guard.stroke_margin());
+        clearances.push(guard.stroke_clearance());
         rates.push(guard.stroke_margin_rate());
     }
     assert!(!guard.limited());
-    let wrong = (1..margins.len() - 1)
-        .filter(|&k| ((margins[k + 1] - margins[k - 1]) / (2.0 * step) - rates[k]).abs() > 1e-5)
+    let wrong = (1..clearances.len() - 1)
+        .filter(|&k| ((clearances[k + 1] - clearances[k - 1]) / (2.0 * step) - rates[k]).abs() > 1e-5)
         .count();
     // At some instants another leg becomes the nearest to its end.
-    assert!(wrong < 60, "{wrong} of {}", margins.len());
+    assert!(wrong < 60, "{wrong} of {}", clearances.len());
     let [least, most] = [f64::min, f64::max].map(|of| rates.iter().copied().reduce(of).unwrap());
     assert!(least < -0.05 && most > 0.05, "{least} to {most} m/s");
 }

@@ -47,8 +47,8 @@ impl Commands {
                 self.push[k] = (2.5 * random.next() - 1.25).clamp(-1.0, 1.0) * acceleration;
             }
             let [length, velocity] = [self.length[k], self.velocity[k]];
-            let room = if velocity > 0.0 { stroke[1] - length } else { length - stroke[0] } - 0.001;
-            let brakes = velocity * velocity > 1.8 * acceleration * (room - 2.0 * velocity.abs() * step).max(0.0);
+            let clearance = if velocity > 0.0 { stroke[1] - length } else { length - stroke[0] } - 0.001;
+            let brakes = velocity * velocity > 1.8 * acceleration * (clearance - 2.0 * velocity.abs() * step).max(0.0);
             let change =
                 if brakes { -acceleration.min(velocity.abs() / step) * velocity.signum() } else { self.push[k] };
             let after = (velocity + step * change).clamp(-speed, speed);

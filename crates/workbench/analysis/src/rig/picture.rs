@@ -3,7 +3,7 @@
 
 use moris_washout::platform::Pose;
 
-use super::section::{DRAWN_MARGINS, SECTION_PLANES, section};
+use super::section::{DRAWN_CLEARANCES, SECTION_PLANES, section};
 use super::survey::{Singularities, Survey};
 use super::svg::{PANEL_SIZE, escaped};
 use super::view::view;
@@ -88,11 +88,11 @@ fn verdict_line(survey: &Survey) -> String {
 fn colour_legend(top: f64) -> String {
     let mut text = format!(r#"<g transform="translate(64 {top})">"#);
     let mut x = 0.0;
-    for (margin, colour) in DRAWN_MARGINS {
-        let label = if margin == 0.0 {
+    for (clearance, colour) in DRAWN_CLEARANCES {
+        let label = if clearance == 0.0 {
             "where the level platform can be".to_owned()
         } else {
-            format!("{:.0} mm of stroke left", 1000.0 * margin)
+            format!("{:.0} mm of stroke left", 1000.0 * clearance)
         };
         text += &format!(
             r#"<rect x="{x}" y="8" width="18" height="14" fill="{colour}"/><text x="{}" y="20">{label}</text>"#,

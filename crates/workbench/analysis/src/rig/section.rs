@@ -8,12 +8,12 @@
 use moris_washout::Rig;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::Pose;
-use moris_washout::platform::reach::reach_margin;
+use moris_washout::platform::reach::stroke_clearance;
 
 use super::svg::Window;
 
-/// Margins to the ends of the stroke for which the section is drawn \[m\], and their colours.
-pub const DRAWN_MARGINS: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
+/// Clearances from the ends of the stroke for which the section is drawn \[m\], and their colours.
+pub const DRAWN_CLEARANCES: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
 
 /// A plane through neutral.
 #[derive(Clone, Copy, Debug)]
@@ -41,11 +41,11 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     let [low, high] = extent.map(|corner| flat((corner - neutral) * 1.08));
     let window = Window::around(low, high);
     let mut text = String::new();
-    for (index, (margin, colour)) in DRAWN_MARGINS.into_iter().enumerate() {
+    for (index, (clearance, colour)) in DRAWN_CLEARANCES.into_iter().enumerate() {
         let name = format!("s{}{}m{index}", plane.axes[0], plane.axes[1]);
         if rig.has_cranks() {
-            text += &cell_section(rig, plane, margin, &window, colour);
-        } else if let Some(rings) = section_rings(rig, plane, neutral, margin) {
+            text += &cell_section(rig, plane, clearance, &window, colour);
+        } else if let Some(rings) = section_rings(rig, plane, neutral, clearance) {
             text += &filled_rings(&name, &rings, &window, colour);
         }
     }
@@ -62,8 +62,8 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     text + &window.axes(plane.names)
 }
 
-/// The section of a rig with cranks as cells, in which the actuators have this margin.
-fn cell_section(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: &str) -> String {
+/// The section of a rig with cranks as cells, in which the actuators have this clearance.
+fn cell_section(rig: &Rig, plane: &Plane, clearance: f64, window: &Window, colour: &str) -> String {
     // Cells across a section of a rig with cranks.
     const CELLS: u32 = 120;
     let [low, high] = window.corners();
@@ -74,7 +74,7 @@ fn cell_section(rig: &Rig, plane: &Plane, margin: f64, window: &Window, colour: 
         let mut pose = Pose::neutral(rig);
         (pose.position[plane.axes[0]], pose.position[plane.axes[1]]) =
             (pose.position[plane.axes[0]] + at[0], pose.position[plane.axes[1]] + at[1]);
-        if reach_margin(rig, &pose) >= margin {
+        if stroke_clearance(rig, &pose) >= clearance {
             let [x, y] = window.pixel([at[0] - 0.5 * size[0], at[1] + 0.5 * size[1]]);
             let [width, height] = size.map(|size| size * window.scale());
             path += &format!("M{x:.1} {y:.1}h{width:.1}v{height:.1}h-{width:.1}z");
@@ -91,13 +91,13 @@ struct Ring {
 }
 
 /// The six rings, or `None` where a leg does not reach the plane.
-fn section_rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option<Vec<Ring>> {
+fn section_rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, clearance: f64) -> Option<Vec<Ring>> {
     let across = 3 - plane.axes[0] - plane.axes[1];
     let ring = |leg: usize| {
         let centre = rig.base[leg] - rig.platform[leg] - neutral;
         let distance = centre[across];
-        let outer = (rig.max_length - margin).powi(2) - distance * distance;
-        let inner = ((rig.min_length + margin).powi(2) - distance * distance).max(0.0).sqrt();
+        let outer = (rig.max_length - clearance).powi(2) - distance * distance;
+        let inner = ((rig.min_length + clearance).powi(2) - distance * distance).max(0.0).sqrt();
         (outer > 0.0).then(|| Ring { centre: plane.axes.map(|axis| centre[axis]), inner, outer: outer.sqrt() })
     };
     (0..6).map(ring).collect()

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use moris_washout::Rig;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::reach::reach_margin;
+use moris_washout::platform::reach::stroke_clearance;
 use moris_washout::platform::{Geometry, Pose, jacobian};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -127,10 +127,11 @@ fn tried_block(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> 
         let fraction = Vector3::from_fn(|_, _| unit(&mut random));
         let position = low + fraction.component_mul(&(high - low));
         let pose = Pose { position, orientation: level };
-        if reach_margin(rig, &pose) < 0.0 || sign(&pose) != neutral {
+        if stroke_clearance(rig, &pose) < 0.0 || sign(&pose) != neutral {
             continue;
         }
-        let tilted = tilted_orientations().all(|orientation| reach_margin(rig, &Pose { position, orientation }) >= 0.0);
+        let tilted =
+            tilted_orientations().all(|orientation| stroke_clearance(rig, &Pose { position, orientation }) >= 0.0);
         found = found.and(Coverage { level: 1, tilted: u32::from(tilted), extent: [position, position] });
     }
     found

@@ -146,7 +146,7 @@ const LONGEST_STEP: f64 = 0.02;
 
 /// Fraction of the acceleration limits that the search's long steps may use. The rest allows for
 /// the variation of acceleration within a step.
-const RESERVE_OF_ACCELERATION: f64 = 0.85;
+const TUNED_ACCELERATION_FRACTION: f64 = 0.85;
 
 impl Objective {
     /// The objective on a recording, for parameters that share the fixed ones of these except
@@ -164,7 +164,7 @@ impl Objective {
         let mut parameters = recording.parameters(parameters);
         let desired = desired_channels(&recording, &parameters);
         parameters.structure.max_step = recording.step().min(LONGEST_STEP).max(parameters.structure.max_step);
-        parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
+        parameters.rig.acceleration_limit *= TUNED_ACCELERATION_FRACTION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], recording.step()));
         let force: Vec<[f64; 3]> = recording.inputs().iter().map(|input| input.specific_force.into()).collect();
         let objective = Objective {
@@ -237,7 +237,7 @@ impl Objective {
         let mut parameters = self.recording.parameters(parameters);
         let Parameters { structure, rig, .. } = washout.parameters();
         (parameters.structure, parameters.rig) = (*structure, *rig);
-        parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
+        parameters.safety.acceleration_limit *= TUNED_ACCELERATION_FRACTION;
         washout.retune(&parameters)?;
         let mut washout = washout.starting_with(&self.recording.inputs()[0]);
         let mut errors = Errors::new(self);

@@ -33,13 +33,13 @@ pub enum Limit {
 }
 
 /// Distance of the legs from either end of their stroke, the least \[m\].
-pub fn margin(lengths: &[f64; 6], rig: &Rig) -> f64 {
+pub fn stroke_clearance(lengths: &[f64; 6], rig: &Rig) -> f64 {
     let [start, end] = rig.stroke();
     let of = |length: &f64| (length - start).min(end - length);
     lengths.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
-/// Writes lengths and margins of the recording's samples, and whether a limit was exceeded since
+/// Writes lengths and clearances of the recording's samples, and whether a limit was exceeded since
 /// the sample before. Returns the greatest excess of each limit.
 ///
 /// Speed and acceleration are central differences over three samples.
@@ -81,7 +81,7 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
         if rig.has_cranks() {
             output.angle = legs[at].map(|arc| arc / rig.crank_arm);
         }
-        output.stroke_margin = margin(&legs[at], rig);
+        output.stroke_margin = stroke_clearance(&legs[at], rig);
         let since = if k == 0 { 0 } else { at - parts + 1 };
         output.actuator_limited = exceeds[since..=at].iter().any(|exceeds| *exceeds);
     }

@@ -157,7 +157,7 @@ fn at_neutral(neutral: &Pose, parameters: &Parameters) -> Output {
         position: neutral.position,
         felt_specific_force: Vector3::new(0.0, 0.0, parameters.structure.gravity),
         length,
-        stroke_margin: limits::margin(&length, &parameters.rig),
+        stroke_margin: limits::stroke_clearance(&length, &parameters.rig),
         ..Output::default()
     }
 }
