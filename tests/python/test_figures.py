@@ -39,7 +39,7 @@ CLAIMS = [
     ("docs/strategies.md", "and the tilt at # rad/s", COORDINATED, "LEVEL_FREQUENCY: f64 = #;"),
     ("docs/strategies.md", "(# rad/s³)/A", TILT, "ALLOWED_JERK: f64 = #;"),
     ("docs/strategies.md", "at least # 1/s", TILT, "LEAST_BUILD_UP: f64 = #;"),
-    ("docs/strategies.md", "b/3, # rad/s", TILT, "LARGEST_PACE: f64 = #;"),
+    ("docs/strategies.md", "c/3, # rad/s", TILT, "LARGEST_PACE: f64 = #;"),
     ("docs/strategies.md", "and # A/W", TILT, "PACE_OF_LIMITS: f64 = #;"),
     ("docs/strategies.md", "each error is at least #", WORST_CASE, "each error at least # m/s²"),
     ("docs/strategies.md", "are ~ and #,", WORST_CASE, "| `predictive` | #,"),

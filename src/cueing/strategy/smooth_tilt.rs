@@ -2,11 +2,11 @@
 //!
 //! The rider's head is H above the platform. Where a limit keeps travel from making up for it, a
 //! jump of the tilt's acceleration is felt as a jump of H times its size. The acceleration
-//! therefore builds up to its limit A in no less than the time 1/b, and the limits of rate and
+//! therefore builds up to its limit A in no less than the time 1/c, and the limits of rate and
 //! angle are approached no faster than that allows:
 //!
 //! ```text
-//!     |alpha'| <= b A        alpha <= b (W - w)        alpha <= p^2 (Q - q) - 2 p w
+//!     |alpha'| <= c A        alpha <= c (W - w)        alpha <= p^2 (Q - q) - 2 p w
 //! ```
 //!
 //! with the rate w and its limit W, and the angle q and its limit Q; likewise on the other side.
@@ -23,7 +23,7 @@ pub struct TiltLimits {
     angle: f64,
     rate: f64,
     acceleration: f64,
-    /// Pace b at which the acceleration builds up and the rate's limit is approached \[1/s\].
+    /// Pace c at which the acceleration builds up and the rate's limit is approached \[1/s\].
     build_up: f64,
     /// Pace p at which the angle's limit is approached \[rad/s\].
     pace: f64,
@@ -72,7 +72,7 @@ impl TiltLimits {
     }
 
     /// The angle and the rate that must be within their limits, for this acceleration to be within
-    /// the bounds: q + 2 w/p + alpha/p^2 and w + alpha/b.
+    /// the bounds: q + 2 w/p + alpha/p^2 and w + alpha/c.
     pub fn approached(&self, angle: f64, rate: f64, acceleration: f64) -> [f64; 2] {
         let TiltLimits { build_up, pace, .. } = *self;
         [angle + (2.0 * rate + acceleration / pace) / pace, rate + acceleration / build_up]

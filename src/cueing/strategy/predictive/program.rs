@@ -2,21 +2,21 @@
 //! the blocks' tilt accelerations alone.
 //!
 //! The nodes are the blocks' ends. The dropped force e is linear between them, from the value in
-//! force at the start. The tilt's acceleration goes to a block's value alpha' in a ramp of duration
+//! force at the start. The tilt's acceleration goes to a block's value alpha+ in a ramp of duration
 //! R from the value alpha before. Over a block of duration T, with the reference's mean F and the
-//! dropped force e at its beginning and e' at its end,
+//! dropped force e at its beginning and e+ at its end,
 //!
 //! ```text
-//!     x' = x + v T + F T^2/2 + (2 e + e') T^2/6 + H A2 - g' (q T^2/2 + w T^3/6 + A4)
-//!     v' = v + F T + (e + e') T/2 + H A1 - g' (q T + w T^2/2 + A3)
-//!     q' = q + w T + A2,   w' = w + A1,   Ak = alpha' T^k/k! + (alpha - alpha') Rk
+//!     x+ = x + v T + F T^2/2 + (2 e + e+) T^2/6 + H A2 - gc (q T^2/2 + w T^3/6 + A4)
+//!     v+ = v + F T + (e + e+) T/2 + H A1 - gc (q T + w T^2/2 + A3)
+//!     q+ = q + w T + A2,   w+ = w + A1,   Ak = alpha+ T^k/k! + (alpha - alpha+) Rk
 //! ```
 //!
-//! with Rk the ramp from 1 to 0, integrated k times over the block, and g' somewhat below g, the
-//! chord of the sine. The nodes' states are linear in the start, the reference and the variables.
-//! The cost is that of the regulator and weights of both variables' slopes. It has the integrals of
-//! their squares and of their slopes' squares, the trapezoidal rule for the motion, and the
-//! regulator's cost to come at the end.
+//! with Rk the ramp from 1 to 0, integrated k times over the block, and gc somewhat below g, the
+//! slope of a chord of g sin q. The nodes' states are linear in the start, the reference and the
+//! variables. The cost is that of the regulator and weights of both variables' slopes. It has the
+//! integrals of their squares and of their slopes' squares, the trapezoidal rule for the motion,
+//! and the regulator's cost to come at the end.
 
 use alloc::boxed::Box;
 
