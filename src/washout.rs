@@ -156,7 +156,7 @@ impl Washout {
         let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
         let last = CuedInput::new(Input::default(), &parameters.conditioning, structure);
-        let at_rest = felt(&guard.now().motion, &last.head, structure.gravity);
+        let at_rest = felt(&guard.commanded().motion, &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
             conditioning: parameters.conditioning,
@@ -381,7 +381,9 @@ impl Washout {
         };
         if !soft {
             self.soft_limits.release();
-        } else if let Some(softened) = self.soft_limits.soften(&demand, self.guard.now(), &tilt_compensation, step) {
+        } else if let Some(softened) =
+            self.soft_limits.soften(&demand, self.guard.commanded(), &tilt_compensation, step)
+        {
             demand = self.guard.state(softened);
             self.limited_by.soft = true;
         }
@@ -400,7 +402,7 @@ impl Washout {
                 self.continue_from_real(cue_end.rates);
             }
         } else if self.guard.limited() {
-            let real = &self.guard.now().coordinates.linear;
+            let real = &self.guard.commanded().coordinates.linear;
             self.strategy.resume(&mut self.direct_linear, &self.parameters, real);
         }
     }
@@ -412,7 +414,8 @@ impl Washout {
         let idle = !self.soft_limits.limited();
         let next = self.soft.after(&self.parameters, idle, step);
         let limits = SoftLimits::new(&next.in_force(&self.parameters), heave);
-        if !next.is_gentler_than(&self.soft) || limits.stop_from(self.guard.now(), GENTLER_PACE_FRACTION, GENTLE_SPEED)
+        if !next.is_gentler_than(&self.soft)
+            || limits.stop_from(self.guard.commanded(), GENTLER_PACE_FRACTION, GENTLE_SPEED)
         {
             self.soft = next;
             self.soft_limits.retune(&next.in_force(&self.parameters), heave);
@@ -423,7 +426,7 @@ impl Washout {
     /// changed it. `rates` are those at the step's end.
     #[cold]
     fn continue_from_real(&mut self, rates: Vector3<f64>) {
-        let PlatformCoordinates { linear, angles } = &self.guard.now().coordinates;
+        let PlatformCoordinates { linear, angles } = &self.guard.commanded().coordinates;
         if self.guard.limited() || self.direct_linear.deviates() {
             self.direct_linear.continue_from(linear);
         }
@@ -514,7 +517,7 @@ impl Washout {
         let nothing_cued = self.last.cue.force.xy() == Vector2::zeros() && self.last.cue.rates == Vector3::zeros();
         let mut scale = self.scale;
         scale.retune(parameters, nothing_cued)?;
-        self.strategy.retune(parameters, &self.guard.now().coordinates.linear)?;
+        self.strategy.retune(parameters, &self.guard.commanded().coordinates.linear)?;
         // From here on nothing fails.
         self.scale = scale;
         let spurious_before = self.spurious();
@@ -567,12 +570,12 @@ impl Washout {
 
     /// The platform's motion as commanded, with its accelerations.
     pub fn motion(&self) -> &PlatformMotion {
-        &self.guard.now().motion
+        &self.guard.commanded().motion
     }
 
     /// The output now.
     pub fn output(&self) -> Output {
-        let PlatformState { motion, legs, .. } = self.guard.now();
+        let PlatformState { motion, legs, .. } = self.guard.commanded();
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let (plan_kept, plan_age, plan_iterations) = match self.strategy.plan() {
             Some(plan) => (plan.kept, plan.age, plan.iterations as i32),
@@ -618,7 +621,7 @@ impl Washout {
     /// Distances of the cranks' joints and their rates, angles of the arms and their rates.
     #[inline(never)]
     fn crank_outputs(&self, cranks: &Cranks) -> (Legs, [[f64; 6]; 2]) {
-        let PlatformState { motion, legs, .. } = self.guard.now();
+        let PlatformState { motion, legs, .. } = self.guard.commanded();
         let angles = [legs.length, legs.velocity].map(|values| values.map(|value| value / cranks.arm));
         (joint_distances(self.guard.geometry(), motion), angles)
     }
@@ -629,7 +632,7 @@ impl Washout {
     /// angular velocities, of the platform's acceleration and of what the rider feels are means
     /// over the last internal step. They are zero before the first.
     pub fn output_derivative(&self) -> Output {
-        let PlatformState { motion, legs, .. } = self.guard.now();
+        let PlatformState { motion, legs, .. } = self.guard.commanded();
         let accelerations = self.guard.leg_accelerations();
         let (leg_rates, leg_velocity, angle, angular_rate) = match &self.guard.geometry().cranks {
             None => (legs.velocity, accelerations, [0.0; 6], [0.0; 6]),

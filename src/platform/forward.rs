@@ -70,7 +70,7 @@ pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose)
 /// guess from jumping to another branch.
 const LARGEST_CHANGE: f64 = 0.3;
 
-/// The pose moved by a small translation and a small rotation, which eq. (10) turns into
+/// The pose moved by a small twist: a translation, and a rotation, which eq. (10) turns into
 /// changes of the angles.
 fn pose_after_twist(pose: &Pose, twist: &Vector6<f64>) -> Pose {
     let angles = pose.orientation.changes(twist.fixed_rows::<3>(3).into()).to_vector();

@@ -91,8 +91,8 @@ pub(crate) fn clear_stroke(rig: &Rig) -> [f64; 2] {
         let (mut within, mut without) = (0.0, 2.0 * cranks.arm);
         for _ in 0..HEAVE_HALVINGS {
             let middle = 0.5 * (within + without);
-            let keeps = cranks.transmission(&geometry, &pose(middle)) >= cranks.least_transmission;
-            if keeps { within = middle } else { without = middle }
+            let complies = cranks.transmission(&geometry, &pose(middle)) >= cranks.least_transmission;
+            if complies { within = middle } else { without = middle }
         }
         leg_lengths(&geometry, &pose(within))
     });

@@ -89,7 +89,7 @@ impl StopPlan {
     }
 
     /// The coordinates at the time that the plan has reached.
-    pub fn now(&self) -> PlatformCoordinates {
+    pub fn coordinates(&self) -> PlatformCoordinates {
         self.at(self.elapsed)
     }
 

@@ -116,7 +116,7 @@ impl Coordinated {
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
     pub fn advance_tilt(&mut self, context: &StepContext, step: f64) {
         let StepContext { parameters, guard, engagement, .. } = *context;
-        let states = self.states(&guard.now().coordinates.linear);
+        let states = self.states(&guard.commanded().coordinates.linear);
         let law_input = LawInput { states, references: context.effective_references(), context };
         let decisions = self.law.decisions(&law_input, step);
         // Where a law has nothing to decide by, the dropped force stays while the return fades in.
@@ -155,7 +155,7 @@ impl Coordinated {
         beside.z += heave.acceleration + parameters.structure.gravity;
         // The head's x and y, in the base frame: felt = axis . (a + beside).
         let axes = [Vector3::x(), Vector3::y()].map(|axis| rotation * head.to_platform_axes(axis));
-        let now = &guard.now().coordinates.linear;
+        let now = &guard.commanded().coordinates.linear;
         // Disengaged, travel returns to neutral, and the rider feels that and the tilt's gravity. The tilt's
         // acceleration is compensated all the same: it may jump.
         let returning = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
@@ -251,7 +251,7 @@ mod tests {
         let linear = Motion { position: 0.5 * STEP * STEP * acceleration, velocity: STEP * acceleration, acceleration };
         let demand = PlatformCoordinates { linear, angles: Motion::default() };
         guard.advance(&guard.state(demand), &parameters.safety, false, STEP);
-        assert_eq!(guard.now().coordinates, demand);
+        assert_eq!(guard.commanded().coordinates, demand);
         guard
     }
 
@@ -296,7 +296,7 @@ mod tests {
                     let dropped = strategy.dropped_force[k];
                     assert!(dropped.abs() > 1e-3, "{dropped}");
                     assert!((felt[k] - context.force[k] - dropped).abs() < 1e-11, "{felt:?}, dropped {dropped}");
-                    let now = context.guard.now().coordinates.linear.axis(k);
+                    let now = context.guard.commanded().coordinates.linear.axis(k);
                     let mean = 0.5 * (now.velocity + travel[k].velocity);
                     assert!((travel[k].position - now.position - mean * STEP).abs() < 1e-15);
                 }
@@ -353,7 +353,7 @@ mod tests {
                 };
                 let tuning = super::super::optimal::Tuning::from(&optimal);
                 let gains = Regulator::new(&model, &tuning.weights).unwrap().gains;
-                let now = context.guard.now().coordinates.linear.axis(k);
+                let now = context.guard.commanded().coordinates.linear.axis(k);
                 let slow = references[k] * (1.0 - (-STEP / optimal.split_time).exp());
                 let Motion { position, velocity, .. } = before[k];
                 let state = [now.position, now.velocity, position, velocity, slow, references[k] - slow];
@@ -405,7 +405,7 @@ mod tests {
             assert!((mixed.0[k] - tilt).abs() < 1e-15);
             let travel = 0.25 * engaged.1[k] + 0.75 * disengaged.1[k];
             assert!((mixed.1[k] - travel).abs() < 1e-10);
-            let now = moving(&parameters).now().coordinates.linear.axis(k);
+            let now = moving(&parameters).commanded().coordinates.linear.axis(k);
             assert!(
                 (disengaged.1[k] + now.position + 2.0 * now.velocity).abs() < 1e-12,
                 "critically damped at 1 rad/s"
@@ -485,7 +485,7 @@ mod tests {
                 for (found, expected) in leg_context.planned_stroke().into_iter().zip([1.0 + kept, 1.6 - kept]) {
                     assert!((found - expected).abs() < rounding, "{found} m beside {expected}");
                 }
-                let heave = context.guard.now().coordinates.linear.axis(2);
+                let heave = context.guard.commanded().coordinates.linear.axis(2);
                 assert_eq!((leg_context.heave, leg_context.heave_velocity), (heave.position, heave.velocity));
                 let omega = parameters.angular.omega1;
                 assert_eq!(leg_context.frequencies, Vector3::new(omega.roll, omega.pitch, omega.yaw));

@@ -10,8 +10,8 @@
 use nalgebra::Vector3;
 
 use super::bounds::JointBounds;
-use super::cranks::Lever;
-use super::machine::{Machine, STOP_FRACTION, Speed, sum_of_magnitudes};
+use super::certifier::{Certifier, STOP_FRACTION, Speed, sum_of_magnitudes};
+use super::cranks::JointLimits;
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::{ROUNDING, WITH_ROUNDING};
@@ -26,7 +26,7 @@ const CELL_ACCELERATION_FRACTION: f64 = 0.05;
 /// The largest number of cells into which the longest piece of a stop plan is divided.
 const MOST_CELLS: f64 = 12.0;
 
-impl Machine {
+impl Certifier {
     /// Duration of a certified stop from the candidate, if bounds on the whole way there and to
     /// rest are enough to certify it. No point of the way is evaluated.
     ///
@@ -41,12 +41,12 @@ impl Machine {
         step: f64,
     ) -> Option<f64> {
         match &self.geometry.cranks {
-            None => self.certify_within::<false>(&self.lever_of_legs(), from, to, safety, step),
+            None => self.certify_within::<false>(&self.joint_limits_of_legs(), from, to, safety, step),
             Some(cranks) => self.certify_cranks_by_bounds(cranks, from, to, safety, step),
         }
     }
 
-    /// As [`Machine::certify_by_bounds`], if bounds also certify the way home from where the stop
+    /// As [`Certifier::certify_by_bounds`], if bounds also certify the way home from where the stop
     /// ends.
     #[inline(always)]
     pub fn certify_home_by_bounds(
@@ -59,16 +59,16 @@ impl Machine {
         if let Some(cranks) = &self.geometry.cranks {
             return self.certify_cranks_home_by_bounds(cranks, from, to, safety, step);
         }
-        let duration = self.certify_within::<false>(&self.lever_of_legs(), from, to, safety, step)?;
+        let duration = self.certify_within::<false>(&self.joint_limits_of_legs(), from, to, safety, step)?;
         self.has_way_home_by_bounds(to, duration).then_some(duration)
     }
 
-    /// The same as [`Machine::certify_by_bounds`] with the actuators as levers; the transmission
-    /// matters with cranks alone.
+    /// The same as [`Certifier::certify_by_bounds`] with these limits of the joints; the
+    /// transmission matters with cranks alone.
     #[inline(always)]
     pub(super) fn certify_within<const CRANKS: bool>(
         &self,
-        lever: &Lever,
+        joint_limits: &JointLimits,
         from: &PlatformState,
         to: &PlatformState,
         safety: &SafetyParameters,
@@ -78,20 +78,20 @@ impl Machine {
         let per_step = 1.0 / step;
         let bend = 2.0 * per_step * per_step;
         let (change, gap) = change_and_gap(&now.linear, &next.linear, step);
-        let (turn, twist) = change_and_gap(&now.angles, &next.angles, step);
-        let gap_acceleration = bend * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&twist) * self.radius);
+        let (turn, angle_gap) = change_and_gap(&now.angles, &next.angles, step);
+        let gap_acceleration = bend * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&angle_gap) * self.radius);
         let (before, speed) = (Speed::of(now), Speed::of(next));
         let rate = max(speed.angular, before.angular);
         let joint_speed = speed.of_joints(self.radius);
         let fastest = max(joint_speed, before.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
-        let curvature = fastest * fastest / lever.turning_length + rate * rate * self.radius;
+        let curvature = fastest * fastest / joint_limits.turning_length + rate * rate * self.radius;
         // The gap turns the legs a little as well, which changes their rates.
-        let gap_turning = 0.5 * step * gap_acceleration * (fastest / lever.turning_length + rate);
+        let gap_turning = 0.5 * step * gap_acceleration * (fastest / joint_limits.turning_length + rate);
         let steady = change.norm() * per_step
             + sum_of_magnitudes(&turn) * per_step * self.radius
             + gap_acceleration
             + gap_turning;
-        let mut duration = joint_speed * lever.stop_time_per_speed;
+        let mut duration = joint_speed * joint_limits.stop_time_per_speed;
         for k in 0..3 {
             let speed = next.linear.velocity[k].abs();
             if speed >= safety.acceleration_limit[k] * duration {
@@ -102,22 +102,22 @@ impl Machine {
         let reach = fastest * time;
 
         let [least, greatest] = to.legs.extremes();
-        let moved = if CRANKS { reach / lever.transmission } else { reach };
-        let rates_keep = || {
+        let moved = if CRANKS { reach / joint_limits.transmission } else { reach };
+        let rates_comply = || {
             let [linear, angular] = [change.norm() * per_step, sum_of_magnitudes(&turn) * per_step];
             let bounds =
                 JointBounds { velocity: fastest, ..JointBounds::new([fastest, rate], [linear, angular], self.radius) };
-            let gap = (gap_acceleration + 2.0 * gap_turning) / lever.transmission;
+            let gap = (gap_acceleration + 2.0 * gap_turning) / joint_limits.transmission;
             let rates = [&from.legs.velocity, &to.legs.velocity];
-            self.rates_keep_acceleration(lever, rates, &bounds, gap, step)
+            self.rates_comply_with_acceleration_limit(joint_limits, rates, &bounds, gap, step)
         };
-        let legs_keep = curvature <= (1.0 - STOP_FRACTION) * lever.acceleration
-            && (curvature + steady <= lever.acceleration || CRANKS && rates_keep())
-            && fastest <= lever.velocity
+        let legs_comply = curvature <= (1.0 - STOP_FRACTION) * joint_limits.acceleration
+            && (curvature + steady <= joint_limits.acceleration || CRANKS && rates_comply())
+            && fastest <= joint_limits.velocity
             && least - moved >= self.limits.min
             && greatest + moved <= self.limits.max
-            && (!CRANKS || reach <= lever.travel);
-        let axis_keeps = |k: usize| {
+            && (!CRANKS || reach <= joint_limits.travel);
+        let axis_complies = |k: usize| {
             let most = safety.acceleration_limit[k];
             let ends = max(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
             let fastest = ends + per_step * gap[k].abs();
@@ -126,7 +126,7 @@ impl Machine {
                 && fastest <= safety.velocity_limit[k]
                 && next.linear.position[k].abs() + fastest * time <= safety.position_limit[k]
         };
-        (legs_keep && (0..3).all(axis_keeps)).then_some(duration)
+        (legs_comply && (0..3).all(axis_complies)).then_some(duration)
     }
 
     /// A certified stop plan from the candidate, if the transition to it is certified as well.
@@ -141,10 +141,11 @@ impl Machine {
         if let Some(duration) = self.certify_by_bounds(from, to, safety, step) {
             return Some(StopPlan::new(&to.coordinates, StopDurations::common(duration)));
         }
-        let certified = axes_keep_limits(&from.coordinates, &to.coordinates, safety, step);
+        let certified = axes_comply_with_limits(&from.coordinates, &to.coordinates, safety, step);
         let plan = if certified { self.stop_plan(to, safety) } else { None }?;
-        let keeps = self.transition_keeps_legs(from, to, step) && self.plan_keeps_legs(&plan);
-        keeps.then_some(plan)
+        let complies =
+            self.transition_complies_with_leg_limits(from, to, step) && self.plan_complies_with_leg_limits(&plan);
+        complies.then_some(plan)
     }
 
     /// The stop from the candidate within the safety limits. All coordinates stop in one
@@ -174,7 +175,7 @@ impl Machine {
 
     /// True if the legs keep speed and acceleration at every instant of the transition. Their
     /// lengths need no check: both ends are inside the stroke by the margin.
-    fn transition_keeps_legs(&self, from: &PlatformState, to: &PlatformState, step: f64) -> bool {
+    fn transition_complies_with_leg_limits(&self, from: &PlatformState, to: &PlatformState, step: f64) -> bool {
         let (now, next) = (&from.coordinates, &to.coordinates);
         let (linear, angles) =
             (Transition::new(&now.linear, &next.linear, step), Transition::new(&now.angles, &next.angles, step));
@@ -193,17 +194,18 @@ impl Machine {
             let rate = without_rounding(to.legs.velocity[i] - right.velocity[i], rounding).abs();
             2.0 * length / (step * step) + rate / step
         });
-        self.interval_keeps_legs(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY), &gaps)
+        self.interval_complies_with_leg_limits(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY), &gaps)
     }
 
     /// True if the legs keep stroke, speed and acceleration all the way to rest.
-    fn plan_keeps_legs(&self, plan: &StopPlan) -> bool {
+    fn plan_complies_with_leg_limits(&self, plan: &StopPlan) -> bool {
         let stops = plan.durations().breakpoints();
         let duration = stops[3];
         let speed = Speed::of(plan.start()).of_joints(self.radius);
         // Between points d apart the bound is about 1.5 (G1²/L) d/T.
-        let lever = self.lever(self.transmission_at(plan.start()));
-        let needed = 1.5 * speed * speed / (lever.turning_length * CELL_ACCELERATION_FRACTION * lever.acceleration);
+        let joint_limits = self.joint_limits(self.transmission_at(plan.start()));
+        let needed = 1.5 * speed * speed
+            / (joint_limits.turning_length * CELL_ACCELERATION_FRACTION * joint_limits.acceleration);
         let whole = libm::ceil(needed).clamp(1.0, MOST_CELLS);
         if duration <= 0.0 {
             // At rest already.
@@ -215,7 +217,7 @@ impl Machine {
         let mut begin = 0.0;
         for end in stops {
             let cells = libm::ceil(whole * ((end - begin) / duration));
-            if cells != 0.0 && !self.piece_keeps_legs(plan, begin, end, cells) {
+            if cells != 0.0 && !self.piece_complies_with_leg_limits(plan, begin, end, cells) {
                 return false;
             }
             begin = end;
@@ -224,7 +226,7 @@ impl Machine {
     }
 
     /// True if the legs keep their limits between two breakpoints of a plan, divided into cells.
-    fn piece_keeps_legs(&self, plan: &StopPlan, begin: f64, end: f64, cells: f64) -> bool {
+    fn piece_complies_with_leg_limits(&self, plan: &StopPlan, begin: f64, end: f64, cells: f64) -> bool {
         let accelerating = plan.at(begin);
         let (linear, angles) = (accelerating.linear.acceleration, accelerating.angles.acceleration);
         let at = |time: f64| {
@@ -244,7 +246,7 @@ impl Machine {
                 self.radius,
             );
             let stroke = (self.limits.min, self.limits.max);
-            if !self.interval_keeps_legs(&left, &right, &bounds, cell, stroke, &[0.0; 6]) {
+            if !self.interval_complies_with_leg_limits(&left, &right, &bounds, cell, stroke, &[0.0; 6]) {
                 return false;
             }
             (left, speed) = (right, speed_after);
@@ -259,7 +261,7 @@ impl Machine {
     /// No instant is farther than half the interval d from the nearer end, and the leg's jerk J is
     /// bounded. The acceleration therefore differs from that end's by at most J d/2. Speed and
     /// length follow by integration from that end.
-    pub(super) fn interval_keeps_legs(
+    pub(super) fn interval_complies_with_leg_limits(
         &self,
         left: &LegMotion,
         right: &LegMotion,
@@ -283,7 +285,7 @@ impl Machine {
                 None => return false,
             },
         };
-        let mut keeps = true;
+        let mut complies = true;
         for (i, gap) in gaps.iter().enumerate() {
             let acceleration = max(left.acceleration[i].abs(), right.acceleration[i].abs()) + spread;
             let from_left = left.velocity[i] + left.acceleration[i] * half;
@@ -291,12 +293,12 @@ impl Machine {
             let at_ends = max(left.velocity[i].abs(), right.velocity[i].abs());
             let speed = max(at_ends, max(from_left.abs(), from_right.abs()) + spread * half);
             let beyond = 0.5 * acceleration * half * half;
-            keeps &= acceleration + gap <= self.limits.acceleration;
-            keeps &= speed + gap * half <= self.limits.velocity;
-            keeps &= left.length[i].min(right.length[i]) - beyond >= shortest;
-            keeps &= left.length[i].max(right.length[i]) + beyond <= longest;
+            complies &= acceleration + gap <= self.limits.acceleration;
+            complies &= speed + gap * half <= self.limits.velocity;
+            complies &= left.length[i].min(right.length[i]) - beyond >= shortest;
+            complies &= left.length[i].max(right.length[i]) + beyond <= longest;
         }
-        keeps
+        complies
     }
 
     pub(super) fn leg_motion_of(&self, coordinates: &PlatformCoordinates) -> LegMotion {
@@ -325,7 +327,7 @@ impl Transition {
 
 /// True if surge, sway and heave keep their safety limits at every instant of the transition: on
 /// the trajectory, which ends a gap before the candidate, and at the candidate.
-pub fn axes_keep_limits(
+pub fn axes_comply_with_limits(
     from: &PlatformCoordinates,
     to: &PlatformCoordinates,
     safety: &SafetyParameters,
@@ -333,22 +335,22 @@ pub fn axes_keep_limits(
 ) -> bool {
     let (now, next) = (&from.linear, &to.linear);
     let Transition { start, end, gap } = Transition::new(now, next, step);
-    let mut keeps = true;
+    let mut complies = true;
     for k in 0..3 {
         let (before, after) = (now.velocity[k], next.velocity[k]);
         let gap = gap[k].abs();
         let turned = turning_point(now.position[k], before, after, start.acceleration[k]);
         let most = safety.acceleration_limit[k] * WITH_ROUNDING;
-        keeps &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
-        keeps &= next.acceleration[k].abs() <= most;
+        complies &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
+        complies &= next.acceleration[k].abs() <= most;
         // Beyond a tightened limit an axis may become slower, not faster.
         let fastest = max(safety.velocity_limit[k] * WITH_ROUNDING, before.abs());
-        keeps &= max(before.abs(), after.abs()) + gap / step <= fastest;
+        complies &= max(before.abs(), after.abs()) + gap / step <= fastest;
         let (lowest, highest) = reachable(from, safety, k);
         let (arrived, shown) = (end.position[k], next.position[k]);
-        keeps &= lowest <= min(min(arrived, shown), turned) && max(max(arrived, shown), turned) <= highest;
+        complies &= lowest <= min(min(arrived, shown), turned) && max(max(arrived, shown), turned) <= highest;
     }
-    keeps
+    complies
 }
 
 /// The lowest and the highest position that an axis may have from now on. Beyond its limit it may

@@ -29,11 +29,11 @@
 //! of the piece it cannot fall below k within the piece at that rate.
 //!
 //! In terms of the joints, F1 and F2 are G1/k and (G2 + G1²/b)/k with a length b, as a leg's are
-//! with k = 1 and its length ([`Lever`]).
+//! with k = 1 and its length ([`JointLimits`]).
 
 use super::bounds::JointBounds;
-use super::home::{Distance, Point, keep_chords};
-use super::machine::{HOME_MARGIN_FRACTION, Machine, STOP_FRACTION, Speed};
+use super::certifier::{Certifier, HOME_MARGIN_FRACTION, STOP_FRACTION, Speed};
+use super::home::{Distance, Point, chords_are_clear};
 use crate::interface::SafetyParameters;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
@@ -54,7 +54,7 @@ fn cosine_from_sine(transmission: f64) -> f64 {
 
 /// Limits of the actuators as limits of the joints.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lever {
+pub(super) struct JointLimits {
     /// Transmission k that is assumed; 1 with legs.
     pub transmission: f64,
     /// A joint at the speed G turns its actuator as one of this length \[m\]: that adds G²/c to the
@@ -152,12 +152,12 @@ impl Way {
     }
 }
 
-impl Machine {
-    /// The lever of cranks with this smallest transmission in a state.
-    pub(super) fn lever_of(&self, cranks: &Cranks, transmission: f64) -> Lever {
+impl Certifier {
+    /// The limits of the joints of cranks with this smallest transmission in a state.
+    pub(super) fn joint_limits_of_cranks(&self, cranks: &Cranks, transmission: f64) -> JointLimits {
         let assumed = cranks.assumed(transmission);
         let acceleration = self.limits.acceleration * assumed;
-        Lever {
+        JointLimits {
             transmission: assumed,
             turning_length: 1.0 / cranks.turning(assumed),
             velocity: self.limits.velocity * assumed,
@@ -167,7 +167,7 @@ impl Machine {
         }
     }
 
-    /// As [`Machine::certify_by_bounds`], for cranks.
+    /// As [`Certifier::certify_by_bounds`], for cranks.
     #[inline(never)]
     pub(super) fn certify_cranks_by_bounds(
         &self,
@@ -177,11 +177,11 @@ impl Machine {
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<f64> {
-        let lever = self.lever_of(cranks, cranks.transmission(&self.geometry, &to.motion.pose()));
-        self.certify_within::<true>(&lever, from, to, safety, step)
+        let joint_limits = self.joint_limits_of_cranks(cranks, cranks.transmission(&self.geometry, &to.motion.pose()));
+        self.certify_within::<true>(&joint_limits, from, to, safety, step)
     }
 
-    /// As [`Machine::certify_home_by_bounds`], for cranks.
+    /// As [`Certifier::certify_home_by_bounds`], for cranks.
     #[inline(never)]
     pub(super) fn certify_cranks_home_by_bounds(
         &self,
@@ -192,16 +192,22 @@ impl Machine {
         step: f64,
     ) -> Option<f64> {
         let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
-        let lever = self.lever_of(cranks, arms.least_transmission());
-        let duration = self.certify_within::<true>(&lever, from, to, safety, step)?;
-        self.arms_see_home_by_bounds(cranks, &arms, &lever, to, duration).then_some(duration)
+        let joint_limits = self.joint_limits_of_cranks(cranks, arms.least_transmission());
+        let duration = self.certify_within::<true>(&joint_limits, from, to, safety, step)?;
+        self.arms_have_way_home_by_bounds(cranks, &arms, &joint_limits, to, duration).then_some(duration)
     }
 
-    /// As [`Machine::has_way_home_by_bounds`], for cranks.
+    /// As [`Certifier::has_way_home_by_bounds`], for cranks.
     #[inline(never)]
-    pub(super) fn cranks_see_home_by_bounds(&self, cranks: &Cranks, to: &PlatformState, duration: f64) -> bool {
+    pub(super) fn cranks_have_way_home_by_bounds(&self, cranks: &Cranks, to: &PlatformState, duration: f64) -> bool {
         let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
-        self.arms_see_home_by_bounds(cranks, &arms, &self.lever_of(cranks, arms.least_transmission()), to, duration)
+        self.arms_have_way_home_by_bounds(
+            cranks,
+            &arms,
+            &self.joint_limits_of_cranks(cranks, arms.least_transmission()),
+            to,
+            duration,
+        )
     }
 
     /// The same, where the arms are known. An angle stays inside its range while the joint
@@ -209,11 +215,11 @@ impl Machine {
     /// as radius. Such distances are lengths of legs, whose squares have the second
     /// derivatives that `home.rs` has.
     #[inline(always)]
-    fn arms_see_home_by_bounds(
+    fn arms_have_way_home_by_bounds(
         &self,
         cranks: &Cranks,
         arms: &Arms,
-        lever: &Lever,
+        joint_limits: &JointLimits,
         to: &PlatformState,
         duration: f64,
     ) -> bool {
@@ -224,7 +230,7 @@ impl Machine {
         let way = self.way(cranks, arms, Distance { joint: from.joint + travel, angular: from.angular + turn }, travel);
         // Squares of transmissions beyond what is needed at either end of the way.
         let [start, needed] = [cranks.least_transmission, self.transmission_needed(cranks, 1.0)];
-        let left = arms.least_transmission() - travel * cranks.transmission_slope(lever.transmission);
+        let left = arms.least_transmission() - travel * cranks.transmission_slope(joint_limits.transmission);
         let start = left * left - start * start;
         let neutral = self.home.transmission * self.home.transmission - needed * needed;
         let farthest = way.farthest + cranks.arm;
@@ -232,7 +238,7 @@ impl Machine {
         let below = below - 2.0 * travel * farthest;
         let above = above - travel * (2.0 * cranks.rod + travel);
         let turned = farthest * way.bend;
-        travel <= lever.travel
+        travel <= joint_limits.travel
             && left > 0.0
             && start >= 0.0
             && start + neutral >= 0.5 * way.square_bend
@@ -264,9 +270,9 @@ impl Machine {
     ///
     /// The mean of an acceleration is the change of the rate over the step, and somewhere in it the
     /// acceleration is that mean.
-    pub(super) fn rates_keep_acceleration(
+    pub(super) fn rates_comply_with_acceleration_limit(
         &self,
-        lever: &Lever,
+        joint_limits: &JointLimits,
         rates: [&[f64; 6]; 2],
         bounds: &JointBounds,
         gap: f64,
@@ -274,13 +280,14 @@ impl Machine {
     ) -> bool {
         let Some(cranks) = &self.geometry.cranks else { return false };
         let mean = (0..6).fold(0.0, |most, i| max((rates[1][i] - rates[0][i]).abs(), most)) / step;
-        mean + gap + step * cranks.arc_jerk(bounds, lever.transmission, bounds.velocity / lever.transmission)
+        mean + gap
+            + step * cranks.arc_jerk(bounds, joint_limits.transmission, bounds.velocity / joint_limits.transmission)
             <= self.limits.acceleration
     }
 
     /// True if a part of the way home is certified by its ends, which are at these fractions of the
     /// way.
-    pub(super) fn cranks_keep_part(
+    pub(super) fn cranks_certify_part(
         &self,
         cranks: &Cranks,
         way: &Way,
@@ -294,9 +301,9 @@ impl Machine {
             transmissions[k] * transmissions[k] - needed * needed
         });
         let least = 0.5 * way.square_bend * part * part;
-        let keeps = left >= 0.0 && right >= 0.0 && left + right >= least;
-        let bend = way.arc_bend(cranks, transmissions, part).filter(|_| keeps);
-        bend.is_some_and(|bend| keep_chords(&points[0].beyond, &points[1].beyond, [0.5 * bend * part * part; 2]))
+        let complies = left >= 0.0 && right >= 0.0 && left + right >= least;
+        let bend = way.arc_bend(cranks, transmissions, part).filter(|_| complies);
+        bend.is_some_and(|bend| chords_are_clear(&points[0].beyond, &points[1].beyond, [0.5 * bend * part * part; 2]))
     }
 
     /// The smallest transmission that the way home needs at the fraction `s` of it.

@@ -14,8 +14,8 @@
 //! The way is certified if every leg is inside its stroke by at least s times a margin. From any
 //! point of a certified way the rest of it is certified as well.
 
-use super::cranks::Lever;
-use super::machine::{Home, Machine, Speed, sum_of_magnitudes};
+use super::certifier::{Certifier, Home, Speed, sum_of_magnitudes};
+use super::cranks::JointLimits;
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
@@ -57,18 +57,18 @@ pub(super) struct Point {
 
 /// True if what the ends of a part have beyond their limits is not negative, and adds up to
 /// `least`.
-pub(super) fn keep_chords(left: &[[f64; 2]; 6], right: &[[f64; 2]; 6], least: [f64; 2]) -> bool {
+pub(super) fn chords_are_clear(left: &[[f64; 2]; 6], right: &[[f64; 2]; 6], least: [f64; 2]) -> bool {
     (0..6).all(|i| (0..2).all(|k| left[i][k] >= 0.0 && right[i][k] >= 0.0 && left[i][k] + right[i][k] >= least[k]))
 }
 
-impl Machine {
+impl Certifier {
     /// True if bounds are enough to certify the way home from the end of a stop that takes this
     /// duration from the candidate. That stop moves no joint by more than half the duration times
     /// its speed.
     #[inline(always)]
     pub fn has_way_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
         if let Some(cranks) = &self.geometry.cranks {
-            return self.cranks_see_home_by_bounds(cranks, to, duration);
+            return self.cranks_have_way_home_by_bounds(cranks, to, duration);
         }
         let Home { longest, beyond_margin: [below, above], per_two_lengths, .. } = self.home;
         let speed = Speed::of(&to.coordinates);
@@ -124,9 +124,9 @@ impl Machine {
             let certified = match cranks.zip(way.as_ref()) {
                 None => {
                     let least = [chord_gap * part * part, 0.5 * turning * part * part];
-                    keep_chords(&left.beyond, &right.beyond, least)
+                    chords_are_clear(&left.beyond, &right.beyond, least)
                 }
-                Some((cranks, way)) => self.cranks_keep_part(cranks, way, [begin, end], [&left, &right]),
+                Some((cranks, way)) => self.cranks_certify_part(cranks, way, [begin, end], [&left, &right]),
             };
             if certified && end >= 1.0 {
                 return true;
@@ -154,8 +154,8 @@ impl Machine {
     ) -> PlatformCoordinates {
         let distance = Distance::of(now, self.radius).joint;
         // Of the legs' acceleration a part remains for their turning, of every limit a part for rounding.
-        let lever = self.lever(min(self.transmission_at(now), self.home.transmission));
-        let Lever { turning_length, velocity, acceleration, .. } = lever;
+        let joint_limits = self.joint_limits(min(self.transmission_at(now), self.home.transmission));
+        let JointLimits { turning_length, velocity, acceleration, .. } = joint_limits;
         let longest_step = self.limits.longest_step;
         let mut hardest = 0.25 * acceleration;
         let mut fastest = min(0.5 * velocity, square_root(0.1 * acceleration * turning_length));

@@ -14,17 +14,17 @@
 
 mod bounds;
 mod certificate;
+mod certifier;
 mod cranks;
 mod home;
-mod machine;
 mod pursuit;
 #[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::machine::step_margin;
-use self::machine::{Machine, Speed};
+pub use self::certifier::step_margin;
+use self::certifier::{Certifier, Speed};
 use super::stop_plan::{StopDurations, StopPlan};
 use super::{Geometry, Legs, PlatformCoordinates, PlatformState, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
@@ -34,12 +34,12 @@ use crate::motion::min_max::min;
 /// The guard with the state that the platform is commanded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ActuatorGuard {
-    machine: Machine,
+    certifier: Certifier,
     /// The shortest and the longest that a leg may be \[m\].
     stroke: [f64; 2],
     /// The limits within which each leg pursues its demand.
     pursuit: Limits,
-    now: PlatformState,
+    commanded: PlatformState,
     /// The certified way to rest. It starts at the present state, unless the last step followed it.
     plan: StopPlan,
     deviation: Option<Deviation>,
@@ -67,12 +67,12 @@ const RETURN_SPEED_INCREASE: f64 = 8.0;
 impl ActuatorGuard {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
-        let machine = Machine::new(rig, longest_step);
+        let certifier = Certifier::new(rig, longest_step);
         ActuatorGuard {
-            machine,
+            certifier,
             stroke: rig.stroke(),
-            pursuit: machine.pursuit_limits(),
-            now: machine.state(PlatformCoordinates::default()),
+            pursuit: certifier.pursuit_limits(),
+            commanded: certifier.state(PlatformCoordinates::default()),
             plan: StopPlan::rest(),
             deviation: None,
         }
@@ -80,12 +80,12 @@ impl ActuatorGuard {
 
     /// Joints of the legs.
     pub fn geometry(&self) -> &Geometry {
-        &self.machine.geometry
+        &self.certifier.geometry
     }
 
     /// The state of the platform with these coordinates.
     pub fn state(&self, coordinates: PlatformCoordinates) -> PlatformState {
-        self.machine.state(coordinates)
+        self.certifier.state(coordinates)
     }
 
     /// Advances by `step` seconds, at whose end the platform is to be in the state `demand`.
@@ -94,9 +94,9 @@ impl ActuatorGuard {
     #[inline(always)]
     pub fn advance(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
         if self.deviation.is_none()
-            && let Some(duration) = self.machine.certify_home_by_bounds(&self.now, demand, safety, step)
+            && let Some(duration) = self.certifier.certify_home_by_bounds(&self.commanded, demand, safety, step)
         {
-            self.now = *demand;
+            self.commanded = *demand;
             self.plan.restart(&demand.coordinates, StopDurations::common(duration));
         } else {
             self.advance_uncertified(demand, safety, resting, step);
@@ -106,23 +106,23 @@ impl ActuatorGuard {
     /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
     fn advance_uncertified(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
-        let joined = self.deviation.is_none() || self.has_caught_up(demand, safety, step);
-        let followed = self.plan.advanced(step);
-        let plan = if joined { self.certified_with_way_home(demand, &followed, safety, step) } else { None };
+        let may_join = self.deviation.is_none() || self.has_caught_up(demand, safety, step);
+        let held_plan = self.plan.advanced(step);
+        let plan = if may_join { self.certified_with_way_home(demand, &held_plan, safety, step) } else { None };
         if let Some(plan) = plan {
-            (self.now, self.plan, self.deviation) = (*demand, plan, None);
+            (self.commanded, self.plan, self.deviation) = (*demand, plan, None);
             return;
         }
-        let before = self.now.legs;
+        let before = self.commanded.legs;
         let (resting, homing_fraction) = self.rest_time(resting, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
         let stops = resting > REST_BEFORE_RETURN && homing_fraction.is_none();
-        let found = if stops { None } else { self.nearest(demand, &followed, homing_fraction, safety, step) };
+        let found = if stops { None } else { self.nearest(demand, &held_plan, homing_fraction, safety, step) };
         let homing_fraction = homing_fraction.map(|fraction| {
             if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
         });
-        let (next, plan) = found.unwrap_or_else(|| (self.state_on_plan(&followed, step), followed));
-        (self.now, self.plan) = (next, plan);
+        let (next, plan) = found.unwrap_or_else(|| (self.state_on_plan(&held_plan, step), held_plan));
+        (self.commanded, self.plan) = (next, plan);
         self.deviation = Some(Deviation {
             demand: demand.coordinates,
             leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
@@ -138,24 +138,24 @@ impl ActuatorGuard {
         let Some(Deviation { resting: before, homing_fraction, .. }) = self.deviation.filter(|_| resting) else {
             return (0.0, None);
         };
-        let at_rest = Speed::of(&self.now.coordinates) == Speed::default();
+        let at_rest = Speed::of(&self.commanded.coordinates) == Speed::default();
         (before + step, homing_fraction.or_else(|| (before > REST_BEFORE_RETURN && at_rest).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
     /// than the plan held. This matters where a tightened limit is not kept yet.
     ///
-    /// `followed` is the plan held, at the step's end.
+    /// `held_plan` is the stored plan at the step's end.
     fn certified(
         &self,
         to: &PlatformState,
-        followed: &StopPlan,
+        held_plan: &StopPlan,
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<StopPlan> {
-        let plan = self.machine.certify(&self.now, to, safety, step)?;
+        let plan = self.certifier.certify(&self.commanded, to, safety, step)?;
         let limits = WITH_ROUNDING * safety.velocity_limit;
-        let (next, held) = (plan.times_until_within(&limits), followed.times_until_within(&limits));
+        let (next, held) = (plan.times_until_within(&limits), held_plan.times_until_within(&limits));
         (0..3).all(|k| next[k] <= held[k]).then_some(plan)
     }
 
@@ -163,14 +163,14 @@ impl ActuatorGuard {
     fn certified_with_way_home(
         &self,
         to: &PlatformState,
-        followed: &StopPlan,
+        held_plan: &StopPlan,
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<StopPlan> {
-        let plan = self.certified(to, followed, safety, step)?;
+        let plan = self.certified(to, held_plan, safety, step)?;
         let [.., duration] = plan.durations().breakpoints();
         let returns =
-            self.machine.has_way_home_by_bounds(to, duration) || self.machine.has_way_home(&plan.at(duration));
+            self.certifier.has_way_home_by_bounds(to, duration) || self.certifier.has_way_home(&plan.at(duration));
         returns.then_some(plan)
     }
 
@@ -179,8 +179,8 @@ impl ActuatorGuard {
     /// acceleration a and the step h.
     fn has_caught_up(&self, demand: &PlatformState, safety: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * step * step;
-        let (legs, next) = (&self.now.legs, &demand.legs);
-        let (now, linear) = (&self.now.coordinates.linear, &demand.coordinates.linear);
+        let (legs, next) = (&self.commanded.legs, &demand.legs);
+        let (now, linear) = (&self.commanded.coordinates.linear, &demand.coordinates.linear);
         let apart = |before: f64, after: f64, v: f64, w: f64| (after - before - 0.5 * (v + w) * step).abs();
         (0..6).all(|i| {
             apart(legs.length[i], next.length[i], legs.velocity[i], next.velocity[i])
@@ -193,13 +193,13 @@ impl ActuatorGuard {
 
     /// The commanded state.
     #[inline(always)]
-    pub fn now(&self) -> &PlatformState {
-        &self.now
+    pub fn commanded(&self) -> &PlatformState {
+        &self.commanded
     }
 
     /// The coordinates that were demanded last.
     pub fn demand(&self) -> &PlatformCoordinates {
-        self.deviation.as_ref().map_or(&self.now.coordinates, |deviation| &deviation.demand)
+        self.deviation.as_ref().map_or(&self.commanded.coordinates, |deviation| &deviation.demand)
     }
 
     /// The accelerations of the commanded legs' lengths \[m/s2\], within their limit.
@@ -208,10 +208,10 @@ impl ActuatorGuard {
     /// those of the platform's motion. Where these jump, the legs make the jump over a step, and
     /// keep their limit with the mean; an acceleration beyond the limit is then given as the limit.
     pub fn leg_accelerations(&self) -> [f64; 6] {
-        let most = self.machine.limits.acceleration;
+        let most = self.certifier.limits.acceleration;
         let accelerations = match &self.deviation {
             Some(deviation) => deviation.leg_accelerations,
-            None => leg_accelerations(&self.machine.geometry, &self.now.motion),
+            None => leg_accelerations(&self.certifier.geometry, &self.commanded.motion),
         };
         accelerations.map(|acceleration| acceleration.clamp(-most, most))
     }
@@ -224,7 +224,7 @@ impl ActuatorGuard {
     /// The smallest distance of a leg from either end of its stroke \[m\].
     pub fn stroke_clearance(&self) -> f64 {
         let [shortest, longest] = self.stroke;
-        let [least, greatest] = self.now.legs.extremes();
+        let [least, greatest] = self.commanded.legs.extremes();
         min(least - shortest, longest - greatest)
     }
 
@@ -235,7 +235,7 @@ impl ActuatorGuard {
 
     /// Each leg's distance from each end of its stroke, and the rate of it.
     fn clearances(&self) -> impl Iterator<Item = (f64, f64)> {
-        let Legs { length, velocity } = self.now.legs;
+        let Legs { length, velocity } = self.commanded.legs;
         (0..6)
             .flat_map(move |i| [(length[i] - self.stroke[0], velocity[i]), (self.stroke[1] - length[i], -velocity[i])])
     }

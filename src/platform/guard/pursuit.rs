@@ -16,40 +16,40 @@ const BISECTION_STEPS: usize = 6;
 
 impl ActuatorGuard {
     /// The certified state nearest to a pursuit of the demand, with its plan, if there is one.
-    /// `followed` is the plan held, at the step's end. With `homing_fraction`, neutral is pursued
+    /// `held_plan` is the stored plan at the step's end. With `homing_fraction`, neutral is pursued
     /// on the straight way there, with this fraction of the speed.
     pub(super) fn nearest(
         &self,
         demand: &PlatformState,
-        followed: &StopPlan,
+        held_plan: &StopPlan,
         homing_fraction: Option<f64>,
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<(PlatformState, StopPlan)> {
-        let now = &self.now.coordinates;
-        let on_plan = followed.now();
+        let now = &self.commanded.coordinates;
+        let on_plan = held_plan.coordinates();
         let pursued = match homing_fraction {
-            Some(fraction) => self.machine.homing_fraction(now, safety, fraction, step),
+            Some(fraction) => self.certifier.homing_fraction(now, safety, fraction, step),
             None => self.pursued(now, &demand.legs, safety, step),
         };
         farthest_certified(|fraction| {
-            let trial = self.machine.state(on_plan.towards(&pursued, fraction, now, step));
+            let trial = self.certifier.state(on_plan.towards(&pursued, fraction, now, step));
             let plan = match homing_fraction {
                 // A part of a certified way home is certified.
-                Some(_) => self.certified(&trial, followed, safety, step),
-                None => self.certified_with_way_home(&trial, followed, safety, step),
+                Some(_) => self.certified(&trial, held_plan, safety, step),
+                None => self.certified_with_way_home(&trial, held_plan, safety, step),
             }?;
             Some((trial, plan))
         })
     }
 
-    /// The next state on the plan held; `followed` is that plan at the step's end.
-    pub(super) fn state_on_plan(&self, followed: &StopPlan, step: f64) -> PlatformState {
-        let (now, mut next) = (&self.now.coordinates, followed.now());
+    /// The next state on the stored plan; `held_plan` is that plan at the step's end.
+    pub(super) fn state_on_plan(&self, held_plan: &StopPlan, step: f64) -> PlatformState {
+        let (now, mut next) = (&self.commanded.coordinates, held_plan.coordinates());
         for (after, before) in [(&mut next.linear, &now.linear), (&mut next.angles, &now.angles)] {
             after.acceleration = (after.velocity - before.velocity) / step;
         }
-        self.machine.state(next)
+        self.certifier.state(next)
     }
 
     /// The state that the platform reaches if each leg pursues its target under its own limits, and
@@ -63,8 +63,9 @@ impl ActuatorGuard {
     ) -> PlatformCoordinates {
         let rates = Vector6::from(self.each_leg_pursued(target, step));
         // The Jacobian where the platform will be: the legs have to arrive without a jump.
-        let ahead = now.coasted(step).motion(self.machine.neutral_height);
-        let twist = jacobian(&self.machine.geometry, &ahead.pose()).lu().solve(&rates).unwrap_or_else(Vector6::zeros);
+        let ahead = now.coasted(step).motion(self.certifier.neutral_height);
+        // Velocity and angular velocity of the platform.
+        let twist = jacobian(&self.certifier.geometry, &ahead.pose()).lu().solve(&rates).unwrap_or_else(Vector6::zeros);
         let velocity: Vector3<f64> = twist.fixed_rows::<3>(0).into();
         let rates = ahead.orientation.rates(twist.fixed_rows::<3>(3).into()).to_vector();
         let PlatformCoordinates { linear, angles } = now;
@@ -85,7 +86,7 @@ impl ActuatorGuard {
 
     /// The rates of the legs if each pursues its target as far as its limits allow \[m/s\].
     fn each_leg_pursued(&self, target: &Legs, step: f64) -> [f64; 6] {
-        let legs = &self.now.legs;
+        let legs = &self.commanded.legs;
         core::array::from_fn(|i| {
             let leg = Motion { position: legs.length[i], velocity: legs.velocity[i], acceleration: 0.0 };
             let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };

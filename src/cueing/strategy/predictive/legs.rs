@@ -74,7 +74,7 @@ impl<'a> LegContext<'a> {
     pub fn of(context: &StepContext<'a>) -> Self {
         let StepContext { parameters, guard, angles, .. } = *context;
         let Parameters { rig, predictive, angular, splitter, .. } = parameters;
-        let linear = &guard.now().coordinates.linear;
+        let linear = &guard.commanded().coordinates.linear;
         LegContext {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,

@@ -12,7 +12,7 @@ use super::{JointBounds, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law;
-use crate::platform::guard::machine::{Machine, step_margin};
+use crate::platform::guard::certifier::{Certifier, step_margin};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates};
@@ -32,7 +32,7 @@ struct Limits([f64; LIMITS]);
 impl Limits {
     /// Beyond what any step here needs.
     const LOOSE: Limits = Limits([0.7, 3.0, 40.0, 400.0, 3.0, 3.0, 3.0, 40.0, 40.0, 40.0, 400.0, 400.0, 400.0]);
-    /// Limits that no step here keeps.
+    /// Limits that no step here complies with.
     const TIGHT: [f64; LIMITS] = [2.9, 0.71, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9];
 
     /// With one of them `fraction` of the way from loose to tight, by factors.
@@ -72,13 +72,13 @@ fn cases(gap: f64) -> impl Strategy<Value = Case> {
         .prop_map(|(a, b, c, d, e)| [a, b, c, d, e].map(|exponent| 10.0_f64.powf(exponent)));
     let states = (vector(0.2), vector(0.3), vector(1.0), vector(1.0), vector(1.0), vector(1.0));
     let gaps = (vector(1.0), vector(1.0), vector(1.0));
-    (scales, states, gaps).prop_map(move |([v, w, s, e, step], (p, q, pv, qv, ps, qs), (d, twist, shown))| {
+    (scales, states, gaps).prop_map(move |([v, w, s, e, step], (p, q, pv, qv, ps, qs), (d, angle_gap, shown))| {
         let linear = Motion { position: p, velocity: v * pv, acceleration: s * ps };
         let angles = Motion { position: q, velocity: w * qv, acceleration: e * qs };
         let now = PlatformCoordinates { linear, angles };
         let mut next = PlatformCoordinates { linear: linear.after(step), angles: angles.after(step) };
         next.linear.position += gap * s * step * step * d;
-        next.angles.position += gap * e * step * step * twist;
+        next.angles.position += gap * e * step * step * angle_gap;
         next.linear.acceleration = s * shown;
         Case { now, next, step }
     })
@@ -87,12 +87,12 @@ fn cases(gap: f64) -> impl Strategy<Value = Case> {
 /// The certificate of this case.
 fn certified(case: &Case, limits: &Limits, by_bounds: bool) -> Option<StopDurations> {
     let (rig, safety) = (limits.rig(), limits.safety());
-    let machine = Machine::new(&rig, LONGEST_STEP);
-    let [from, to] = [case.now, case.next].map(|coordinates| machine.state(coordinates));
+    let certifier = Certifier::new(&rig, LONGEST_STEP);
+    let [from, to] = [case.now, case.next].map(|coordinates| certifier.state(coordinates));
     if by_bounds {
-        return machine.certify_by_bounds(&from, &to, &safety, case.step).map(StopDurations::common);
+        return certifier.certify_by_bounds(&from, &to, &safety, case.step).map(StopDurations::common);
     }
-    machine.certify(&from, &to, &safety, case.step).map(|plan| *plan.durations())
+    certifier.certify(&from, &to, &safety, case.step).map(|plan| *plan.durations())
 }
 
 /// The conditions of the proof, for a case and limits.
@@ -144,8 +144,8 @@ impl Conditions {
     fn by_bounds(&self) -> Option<f64> {
         let (Case { now, next, step: h }, r) = (&self.case, self.radius);
         let (c, d) = ((next.linear.velocity - now.linear.velocity) / *h, self.gap(&now.linear, &next.linear));
-        let (e, twist) = ((next.angles.velocity - now.angles.velocity) / *h, self.gap(&now.angles, &next.angles));
-        let g = 2.0 * (sum(&d) + r * sum(&twist)) / (h * h);
+        let (e, angle_gap) = ((next.angles.velocity - now.angles.velocity) / *h, self.gap(&now.angles, &next.angles));
+        let g = 2.0 * (sum(&d) + r * sum(&angle_gap)) / (h * h);
         let speed = |state: &PlatformCoordinates| state.linear.velocity.norm() + r * sum(&state.angles.velocity);
         let fastest = most(speed(now), speed(next)) + g * h / 2.0;
         let turning = most(sum(&now.angles.velocity), sum(&next.angles.velocity));
@@ -155,12 +155,12 @@ impl Conditions {
         let time = duration / 2.0 + h;
         let legs = self.legs(next).length;
         let a = self.rig.acceleration_limit;
-        let legs_keep = curvature <= 0.4 * a
+        let legs_comply = curvature <= 0.4 * a
             && curvature + needed <= a
             && fastest <= self.rig.velocity_limit
             && legs.iter().all(|length| length - fastest * time >= self.shortest)
             && legs.iter().all(|length| length + fastest * time <= self.longest);
-        let axes_keep = (0..3).all(|k| {
+        let axes_comply = (0..3).all(|k| {
             let (before, after) = (now.linear.velocity[k].abs(), next.linear.velocity[k].abs());
             let fastest = most(before, after) + d[k].abs() / h;
             c[k].abs() + 2.0 * d[k].abs() / (h * h) <= self.safety.acceleration_limit[k]
@@ -168,7 +168,7 @@ impl Conditions {
                 && fastest <= self.safety.velocity_limit[k]
                 && next.linear.position[k].abs() + fastest * time <= self.safety.position_limit[k]
         });
-        (legs_keep && axes_keep).then_some(duration)
+        (legs_comply && axes_comply).then_some(duration)
     }
 
     /// Duration in which 0.6 of the legs' acceleration stops this speed of a leg, and the safety
@@ -186,7 +186,7 @@ impl Conditions {
             return Some(StopDurations::common(duration));
         }
         let durations = self.stop()?;
-        (self.axes_keep() && self.transition_keeps() && self.stop_keeps(durations)).then_some(durations)
+        (self.axes_comply() && self.transition_complies() && self.stop_complies(durations)).then_some(durations)
     }
 
     /// The lowest and the highest position that an axis may have from a state on.
@@ -218,7 +218,7 @@ impl Conditions {
     }
 
     /// Surge, sway and heave keep their limits on the way to the candidate.
-    fn axes_keep(&self) -> bool {
+    fn axes_comply(&self) -> bool {
         let Case { now, next, step: h } = &self.case;
         (0..3).all(|k| {
             // The trajectory ends a gap before the candidate.
@@ -245,7 +245,7 @@ impl Conditions {
     }
 
     /// The legs keep velocity and acceleration on the way to the candidate.
-    fn transition_keeps(&self) -> bool {
+    fn transition_complies(&self) -> bool {
         let Case { now, next, step: h } = &self.case;
         // The way with a steady acceleration, which ends short of the candidate by the gap.
         let steady = |now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>| Motion {
@@ -264,11 +264,11 @@ impl Conditions {
             2.0 * size(reached.length[i] - ends[1].length[i]) / (h * h)
                 + size(reached.velocity[i] - ends[1].velocity[i]) / h
         });
-        self.interval_keeps(&ends, &self.bounds(&start, &end), *h, None, gaps)
+        self.interval_complies(&ends, &self.bounds(&start, &end), *h, None, gaps)
     }
 
     /// The legs keep stroke, velocity and acceleration until they rest.
-    fn stop_keeps(&self, durations: StopDurations) -> bool {
+    fn stop_complies(&self, durations: StopDurations) -> bool {
         let plan = StopPlan::new(&self.case.next, durations);
         let stops = durations.breakpoints();
         let speed = self.case.next.linear.velocity.norm() + self.radius * sum(&self.case.next.angles.velocity);
@@ -290,7 +290,7 @@ impl Conditions {
                 }
                 let stroke = Some((self.shortest, self.longest));
                 let ends = [self.legs(&left), self.legs(&right)];
-                if !self.interval_keeps(&ends, &self.bounds(&left, &right), at(k + 1) - at(k), stroke, [0.0; 6]) {
+                if !self.interval_complies(&ends, &self.bounds(&left, &right), at(k + 1) - at(k), stroke, [0.0; 6]) {
                     return false;
                 }
             }
@@ -308,7 +308,7 @@ impl Conditions {
     }
 
     /// The legs keep their limits between two points, by the bound on their jerk.
-    fn interval_keeps(
+    fn interval_complies(
         &self,
         [left, right]: &[LegMotion; 2],
         [g1, g2, g3]: &[f64; 3],
@@ -377,19 +377,19 @@ fn compare(count: u32, gap: f64, by_bounds: bool, clearance: Clearance) -> [u32;
                 return Ok(());
             }
             for which in 0..LIMITS {
-                let [mut keeps, mut fails] = [0.0, 1.0];
-                while fails - keeps > 1e-15 {
-                    let middle = 0.5 * (keeps + fails);
-                    if middle == keeps || middle == fails {
+                let [mut passes, mut fails] = [0.0, 1.0];
+                while fails - passes > 1e-15 {
+                    let middle = 0.5 * (passes + fails);
+                    if middle == passes || middle == fails {
                         break;
                     }
-                    *(if expected(&start.tightened(which, middle)).is_some() { &mut keeps } else { &mut fails }) =
+                    *(if expected(&start.tightened(which, middle)).is_some() { &mut passes } else { &mut fails }) =
                         middle;
                 }
                 let mut counts = found.get();
                 counts[which] += 1;
                 found.set(counts);
-                for side in [keeps - 1e-11, fails + 1e-11] {
+                for side in [passes - 1e-11, fails + 1e-11] {
                     let limits = start.tightened(which, side.clamp(0.0, 1.0));
                     let (expected, actual) = (expected(&limits), certified(&case, &limits, by_bounds));
                     prop_assert_eq!(
@@ -446,15 +446,23 @@ fn points_on_the_way_certify_a_stop_in_pieces_as_their_conditions_say() {
 
 #[test]
 fn an_interval_in_which_a_leg_could_vanish_is_refused() {
-    let machine = Machine::new(&Limits([1e-9, 1e9, 1e9, 1e9, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]).rig(), 1e-9);
+    let certifier =
+        Certifier::new(&Limits([1e-9, 1e9, 1e9, 1e9, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]).rig(), 1e-9);
     let legs = LegMotion { length: [1.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6], transmission: 1.0 };
-    let keeps = |speed: f64, length: f64| {
+    let complies = |speed: f64, length: f64| {
         let bounds = JointBounds { velocity: speed, acceleration: 0.0, jerk: 0.0 };
         let legs = LegMotion { length: [length; 6], ..legs };
-        machine.interval_keeps_legs(&legs, &legs, &bounds, 1.0, (f64::NEG_INFINITY, f64::INFINITY), &[0.0; 6])
+        certifier.interval_complies_with_leg_limits(
+            &legs,
+            &legs,
+            &bounds,
+            1.0,
+            (f64::NEG_INFINITY, f64::INFINITY),
+            &[0.0; 6],
+        )
     };
     // In half a second, a joint at 2 m/s is where the other one may be.
-    assert!(keeps(1.9, 1.0) && !keeps(2.0, 1.0) && !keeps(3.0, 1.0) && !keeps(1.9, f64::NAN));
+    assert!(complies(1.9, 1.0) && !complies(2.0, 1.0) && !complies(3.0, 1.0) && !complies(1.9, f64::NAN));
 }
 
 #[test]
@@ -477,9 +485,9 @@ fn the_stroke_keeps_a_margin_for_what_a_leg_does_within_a_step() {
 #[test]
 fn a_leg_pursues_its_demand_a_little_inside_the_certified_stroke() {
     let rig = Rig { min_length: 1.0, max_length: 3.0, ..Rig::default() };
-    let machine = Machine::new(&rig, 0.0);
-    let inside = machine.pursuit_limits();
+    let certifier = Certifier::new(&rig, 0.0);
+    let inside = certifier.pursuit_limits();
     assert!((inside.min - 1.00002).abs() < 1e-12 && (inside.max - 2.99998).abs() < 1e-12, "{inside:?}");
-    let whole = braking_law::Limits { min: inside.min, max: inside.max, ..machine.limits };
+    let whole = braking_law::Limits { min: inside.min, max: inside.max, ..certifier.limits };
     assert_eq!(inside, whole);
 }

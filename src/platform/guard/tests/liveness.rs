@@ -24,7 +24,7 @@ impl Numbers {
     }
 }
 
-/// A small machine, about which its joints are displaced, with little clearance at neutral.
+/// A small rig, about which its joints are displaced, with little clearance at neutral.
 fn small_rig(numbers: &mut Numbers) -> Rig {
     let size = 0.4 + 0.1 * numbers.next();
     let mut rig = Rig::default();
@@ -64,11 +64,11 @@ fn distance_left(seed: u64, rest: f64) -> f64 {
         let demand = guard.state(*demand);
         for _ in 0..(seconds / STEP) as usize {
             guard.advance(&demand, &safety, resting, STEP);
-            if resting && distance(&guard.now.coordinates) < 1e-6 {
+            if resting && distance(&guard.commanded.coordinates) < 1e-6 {
                 break;
             }
         }
-        distance(&guard.now.coordinates)
+        distance(&guard.commanded.coordinates)
     };
     for _ in 0..6 {
         let at_rest = |position| Motion { position, ..Motion::default() };
@@ -109,7 +109,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     let mut safety = SafetyParameters::default();
     safety.position_limit.y = rest.linear.position.y.abs();
     let mut guard = ActuatorGuard::new(&rig, STEP);
-    guard.now = now;
+    guard.commanded = now;
     guard.plan = StopPlan::new(&rest, StopDurations::common(0.0));
     guard.deviation = Some(Deviation {
         demand: PlatformCoordinates::default(),
@@ -117,7 +117,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
         resting: 0.0,
         homing_fraction: None,
     });
-    (neutral - shortest > 0.017 && guard.machine.has_way_home(&rest)).then_some((guard, safety))
+    (neutral - shortest > 0.017 && guard.certifier.has_way_home(&rest)).then_some((guard, safety))
 }
 
 #[test]
@@ -126,19 +126,19 @@ fn a_platform_leaves_a_corner_where_every_pursuit_of_neutral_is_refused() {
     let mut frozen = 0;
     for (mut guard, safety) in (0..20_000).filter_map(at_a_corner) {
         let demand = guard.state(demand);
-        let start = guard.now().coordinates.linear.position;
+        let start = guard.commanded().coordinates.linear.position;
         let mut advance = |seconds: f64| {
             for _ in 0..(seconds / STEP) as usize {
                 guard.advance(&demand, &safety, true, STEP);
             }
-            guard.now().coordinates.linear.position
+            guard.commanded().coordinates.linear.position
         };
         if advance(STEP) != start || advance(0.5 * REST_BEFORE_RETURN) != start {
             continue;
         }
         frozen += 1;
         advance(60.0);
-        let left = distance(&guard.now.coordinates);
+        let left = distance(&guard.commanded.coordinates);
         assert!(left < 1e-6, "{left} from neutral");
     }
     assert!(frozen > 0);

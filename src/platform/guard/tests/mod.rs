@@ -13,8 +13,8 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use super::bounds::JointBounds;
 use super::certificate;
+use super::certifier::Certifier;
 use super::home::Distance;
-use super::machine::Machine;
 use super::*;
 use crate::interface::Rig;
 use crate::motion::Motion;
@@ -172,8 +172,8 @@ fn no_crank_exceeds_the_bounds_on_its_derivatives() {
     assert!(checked.get() > 1000 && closest[0] > 0.9 && closest[1] > 0.6 && closest[3] > 0.3, "{closest:?}");
 }
 
-/// A machine whose limits are of the size of what the tested states need.
-fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
+/// A rig whose limits are of the size of what the tested states need.
+fn certifiers() -> impl Strategy<Value = (Certifier, SafetyParameters)> {
     (-0.7..1.6_f64, -1.0..0.5_f64, -4.0..-1.3_f64, -0.5..1.3_f64).prop_map(|(a, v, step, safety)| {
         let [acceleration_limit, velocity_limit, step] = [a, v, step].map(|exponent| 10.0_f64.powf(exponent));
         let rig = Rig { acceleration_limit, velocity_limit, ..Rig::default() };
@@ -182,33 +182,33 @@ fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
             acceleration_limit: Vector3::new(most, 0.5 * most, 2.0 * most),
             ..SafetyParameters::default()
         };
-        (Machine::new(&rig, step), safety)
+        (Certifier::new(&rig, step), safety)
     })
 }
 
-/// True if leg lengths, rates and accelerations keep the machine's limits.
-fn keep(machine: &Machine, coordinates: &PlatformCoordinates) -> bool {
-    let legs = leg_motion(&machine.geometry, &coordinates.motion(machine.neutral_height));
+/// True if leg lengths, rates and accelerations keep the rig's limits.
+fn complies_with_limits(certifier: &Certifier, coordinates: &PlatformCoordinates) -> bool {
+    let legs = leg_motion(&certifier.geometry, &coordinates.motion(certifier.neutral_height));
     const ROUNDING: f64 = 1.0 + 1e-9;
     (0..6).all(|i| {
-        (machine.limits.min - 1e-12..=machine.limits.max + 1e-12).contains(&legs.length[i])
-            && legs.velocity[i].abs() <= machine.limits.velocity * ROUNDING
-            && legs.acceleration[i].abs() <= machine.limits.acceleration * ROUNDING
+        (certifier.limits.min - 1e-12..=certifier.limits.max + 1e-12).contains(&legs.length[i])
+            && legs.velocity[i].abs() <= certifier.limits.velocity * ROUNDING
+            && legs.acceleration[i].abs() <= certifier.limits.acceleration * ROUNDING
     })
 }
 
 #[test]
 fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
-    let states = machines().prop_flat_map(|(machine, safety)| {
-        let fastest = machine.limits.velocity;
-        let hardest = machine.limits.acceleration;
+    let states = certifiers().prop_flat_map(|(certifier, safety)| {
+        let fastest = certifier.limits.velocity;
+        let hardest = certifier.limits.acceleration;
         let state = (moving(0.3, fastest, hardest), moving(0.3, fastest, hardest));
-        (Just(machine), Just(safety), state, -4.0..-1.3_f64, 0.01..1.0_f64)
+        (Just(certifier), Just(safety), state, -4.0..-1.3_f64, 0.01..1.0_f64)
     });
     let [certified, refused] = [const { Cell::new(0) }; 2];
     search(case_count(200_000))
-        .run(&states, |(machine, safety, (linear, angles), step, size)| {
-            let step = 10.0_f64.powf(step).min(machine.limits.longest_step);
+        .run(&states, |(certifier, safety, (linear, angles), step, size)| {
+            let step = 10.0_f64.powf(step).min(certifier.limits.longest_step);
             let scaled = |motions: &Motion<Vector3<f64>>| Motion {
                 position: motions.position,
                 velocity: size * motions.velocity,
@@ -216,8 +216,8 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
             };
             let start = PlatformCoordinates { linear: scaled(&linear), angles: scaled(&angles) };
             let end = coordinates_after(&start, step);
-            let motion = |coordinates: &PlatformCoordinates| coordinates.motion(machine.neutral_height);
-            let Some(plan) = machine.certify(&machine.state(start), &machine.state(end), &safety, step) else {
+            let motion = |coordinates: &PlatformCoordinates| coordinates.motion(certifier.neutral_height);
+            let Some(plan) = certifier.certify(&certifier.state(start), &certifier.state(end), &safety, step) else {
                 refused.set(refused.get() + 1);
                 return Ok(());
             };
@@ -227,14 +227,14 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
                 let fraction = k as f64 / POINTS as f64;
                 // The guard cannot have a start outside the stroke: only its end is certified.
                 let on_transition = coordinates_after(&start, fraction * step);
-                let legs = leg_motion(&machine.geometry, &motion(&on_transition));
+                let legs = leg_motion(&certifier.geometry, &motion(&on_transition));
                 for i in 0..6 {
-                    prop_assert!(legs.velocity[i].abs() <= machine.limits.velocity * (1.0 + 1e-9));
-                    prop_assert!(legs.acceleration[i].abs() <= machine.limits.acceleration * (1.0 + 1e-9));
+                    prop_assert!(legs.velocity[i].abs() <= certifier.limits.velocity * (1.0 + 1e-9));
+                    prop_assert!(legs.acceleration[i].abs() <= certifier.limits.acceleration * (1.0 + 1e-9));
                 }
                 let [.., duration] = plan.durations().breakpoints();
                 let stopping = plan.at(fraction * duration);
-                prop_assert!(keep(&machine, &stopping), "{stopping:?}");
+                prop_assert!(complies_with_limits(&certifier, &stopping), "{stopping:?}");
                 for k in 0..3 {
                     let axis = stopping.linear.axis(k);
                     prop_assert!(axis.position.abs() <= safety.position_limit[k] * (1.0 + 1e-9));
@@ -255,7 +255,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
 /// all points of both.
 #[test]
 fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
-    // At neutral the transmission is 0.774: a machine that must keep more is refused.
+    // At neutral the transmission is 0.774: a rig that must keep more is refused.
     let cases = (-1.0..0.7_f64, 0.3..1.4_f64, 0.05..0.77_f64, -2.3..-0.7_f64, -2.0..-0.3_f64);
     let states = cases.prop_flat_map(|(fastest, range, least, far, size)| {
         let [far, size] = [far, size].map(|exponent| 10.0_f64.powf(exponent));
@@ -268,43 +268,44 @@ fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
             crank_least_transmission: least,
             ..crank_rig()
         };
-        let machine = Machine::new(&rig, 4e-3);
+        let certifier = Certifier::new(&rig, 4e-3);
         let motions = (moving(far, size, size), moving(far, size, size));
-        (Just(machine), motions)
+        (Just(certifier), motions)
     });
     let [by_bounds, by_points, refused] = [const { Cell::new(0) }; 3];
     let count = |cell: &Cell<u32>| cell.set(cell.get() + 1);
     search(case_count(200_000))
-        .run(&states, |(machine, (linear, angles))| {
+        .run(&states, |(certifier, (linear, angles))| {
             let (step, safety) = (2e-3, SafetyParameters::default());
-            let cranks = machine.geometry.cranks.expect("the rig has cranks");
+            let cranks = certifier.geometry.cranks.expect("the rig has cranks");
             let start = PlatformCoordinates { linear, angles };
             let end = coordinates_after(&start, step);
-            let [from, to] = [start, end].map(|coordinates| machine.state(coordinates));
-            let plan = machine.certify(&from, &to, &safety, step);
+            let [from, to] = [start, end].map(|coordinates| certifier.state(coordinates));
+            let plan = certifier.certify(&from, &to, &safety, step);
             let duration = plan.map(|plan| plan.durations().breakpoints()[3]);
-            let bounds = machine.certify_home_by_bounds(&from, &to, &safety, step).is_some();
-            let home = |(plan, duration): &(StopPlan, f64)| bounds || machine.has_way_home(&plan.at(*duration));
+            let bounds = certifier.certify_home_by_bounds(&from, &to, &safety, step).is_some();
+            let home = |(plan, duration): &(StopPlan, f64)| bounds || certifier.has_way_home(&plan.at(*duration));
             let Some((plan, duration)) = plan.zip(duration).filter(home) else {
                 count(&refused);
                 return Ok(());
             };
             count(if bounds { &by_bounds } else { &by_points });
-            let keeps = |coordinates: &PlatformCoordinates| {
-                let legs = leg_motion(&machine.geometry, &coordinates.motion(machine.neutral_height));
-                keep(&machine, coordinates) && legs.transmission >= cranks.least_transmission * (1.0 - 1e-9)
+            let complies = |coordinates: &PlatformCoordinates| {
+                let legs = leg_motion(&certifier.geometry, &coordinates.motion(certifier.neutral_height));
+                complies_with_limits(&certifier, coordinates)
+                    && legs.transmission >= cranks.least_transmission * (1.0 - 1e-9)
             };
             const POINTS: usize = 100;
             for k in 0..=POINTS {
                 let fraction = k as f64 / POINTS as f64;
-                prop_assert!(keeps(&plan.at(fraction * duration)), "{fraction} of the stop from {to:?}");
+                prop_assert!(complies(&plan.at(fraction * duration)), "{fraction} of the stop from {to:?}");
                 let rest = plan.at(duration);
                 let home = |motion: Motion<Vector3<f64>>| Motion {
                     position: (1.0 - fraction) * motion.position,
                     ..Motion::default()
                 };
                 let on_way = PlatformCoordinates { linear: home(rest.linear), angles: home(rest.angles) };
-                prop_assert!(keeps(&on_way), "{fraction} of the way home from {rest:?}");
+                prop_assert!(complies(&on_way), "{fraction} of the way home from {rest:?}");
             }
             Ok(())
         })
@@ -317,19 +318,19 @@ fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
 /// bound has.
 #[test]
 fn squares_of_transmissions_keep_near_their_chords() {
-    let machine = Machine::new(&crank_rig(), 1e-3);
-    let cranks = machine.geometry.cranks.expect("the rig has cranks");
+    let certifier = Certifier::new(&crank_rig(), 1e-3);
+    let cranks = certifier.geometry.cranks.expect("the rig has cranks");
     let closest = Cell::new(0.0_f64);
     search(case_count(200_000))
         .run(&(vector(0.3), vector(0.3)), |(position, angles)| {
             let arms = |s: f64| {
                 let at = |position: &Vector3<f64>| Motion { position: (1.0 - s) * position, ..Motion::default() };
                 let coordinates = PlatformCoordinates { linear: at(&position), angles: at(&angles) };
-                cranks.arms_in(&machine.geometry, &coordinates.motion(machine.neutral_height).pose())
+                cranks.arms_in(&certifier.geometry, &coordinates.motion(certifier.neutral_height).pose())
             };
             let angular = sum(&angles);
-            let distance = Distance { joint: position.norm() + angular * machine.radius, angular };
-            let bend = machine.way(&cranks, &arms(0.0), distance, 0.0).square_bend;
+            let distance = Distance { joint: position.norm() + angular * certifier.radius, angular };
+            let bend = certifier.way(&cranks, &arms(0.0), distance, 0.0).square_bend;
             let [start, middle, end] = [0.0, 0.5, 1.0].map(|s| arms(s).transmission.map(|k| k * k));
             for i in 0..6 {
                 // Zero stands for rods that do not reach: then nothing is known of the square.
@@ -346,11 +347,11 @@ fn squares_of_transmissions_keep_near_their_chords() {
     assert!(closest.get() > 0.01, "{closest:?}");
 }
 
-/// A machine without limits.
-fn unlimited() -> Machine {
-    let mut machine = Machine::new(&Rig::default(), 1e-3);
-    machine.limits = Limits { min: 0.0, max: 1e9, velocity: 1e9, acceleration: 1e9, longest_step: 1e-3 };
-    machine
+/// A certifier without limits.
+fn unlimited() -> Certifier {
+    let mut certifier = Certifier::new(&Rig::default(), 1e-3);
+    certifier.limits = Limits { min: 0.0, max: 1e9, velocity: 1e9, acceleration: 1e9, longest_step: 1e-3 };
+    certifier
 }
 
 #[test]
@@ -363,8 +364,8 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
         .run(&(pieces, -2.5..-1.0_f64), |((linear, angles), duration)| {
             let start = PlatformCoordinates { linear, angles };
             let duration = 10.0_f64.powf(duration);
-            let machine = unlimited();
-            let at = |time: f64| machine.leg_motion_of(&coordinates_after(&start, time));
+            let certifier = unlimited();
+            let at = |time: f64| certifier.leg_motion_of(&coordinates_after(&start, time));
             let end = coordinates_after(&start, duration);
             let faster = |a: &Vector3<f64>, b: &Vector3<f64>| a.norm().max(b.norm());
             let bounds = JointBounds::new(
@@ -372,9 +373,16 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
                 [linear.acceleration.norm(), sum(&angles.acceleration)],
                 Rig::default().platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max),
             );
-            let keeps = |machine: &Machine| {
-                let stroke = (machine.limits.min, machine.limits.max);
-                machine.interval_keeps_legs(&at(0.0), &at(duration), &bounds, duration, stroke, &[0.0; 6])
+            let complies = |certifier: &Certifier| {
+                let stroke = (certifier.limits.min, certifier.limits.max);
+                certifier.interval_complies_with_leg_limits(
+                    &at(0.0),
+                    &at(duration),
+                    &bounds,
+                    duration,
+                    stroke,
+                    &[0.0; 6],
+                )
             };
             let largest = |points: usize| {
                 (0..=points).fold([f64::MIN; 4], |largest, k| {
@@ -390,14 +398,14 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
             for k in 0..4 {
                 // As much as any instant exceeds both ends by, and hardly more than that.
                 let limit = reached[k] - 1e-9;
-                let mut machine = unlimited();
+                let mut certifier = unlimited();
                 match k {
-                    0 => machine.limits.acceleration = limit,
-                    1 => machine.limits.velocity = limit,
-                    2 => machine.limits.min = -limit,
-                    _ => machine.limits.max = limit,
+                    0 => certifier.limits.acceleration = limit,
+                    1 => certifier.limits.velocity = limit,
+                    2 => certifier.limits.min = -limit,
+                    _ => certifier.limits.max = limit,
                 }
-                prop_assert!(!keeps(&machine), "{k}: {limit} kept, but {} reached", reached[k]);
+                prop_assert!(!complies(&certifier), "{k}: {limit} kept, but {} reached", reached[k]);
                 inside[k].set(inside[k].get() + u32::from(reached[k] > at_ends[k] + 1e-6));
             }
             Ok(())
@@ -415,17 +423,17 @@ fn a_plan_followed_in_parts_is_the_plan() {
     };
     let durations = StopDurations { linear: Vector3::new(0.1, 0.05, 0.1), angular: 0.1 };
     let plan = StopPlan::new(&start, durations);
-    let mut followed = plan;
+    let mut held_plan = plan;
     for _ in 0..30 {
-        followed = followed.advanced(0.003);
+        held_plan = held_plan.advanced(0.003);
     }
     let expected = plan.at(0.09);
-    assert!((followed.now().linear.position - expected.linear.position).amax() < 1e-15);
+    assert!((held_plan.coordinates().linear.position - expected.linear.position).amax() < 1e-15);
     for _ in 0..30 {
-        followed = followed.advanced(0.003);
+        held_plan = held_plan.advanced(0.003);
     }
     // 0.3 m/s in 0.1 s, 0.2 m/s in 0.05 s, 0.1 rad/s in 0.1 s.
-    let rest = followed.now();
+    let rest = held_plan.coordinates();
     assert!((rest.linear.position - Vector3::new(0.015, -0.005, 0.0)).amax() < 1e-15);
     assert!((rest.angles.position - Vector3::new(0.0, 0.005, -0.005)).amax() < 1e-15);
     assert_eq!((rest.linear.velocity, rest.angles.velocity), (Vector3::zeros(), Vector3::zeros()));
@@ -434,8 +442,8 @@ fn a_plan_followed_in_parts_is_the_plan() {
 /// A leg at the end of its certified stroke is drawn back by a hundred-thousandth of it.
 #[test]
 fn legs_pursue_their_demands_a_little_inside_the_certified_stroke() {
-    let machine = Machine::new(&Rig::default(), 1e-3);
-    let (certified, pursued) = (machine.limits, machine.pursuit_limits());
+    let certifier = Certifier::new(&Rig::default(), 1e-3);
+    let (certified, pursued) = (certifier.limits, certifier.pursuit_limits());
     let margin = 1e-5 * (certified.max - certified.min);
     assert!(
         (pursued.min - certified.min - margin).abs() < 1e-12 && (certified.max - pursued.max - margin).abs() < 1e-12
@@ -456,7 +464,7 @@ fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
         guard.has_caught_up(&guard.state(demand), &safety, step)
     };
     // Surge changes the leg that lies along it most by this much a metre.
-    let neutral = guard.now.legs.length;
+    let neutral = guard.commanded.legs.length;
     let mut moved = PlatformCoordinates::default();
     moved.linear.position.x = 1e-6;
     let moved = guard.state(moved).legs.length;
@@ -479,7 +487,7 @@ fn reported_accelerations_of_the_legs_keep_their_limit() {
         demand.linear.acceleration.z = acceleration;
         guard.advance(&guard.state(demand), &SafetyParameters::default(), false, 0.001);
         assert!(!guard.limited());
-        let exact = leg_accelerations(&guard.machine.geometry, &guard.now.motion);
+        let exact = leg_accelerations(&guard.certifier.geometry, &guard.commanded.motion);
         assert!(exact.iter().all(|exact| exact.abs() > 5.0) == expected.is_some());
         assert_eq!(guard.leg_accelerations(), exact.map(|exact| expected.unwrap_or(exact)));
     }
@@ -500,7 +508,7 @@ fn a_trajectory_that_ends_beyond_a_position_limit_is_refused() {
         // The trajectory ends 1e-4 m on from its start.
         let start = if accepted { 0.099_85 } else { 0.099_95 };
         let [from, to] = [state(start, 0.02), state(shown, 0.0)];
-        assert_eq!(certificate::axes_keep_limits(&from, &to, &safety, step), accepted, "{shown} m");
+        assert_eq!(certificate::axes_comply_with_limits(&from, &to, &safety, step), accepted, "{shown} m");
     }
 }
 
@@ -522,7 +530,7 @@ fn the_rate_of_the_stroke_clearance_is_its_derivative() {
         let demand = at(f64::from(k) * step);
         guard.advance(&guard.state(demand), &SafetyParameters::default(), false, step);
         clearances.push(guard.stroke_clearance());
-        rates.push(guard.stroke_margin_rate());
+        rates.push(guard.stroke_clearance_rate());
     }
     assert!(!guard.limited());
     let wrong = (1..clearances.len() - 1)

@@ -53,7 +53,7 @@ impl Ride {
     }
 
     fn speeds(&self) -> Vector3<f64> {
-        self.guard.now().coordinates.linear.velocity.abs()
+        self.guard.commanded().coordinates.linear.velocity.abs()
     }
 }
 
@@ -72,7 +72,7 @@ fn rides() -> impl Strategy<Value = Ride> {
 fn steps_on_plan(ride: &Ride, axis: usize, limit: f64) -> usize {
     let mut plan = ride.guard.plan;
     let mut steps = 0;
-    while plan.now().linear.velocity[axis].abs() > limit * ROUNDING {
+    while plan.coordinates().linear.velocity[axis].abs() > limit * ROUNDING {
         plan = plan.advanced(ride.step);
         steps += 1;
     }
@@ -116,9 +116,14 @@ fn a_tightened_limit_of_velocity_is_kept_no_later_than_on_the_plan_held() {
                     let limit = safety.velocity_limit[axis];
                     let fastest = limit.max(speeds[axis]);
                     prop_assert!(after[axis] <= fastest * ROUNDING, "axis {}: {} m/s", axis, after[axis]);
-                    let keeps = after[axis] <= limit * ROUNDING;
-                    prop_assert!(keeps || now + 1 < last[axis], "axis {} after {} steps", axis, now + 1 - since[axis]);
-                    if keeps && last[axis] > since[axis] + 2 {
+                    let complies = after[axis] <= limit * ROUNDING;
+                    prop_assert!(
+                        complies || now + 1 < last[axis],
+                        "axis {} after {} steps",
+                        axis,
+                        now + 1 - since[axis]
+                    );
+                    if complies && last[axis] > since[axis] + 2 {
                         let planned = last[axis] - since[axis];
                         tightened.set(tightened.get() + 1);
                         sooner.set(sooner.get() + usize::from(10 * (now + 2 - since[axis]) < 9 * planned));

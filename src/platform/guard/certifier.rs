@@ -1,9 +1,9 @@
-//! The machine whose limits are certified, and the states that it may have.
+//! The rig as the certificate needs it: geometry, limits, and the legs at neutral.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::cranks::Lever;
+use super::cranks::JointLimits;
 use crate::interface::Rig;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
@@ -15,9 +15,9 @@ pub(super) const STOP_FRACTION: f64 = 0.6;
 /// The margin of the way home at neutral, as a fraction of the legs' clearance there.
 pub(super) const HOME_MARGIN_FRACTION: f64 = 1.0 / 16.0;
 
-/// The legs with their limits, as the certificate needs them.
+/// Certifies motion: the legs with their limits, and the way home.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Machine {
+pub struct Certifier {
     pub geometry: Geometry,
     pub neutral_height: f64,
     /// The farthest joint from the platform's origin \[m\].
@@ -110,8 +110,8 @@ pub fn step_margin(rig: &Rig, longest_step: f64) -> f64 {
     (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
 }
 
-impl Machine {
-    /// The machine of a rig; no step will be longer than `longest_step` \[s\].
+impl Certifier {
+    /// Certifies the motion of a rig; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
         let margin = step_margin(rig, longest_step);
         let geometry = Geometry::from(rig);
@@ -123,7 +123,7 @@ impl Machine {
             acceleration: rig.acceleration_limit,
             longest_step,
         };
-        Machine {
+        Certifier {
             home: Home::new(&geometry, &Pose::neutral(rig), &limits),
             geometry,
             neutral_height: rig.neutral_height,
@@ -133,10 +133,10 @@ impl Machine {
         }
     }
 
-    /// The legs as levers between joints and actuators.
+    /// The legs' limits as limits of the joints.
     #[inline(always)]
-    pub(super) fn lever_of_legs(&self) -> Lever {
-        Lever {
+    pub(super) fn joint_limits_of_legs(&self) -> JointLimits {
+        JointLimits {
             transmission: 1.0,
             turning_length: self.limits.min,
             velocity: self.limits.velocity,
@@ -146,11 +146,12 @@ impl Machine {
         }
     }
 
-    /// The actuators as levers about these coordinates; `transmission` is the smallest one there.
-    pub(super) fn lever(&self, transmission: f64) -> Lever {
+    /// The actuators' limits as limits of the joints about these coordinates; `transmission` is
+    /// the smallest one there.
+    pub(super) fn joint_limits(&self, transmission: f64) -> JointLimits {
         match &self.geometry.cranks {
-            None => self.lever_of_legs(),
-            Some(cranks) => self.lever_of(cranks, transmission),
+            None => self.joint_limits_of_legs(),
+            Some(cranks) => self.joint_limits_of_cranks(cranks, transmission),
         }
     }
 
