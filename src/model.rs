@@ -40,7 +40,7 @@ impl Model for Washout {
         input_warnings(parameters, &inputs.vehicle)
     }
 
-    fn longest_step(&self) -> f64 {
+    fn max_communication_step(&self) -> f64 {
         MOST_INTERNAL_STEPS * self.parameters().structure.max_step
     }
 

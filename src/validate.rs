@@ -252,7 +252,7 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), ParameterE
     check_fixed::<_, { slot_count(Parameters::ROWS) }>(Parameters::ROWS, from, to)
 }
 
-/// Checks a rig that is stepped in internal steps of `longest_step` \[s\] at most: the order of the
+/// Checks a rig that is stepped in internal steps of `max_step` \[s\] at most: the order of the
 /// stroke's ends, the pose at neutral, and that no pose is singular.
 ///
 /// ```
@@ -264,7 +264,7 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), ParameterE
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
-pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
+pub fn check_rig(rig: &Rig, max_step: f64) -> Result<(), ParameterError> {
     if let Some(cranks) = Cranks::of(rig) {
         check_cranks(rig, &cranks)?;
     }
@@ -293,7 +293,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
             );
         }
     }
-    check_step_margin(rig, longest_step, &neutral)?;
+    check_step_margin(rig, max_step, &neutral)?;
     if is_default(rig) {
         return Ok(());
     }
@@ -451,8 +451,8 @@ fn numbering_advice(rig: &Rig) -> String {
 
 /// Rest at neutral is certified only if no leg can leave its stroke from there
 /// between two ends of a step.
-fn check_step_margin(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), ParameterError> {
-    let margin = step_margin(rig, longest_step);
+fn check_step_margin(rig: &Rig, max_step: f64, neutral: &[f64; 6]) -> Result<(), ParameterError> {
+    let margin = step_margin(rig, max_step);
     let [start, end] = rig.stroke();
     let least = neutral.iter().map(|length| (length - start).min(end - length));
     let clearance = least.fold(f64::INFINITY, f64::min);
@@ -464,7 +464,7 @@ fn check_step_margin(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result
         format!(
             "is {} s: in half of it an actuator within its limits moves by up to {:.4} m, but at neutral one is only {:.4} m \
              from an end of its stroke; reduce solver.maxStep or the actuators' limits, or lengthen the stroke",
-            Shown(longest_step),
+            Shown(max_step),
             Shown(margin),
             Shown(clearance)
         ),

@@ -21,9 +21,9 @@ pub struct AngularChannel {
 }
 
 impl AngularChannel {
-    /// The channel at rest, ready for steps of `longest_step` seconds.
-    pub fn new(parameters: &AngularParameters, order: i32, longest_step: f64) -> Self {
-        let chains = FadedChains::new(denominators(parameters, order), 1, longest_step);
+    /// The channel at rest, ready for steps of `max_step` seconds.
+    pub fn new(parameters: &AngularParameters, order: i32, max_step: f64) -> Self {
+        let chains = FadedChains::new(denominators(parameters, order), 1, max_step);
         AngularChannel { chains, offset: FadingOffset::default(), rates: Vector3::zeros() }
     }
 

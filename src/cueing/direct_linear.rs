@@ -21,10 +21,10 @@ pub struct DirectLinearMotion {
 }
 
 impl DirectLinearMotion {
-    /// At rest at neutral; no step will be longer than `longest_step` \[s\].
-    pub fn new(parameters: &SplitterParameters, order: i32, longest_step: f64) -> Self {
-        let chains = FadedChains::new(high_pass_denominators(parameters, order), 2, longest_step);
-        DirectLinearMotion { chains, offset: GlidingOffset::default(), safety: SafetyUnits::new(longest_step) }
+    /// At rest at neutral; no step will be longer than `max_step` \[s\].
+    pub fn new(parameters: &SplitterParameters, order: i32, max_step: f64) -> Self {
+        let chains = FadedChains::new(high_pass_denominators(parameters, order), 2, max_step);
+        DirectLinearMotion { chains, offset: GlidingOffset::default(), safety: SafetyUnits::new(max_step) }
     }
 
     /// Changes the filter parameters. Position, velocity and acceleration fade to those of the new

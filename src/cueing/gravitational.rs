@@ -59,18 +59,18 @@ fn limited_tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit
 
 impl GravitationalStrategy {
     /// Advances by `step` seconds towards the tilt for this low-frequency force in head axes, under
-    /// the limits and by the law of the parameters. No step is ever longer than `longest_step`.
+    /// the limits and by the law of the parameters. No step is ever longer than `max_step`.
     pub fn advance(
         &mut self,
         force: Vector3<f64>,
         gravity: f64,
         lean: f64,
         parameters: &TiltParameters,
-        longest_step: f64,
+        max_step: f64,
         step: f64,
     ) {
         let TiltParameters { rate_limit, acceleration_limit, angle_limit, tracking } = *parameters;
-        let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, longest_step);
+        let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, max_step);
         let (target, clipped) = tilt_target(force, gravity, lean, angle_limit);
         let rate = |now: f64, before: f64| ((now - before) / step).clamp(-rate_limit, rate_limit);
         let target_rate =

@@ -22,7 +22,7 @@ use crate::motion::square_root::square_root;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StopPreaction {
     /// The longest step that may ever be taken \[s\].
-    longest_step: f64,
+    max_step: f64,
     /// The vehicle's deceleration, smoothed \[m/s2\].
     deceleration: f64,
     /// Time until standstill \[s\], infinite without braking.
@@ -76,9 +76,9 @@ const RECOVERED_SPEED: f64 = 1e-3;
 
 impl StopPreaction {
     /// At rest, with no stop ahead.
-    pub fn new(longest_step: f64) -> Self {
+    pub fn new(max_step: f64) -> Self {
         StopPreaction {
-            longest_step,
+            max_step,
             deceleration: 0.0,
             time_left: f64::INFINITY,
             slew: 0.0,
@@ -175,8 +175,7 @@ impl StopPreaction {
 
     /// The surge after a step towards a position, too gentle to be felt.
     fn gently_towards(&self, position: f64, safety: &SafetyParameters, step: f64) -> Motion {
-        let limits =
-            Limits::symmetric(safety.position_limit.x, GENTLE_VELOCITY, GENTLE_ACCELERATION, self.longest_step);
+        let limits = Limits::symmetric(safety.position_limit.x, GENTLE_VELOCITY, GENTLE_ACCELERATION, self.max_step);
         limits.follow(&self.surge, &Motion::at_rest(position), GENTLE_ACCELERATION, step)
     }
 

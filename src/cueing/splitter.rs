@@ -20,12 +20,12 @@ pub struct LowPass {
 }
 
 impl LowPass {
-    /// Filters at rest, ready for steps of `longest_step` seconds. `order` is that of the high-pass
+    /// Filters at rest, ready for steps of `max_step` seconds. `order` is that of the high-pass
     /// to which a complementary low-pass belongs.
-    pub fn new(parameters: &SplitterParameters, order: i32, kind: LowPassKind, longest_step: f64) -> Self {
+    pub fn new(parameters: &SplitterParameters, order: i32, kind: LowPassKind, max_step: f64) -> Self {
         let complementary = kind == LowPassKind::Complementary;
         let denominators = denominators(parameters, order, complementary);
-        LowPass { chains: Chains::new(denominators, longest_step), complementary }
+        LowPass { chains: Chains::new(denominators, max_step), complementary }
     }
 
     /// Changes frequencies and dampings; the output stays what it is.

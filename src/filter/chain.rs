@@ -95,12 +95,12 @@ pub struct Chains {
 const DENORMAL_THRESHOLD: f64x4 = f64x4::new([1e-30; 4]);
 
 impl Chains {
-    /// Chains at rest, which are ready for steps of `longest_step` seconds. The first step of
+    /// Chains at rest, which are ready for steps of `max_step` seconds. The first step of
     /// another length takes as long as ten others.
-    pub fn new(denominators: [Denominator; 3], longest_step: f64) -> Self {
+    pub fn new(denominators: [Denominator; 3], max_step: f64) -> Self {
         let mut chains =
             Chains { denominators, step: 0.0, transitions: Default::default(), states: Default::default() };
-        chains.prepare(longest_step);
+        chains.prepare(max_step);
         chains
     }
 

@@ -72,9 +72,9 @@ const FADE_TIME: f64 = 1.8;
 
 impl FadedChains {
     /// Chains at rest, of which the first `kept` states make up the motion, ready for steps of
-    /// `longest_step` seconds.
-    pub fn new(denominators: [Denominator; 3], kept: usize, longest_step: f64) -> Self {
-        let now = CorrectedChains { chains: Chains::new(denominators, longest_step), offset: FadingOffset::default() };
+    /// `max_step` seconds.
+    pub fn new(denominators: [Denominator; 3], kept: usize, max_step: f64) -> Self {
+        let now = CorrectedChains { chains: Chains::new(denominators, max_step), offset: FadingOffset::default() };
         FadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept }
     }
 

@@ -22,19 +22,19 @@ pub struct Limits {
     pub acceleration: f64,
     /// The longest step that may ever be taken \[s\]. Steps may differ: there must be room to brake
     /// in the next one, however long it is.
-    pub longest_step: f64,
+    pub max_step: f64,
 }
 
 impl Limits {
     /// The same limits on both sides of zero.
-    pub fn symmetric(position: f64, velocity: f64, acceleration: f64, longest_step: f64) -> Self {
-        Limits { min: -position, max: position, velocity, acceleration, longest_step }
+    pub fn symmetric(position: f64, velocity: f64, acceleration: f64, max_step: f64) -> Self {
+        Limits { min: -position, max: position, velocity, acceleration, max_step }
     }
 
     /// The platform's limits of one axis about neutral.
-    pub fn safety(parameters: &SafetyParameters, axis: usize, longest_step: f64) -> Self {
+    pub fn safety(parameters: &SafetyParameters, axis: usize, max_step: f64) -> Self {
         let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = parameters;
-        Limits::symmetric(position_limit[axis], velocity_limit[axis], acceleration_limit[axis], longest_step)
+        Limits::symmetric(position_limit[axis], velocity_limit[axis], acceleration_limit[axis], max_step)
     }
 
     /// The motion after one step towards a target. At the step's end the target is at
@@ -85,7 +85,7 @@ impl Limits {
 
     /// The step that [`approach_velocity`] needs where the one after this may be longer.
     fn braking_step(&self, step: f64) -> f64 {
-        0.5 * (step + self.longest_step)
+        0.5 * (step + self.max_step)
     }
 }
 

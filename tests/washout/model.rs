@@ -51,7 +51,7 @@ fn the_longest_step_is_the_most_internal_steps() {
     let mut parameters = presets::parameters("");
     parameters.structure.max_step = 0.004;
     let model = <Washout as Model>::new(&parameters, &Inputs::default()).unwrap();
-    assert_eq!(model.longest_step(), MOST_INTERNAL_STEPS * 0.004);
+    assert_eq!(model.max_communication_step(), MOST_INTERNAL_STEPS * 0.004);
 }
 
 #[test]

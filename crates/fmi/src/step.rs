@@ -62,7 +62,7 @@ impl<M: Model> Instance<M> {
             && end.is_finite()
             && off <= time_tolerance(time, step)
             && end <= stop + stop_tolerance(stop, time, step)
-            && step <= longest_accepted(model.longest_step(), step);
+            && step <= longest_accepted(model.max_communication_step(), step);
         if !fits {
             return Err(self.why_no_step(time, step));
         }
@@ -88,7 +88,7 @@ impl<M: Model> Instance<M> {
     fn why_no_step(&self, time: f64, step: f64) -> CallError {
         let (present, end) = (self.state.time, time + step);
         let stop = self.state.experiment.and_then(|experiment| experiment.stop).unwrap_or(f64::INFINITY);
-        let longest = self.state.model.as_ref().map_or(f64::INFINITY, M::longest_step);
+        let longest = self.state.model.as_ref().map_or(f64::INFINITY, M::max_communication_step);
         CallError::error(if !(step > 0.0 && step.is_finite()) {
             format!(
                 "the communication step size {step} is not a positive, finite number; pass the length of the step in seconds"

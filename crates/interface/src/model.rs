@@ -188,7 +188,7 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     }
 
     /// Longest communication step \[s\].
-    fn longest_step(&self) -> f64 {
+    fn max_communication_step(&self) -> f64 {
         f64::INFINITY
     }
 

@@ -17,7 +17,7 @@ use crate::motion::lanes::lanes;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SafetyUnits {
     /// The longest step that may ever be taken \[s\].
-    longest_step: f64,
+    max_step: f64,
     motion: Motion<Vector3<f64>>,
     /// True on each axis whose motion is not the demanded one.
     deviating: [bool; 3],
@@ -27,8 +27,8 @@ pub struct SafetyUnits {
 
 impl SafetyUnits {
     /// The safety units at rest at neutral, not active.
-    pub fn new(longest_step: f64) -> Self {
-        SafetyUnits { longest_step, motion: Motion::default(), deviating: [false; 3], limited: [false; 3] }
+    pub fn new(max_step: f64) -> Self {
+        SafetyUnits { max_step, motion: Motion::default(), deviating: [false; 3], limited: [false; 3] }
     }
 
     /// The limited motion now.
@@ -100,7 +100,7 @@ impl SafetyUnits {
             if !self.deviating[k] {
                 return target;
             }
-            let limits = Limits::safety(limits, k, self.longest_step);
+            let limits = Limits::safety(limits, k, self.max_step);
             limits.follow(&self.motion.axis(k), &target, CATCH_UP_FRACTION * limits.acceleration, step)
         })
     }
@@ -135,7 +135,7 @@ impl SafetyUnits {
         keep &= fastest.cmp_ge(speed);
         keep &= (fastest * step * WITH_ROUNDING + ROUNDING).cmp_ge(mean.abs() * step + gap);
         keep &= most.cmp_ge(lanes(&demand.acceleration).abs());
-        keep &= (2.0 * most * ahead).cmp_ge(speed * (speed + most * self.longest_step));
+        keep &= (2.0 * most * ahead).cmp_ge(speed * (speed + most * self.max_step));
         keep &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).cmp_ge(change * step + 2.0 * gap);
         let keep = keep.move_mask();
         core::array::from_fn(|k| keep & (1 << k) != 0)

@@ -174,7 +174,7 @@ fn a_demand_that_is_not_kept_is_followed_by_the_braking_law_on_its_axis() {
             max: limits.position_limit[k],
             velocity: limits.velocity_limit[k],
             acceleration: limits.acceleration_limit[k],
-            longest_step: LONGEST_STEP,
+            max_step: LONGEST_STEP,
         };
         assert!(!units.limited());
         let mut steps = 0;

@@ -127,8 +127,8 @@ impl Coordinated {
             .unwrap_or(self.dropped_force.map(|dropped_force| Decision { dropped_force, tilt_acceleration: 0.0 }));
         self.offset.advance(step);
         let tilt = &parameters.tilt;
-        let longest_step = parameters.structure.max_step;
-        let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, longest_step);
+        let max_step = parameters.structure.max_step;
+        let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, max_step);
         let smooth = TiltLimits::new(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit);
         self.limited = false;
         for (k, decision) in decisions.iter().enumerate() {

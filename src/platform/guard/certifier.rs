@@ -106,14 +106,14 @@ impl Home {
 ///
 /// It is what a leg can move beyond both ends of a transition: A h²/8 for the longest step h, or V
 /// h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
-pub fn step_margin(rig: &Rig, longest_step: f64) -> f64 {
-    (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
+pub fn step_margin(rig: &Rig, max_step: f64) -> f64 {
+    (0.125 * rig.acceleration_limit * max_step * max_step).min(0.5 * rig.velocity_limit * max_step)
 }
 
 impl Certifier {
-    /// Certifies the motion of a rig; no step will be longer than `longest_step` \[s\].
-    pub fn new(rig: &Rig, longest_step: f64) -> Self {
-        let margin = step_margin(rig, longest_step);
+    /// Certifies the motion of a rig; no step will be longer than `max_step` \[s\].
+    pub fn new(rig: &Rig, max_step: f64) -> Self {
+        let margin = step_margin(rig, max_step);
         let geometry = Geometry::from(rig);
         let [start, end] = rig.stroke();
         let limits = Limits {
@@ -121,7 +121,7 @@ impl Certifier {
             max: end - margin,
             velocity: rig.velocity_limit,
             acceleration: rig.acceleration_limit,
-            longest_step,
+            max_step,
         };
         Certifier {
             home: Home::new(&geometry, &Pose::neutral(rig), &limits),

@@ -156,7 +156,7 @@ impl Certifier {
         // Of the legs' acceleration a part remains for their turning, of every limit a part for rounding.
         let joint_limits = self.joint_limits(min(self.transmission_at(now), self.home.transmission));
         let JointLimits { turning_length, velocity, acceleration, .. } = joint_limits;
-        let longest_step = self.limits.longest_step;
+        let max_step = self.limits.max_step;
         let mut hardest = 0.25 * acceleration;
         let mut fastest = min(0.5 * velocity, square_root(0.1 * acceleration * turning_length));
         for k in 0..3 {
@@ -165,7 +165,7 @@ impl Certifier {
             hardest = min(safety.acceleration_limit[k] * ratio, hardest);
             fastest = min(safety.velocity_limit[k] * ratio, fastest);
         }
-        let along = Limits::symmetric(f64::INFINITY, fraction * fastest, fraction * hardest, longest_step);
+        let along = Limits::symmetric(f64::INFINITY, fraction * fastest, fraction * hardest, max_step);
         let travelled =
             Motion { position: -distance, velocity: Speed::of(now).of_joints(self.radius), acceleration: 0.0 };
         let speed = along.follow(&travelled, &Motion::default(), along.acceleration, step).velocity;

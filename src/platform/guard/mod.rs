@@ -65,9 +65,9 @@ const RETURN_SPEED_DECREASE: f64 = 1.0 / 64.0;
 const RETURN_SPEED_INCREASE: f64 = 8.0;
 
 impl ActuatorGuard {
-    /// At rest at neutral; no step will be longer than `longest_step` \[s\].
-    pub fn new(rig: &Rig, longest_step: f64) -> Self {
-        let certifier = Certifier::new(rig, longest_step);
+    /// At rest at neutral; no step will be longer than `max_step` \[s\].
+    pub fn new(rig: &Rig, max_step: f64) -> Self {
+        let certifier = Certifier::new(rig, max_step);
         ActuatorGuard {
             certifier,
             stroke: rig.stroke(),

@@ -75,10 +75,10 @@ impl ActuatorGuard {
         let fraction = (step * safety.acceleration_limit).component_div(&change.abs().sup(&least)).min().min(1.0);
         let velocity = linear.velocity + fraction * change;
         let rates = angles.velocity.lerp(&rates, fraction);
-        let longest_step = self.pursuit.longest_step;
+        let max_step = self.pursuit.max_step;
         PlatformCoordinates {
             linear: Motion::from_axes(|k| {
-                Limits::safety(safety, k, longest_step).at_velocity(&linear.axis(k), velocity[k], step)
+                Limits::safety(safety, k, max_step).at_velocity(&linear.axis(k), velocity[k], step)
             }),
             angles: angles.at_velocity(rates, step),
         }

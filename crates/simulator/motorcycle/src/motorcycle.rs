@@ -140,7 +140,7 @@ impl Model for Motorcycle {
         Ok(())
     }
 
-    fn longest_step(&self) -> f64 {
+    fn max_communication_step(&self) -> f64 {
         MOST_MOTORCYCLE_STEPS * self.parameters.run.max_step
     }
 

@@ -40,7 +40,7 @@ impl Drive {
                 max,
                 velocity: rig.velocity_limit,
                 acceleration: rig.acceleration_limit,
-                longest_step: parameters.setting.max_step,
+                max_step: parameters.setting.max_step,
             },
         }
     }
@@ -89,7 +89,7 @@ fn is_allowed(limits: &Limits, motion: &Motion) -> bool {
     velocity.abs() <= limits.velocity
         && acceleration.abs() <= limits.acceleration
         && (limits.min..=limits.max).contains(&position)
-        && velocity.abs() <= approach_velocity(ahead, limits.acceleration, limits.longest_step)
+        && velocity.abs() <= approach_velocity(ahead, limits.acceleration, limits.max_step)
 }
 
 /// The free motion of x'' + 2 z w x' + w^2 x = 0 over a step, exact: (x, x') after it from (x, x')

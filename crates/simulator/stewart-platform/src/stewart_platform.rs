@@ -123,7 +123,7 @@ impl Model for StewartPlatform {
         Ok(())
     }
 
-    fn longest_step(&self) -> f64 {
+    fn max_communication_step(&self) -> f64 {
         MOST_INTERNAL_STEPS * self.parameters.setting.max_step
     }
 

@@ -208,7 +208,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
     let [certified, refused] = [const { Cell::new(0) }; 2];
     search(case_count(200_000))
         .run(&states, |(certifier, safety, (linear, angles), step, size)| {
-            let step = 10.0_f64.powf(step).min(certifier.limits.longest_step);
+            let step = 10.0_f64.powf(step).min(certifier.limits.max_step);
             let scaled = |motions: &Motion<Vector3<f64>>| Motion {
                 position: motions.position,
                 velocity: size * motions.velocity,
@@ -350,7 +350,7 @@ fn squares_of_transmissions_keep_near_their_chords() {
 /// A certifier without limits.
 fn unlimited() -> Certifier {
     let mut certifier = Certifier::new(&Rig::default(), 1e-3);
-    certifier.limits = Limits { min: 0.0, max: 1e9, velocity: 1e9, acceleration: 1e9, longest_step: 1e-3 };
+    certifier.limits = Limits { min: 0.0, max: 1e9, velocity: 1e9, acceleration: 1e9, max_step: 1e-3 };
     certifier
 }
 

@@ -113,7 +113,7 @@ pub struct MachineLimits {
     /// |p| + |a| + |b| at neutral, for the farthest joints \[m\].
     pub size: f64,
     /// Longest internal step \[s\].
-    pub longest_step: f64,
+    pub max_step: f64,
 }
 
 impl MachineLimits {
@@ -309,7 +309,7 @@ impl Oracle {
     /// shows.
     fn longest_stop(&self, sample: &Sample, step: f64) -> f64 {
         const ROUNDING: f64 = 1e-9;
-        let divided = step > self.machine.longest_step * (1.0 + ROUNDING);
+        let divided = step > self.machine.max_step * (1.0 + ROUNDING);
         let velocity = std::array::from_fn(|k| {
             let (axis, velocity) = (&self.axes[k], sample.velocity[k]);
             let unseen = divided && velocity == 0.0;

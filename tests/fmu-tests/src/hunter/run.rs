@@ -36,7 +36,7 @@ pub struct Runner {
     stroke: [usize; 2],
     leg_velocity: usize,
     leg_acceleration: usize,
-    longest_step: usize,
+    max_step: usize,
     gravity: usize,
     gravity_removal: usize,
     safety: [[usize; 3]; 3],
@@ -60,7 +60,7 @@ impl Runner {
             stroke: [slot("actuator.minLength")?, slot("actuator.maxLength")?],
             leg_velocity: slot("actuator.velocityLimit")?,
             leg_acceleration: slot("actuator.accelerationLimit")?,
-            longest_step: slot("solver.maxStep")?,
+            max_step: slot("solver.maxStep")?,
             gravity: slot("gravity")?,
             gravity_removal: slot("gravityRemoval")?,
             safety: [safety("positionLimit")?, safety("velocityLimit")?, safety("accelerationLimit")?],
@@ -210,7 +210,7 @@ impl Runner {
             acceleration: slots[self.leg_acceleration],
             radius,
             size: base + radius + slots[self.neutral_height].abs(),
-            longest_step: slots[self.longest_step],
+            max_step: slots[self.max_step],
         }
     }
 

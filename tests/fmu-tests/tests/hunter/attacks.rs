@@ -100,14 +100,8 @@ fn episode(count: usize, inputs: &[(&str, Signal)]) -> Episode {
 }
 
 /// The limits of the default machine.
-const MACHINE: MachineLimits = MachineLimits {
-    stroke: [1.0, 1.6],
-    velocity: 1.0,
-    acceleration: 15.0,
-    radius: 0.85,
-    size: 3.0,
-    longest_step: 0.005,
-};
+const MACHINE: MachineLimits =
+    MachineLimits { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, max_step: 0.005 };
 const SAFETY: Safety = Safety { position: [0.37, 0.37, 0.33], velocity: [1.0; 3], acceleration: [10.0; 3] };
 
 const SURGE: &str = "vehicle.specificForce.x";

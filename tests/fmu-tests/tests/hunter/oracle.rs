@@ -3,7 +3,7 @@
 use moris_fmu_tests::hunter::oracle::{Breach, Derivative, MachineLimits, Oracle, Quantity, Safety, Sample, Worst};
 
 const MACHINE: MachineLimits =
-    MachineLimits { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, longest_step: 1.0 };
+    MachineLimits { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, max_step: 1.0 };
 const SAFETY: Safety = Safety { position: [0.45; 3], velocity: [1.0; 3], acceleration: [10.0; 3] };
 const NEUTRAL: f64 = 1.3;
 
@@ -269,10 +269,10 @@ fn the_legs_stop_counts_the_rates_of_all_angles() {
 
 #[test]
 fn the_stop_of_an_axis_that_no_sample_shows_counts() {
-    let settles = |longest_step: f64, wait: f64| {
+    let settles = |max_step: f64, wait: f64| {
         // Steady sway, and surge and heave that are at rest whenever they are seen.
         let sways = |time: f64| Sample { velocity: [0.0, 0.05, 0.0], position: [0.0, 0.05 * time, 0.0], ..at_rest() };
-        let mut oracle = Oracle::new(MachineLimits { longest_step, ..MACHINE }, &SAFETY, &sways(0.0));
+        let mut oracle = Oracle::new(MachineLimits { max_step, ..MACHINE }, &SAFETY, &sways(0.0));
         let mut worst = Worst::default();
         oracle.check(&sways(0.02), 0.02, &mut worst).unwrap();
         oracle.change(&Safety { acceleration: [0.2; 3], ..SAFETY });
@@ -283,9 +283,9 @@ fn the_stop_of_an_axis_that_no_sample_shows_counts() {
     let seen = 0.05 / -STOP;
     // Surge and heave may each have stopped from 10 m/s2 times 0.02 s.
     let unseen = 0.05_f64.hypot(0.2_f64.hypot(0.2)) / -STOP;
-    for (longest_step, stop) in [(0.02, seen), (0.01, unseen)] {
-        assert_eq!(settles(longest_step, 0.999 * stop), Ok(()));
-        assert_eq!(settles(longest_step, 1.001 * stop), Err(Quantity::Acceleration));
+    for (max_step, stop) in [(0.02, seen), (0.01, unseen)] {
+        assert_eq!(settles(max_step, 0.999 * stop), Ok(()));
+        assert_eq!(settles(max_step, 1.001 * stop), Err(Quantity::Acceleration));
     }
 }
 

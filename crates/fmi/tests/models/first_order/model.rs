@@ -161,7 +161,7 @@ impl Model for FirstOrder {
         (input.signals.u == 13.0).then(|| "u is 13 at first".to_owned()).into_iter().collect()
     }
 
-    fn longest_step(&self) -> f64 {
+    fn max_communication_step(&self) -> f64 {
         1.0
     }
 

@@ -1,6 +1,6 @@
 //! The nominal platform with its drives, under the washout's commands.
 
-use moris_simulation::frequency_response::Machine;
+use moris_simulation::frequency_response::MovedPlatform;
 use moris_simulation::frequency_response::channel::CHANNEL_COUNT;
 use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 use moris_washout::cueing::evaluator::felt;
@@ -32,7 +32,7 @@ impl NominalPlatform {
     }
 }
 
-impl Machine for NominalPlatform {
+impl MovedPlatform for NominalPlatform {
     fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT] {
         let input = Input { length: commanded.length, angle: commanded.angle, ..Input::default() };
         let start = self.last.replace(input).unwrap_or(input);

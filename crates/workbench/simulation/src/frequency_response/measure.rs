@@ -32,17 +32,17 @@ pub struct Response {
 pub const SETTLED_FRACTION: f64 = 1e-2;
 
 /// Platform moved by the washout's commands, and the motion that its rider feels.
-pub trait Machine {
+pub trait MovedPlatform {
     /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the
     /// order of the channels.
     fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT];
 }
 
-/// A machine that moves exactly as commanded.
+/// A platform that moves exactly as commanded.
 #[derive(Clone, Copy, Debug)]
 pub struct AsCommanded;
 
-impl Machine for AsCommanded {
+impl MovedPlatform for AsCommanded {
     fn felt(&mut self, commanded: &Output, _step: f64) -> [f64; CHANNEL_COUNT] {
         felt(commanded)
     }
@@ -54,9 +54,9 @@ pub fn response(at_rest: &Washout, channel: Channel, frequency: f64, amplitude: 
     response_on(AsCommanded, at_rest, channel, frequency, amplitude, gravity_turns)
 }
 
-/// As [`response()`], on a machine that is at rest at neutral.
+/// As [`response()`], on a platform that is at rest at neutral.
 pub fn response_on(
-    machine: impl Machine,
+    platform: impl MovedPlatform,
     at_rest: &Washout,
     channel: Channel,
     frequency: f64,
@@ -75,7 +75,7 @@ pub fn response_on(
     let periods = (SHORTEST_BLOCK / period).ceil();
     let fade = periods * period;
     let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters: at_rest.parameters() };
-    let mut walk = SteadyStateRun::new(machine, at_rest, sine, periods);
+    let mut walk = SteadyStateRun::new(platform, at_rest, sine, periods);
     walk.block(); // It fades in.
     let mut last = walk.block();
     let blocks = ((LONGEST_WAIT / fade) as usize).max(FEWEST_BLOCKS);
@@ -93,7 +93,7 @@ pub fn response_on(
 
 /// The washout on its way through the sine.
 struct SteadyStateRun<'a, M> {
-    machine: M,
+    platform: M,
     sine: Sine<'a>,
     washout: Washout,
     /// Samples in a block, and the time between them.
@@ -103,14 +103,14 @@ struct SteadyStateRun<'a, M> {
     made: usize,
 }
 
-impl<'a, M: Machine> SteadyStateRun<'a, M> {
-    fn new(machine: M, at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
+impl<'a, M: MovedPlatform> SteadyStateRun<'a, M> {
+    fn new(platform: M, at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
         // Longest time between samples [s].
         const LONGEST_STEP: f64 = 0.001;
         let block = periods * TAU / sine.frequency;
         let samples = (block / LONGEST_STEP).ceil();
         let washout = at_rest.clone().starting_with(&sine.input(0.0));
-        SteadyStateRun { machine, sine, washout, samples: samples as usize, step: block / samples, made: 0 }
+        SteadyStateRun { platform, sine, washout, samples: samples as usize, step: block / samples, made: 0 }
     }
 
     /// Goes on for a block of whole periods.
@@ -126,7 +126,7 @@ impl<'a, M: Machine> SteadyStateRun<'a, M> {
             let output = self.washout.output();
             let flags = [output.tilt_limited, output.safety_active, output.actuator_limited];
             let turn = Complex::from_polar(1.0, -self.sine.frequency * time);
-            let felt = self.machine.felt(&output, self.step);
+            let felt = self.platform.felt(&output, self.step);
             block.add(turn, self.sine.value(time), felt, flags);
         }
         block

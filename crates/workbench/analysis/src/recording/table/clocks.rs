@@ -1,6 +1,6 @@
 //! Clocks that begin again, and times that are other numbers than seconds: HHMMSS, and days.
 
-use super::times::usual_step;
+use super::times::median_step;
 use crate::message::Message;
 use crate::texts::text;
 
@@ -63,7 +63,7 @@ impl Clock<'_> {
 fn add_period(time: &mut [f64], periods: &[f64]) -> Option<usize> {
     // Longest step over a clock's end [usual steps].
     const LONGEST: f64 = 20.0;
-    let usual = usual_step(time);
+    let usual = median_step(time);
     let (mut added, mut first) = (0.0, None);
     let mut before = *time.first()?;
     for (sample, time) in time.iter_mut().enumerate().skip(1) {
@@ -87,7 +87,7 @@ fn is_serial_days(time: &[f64]) -> bool {
     const SERIAL: [f64; 2] = [10_000.0, 3e6];
     // Steps that are those of recordings [s].
     const STEPS: [f64; 2] = [1e-4, 0.25];
-    let step = usual_step(time) * SECONDS_PER_DAY;
+    let step = median_step(time) * SECONDS_PER_DAY;
     time.iter().all(|time| (SERIAL[0]..SERIAL[1]).contains(time)) && (STEPS[0]..=STEPS[1]).contains(&step)
 }
 
@@ -99,7 +99,7 @@ fn of_digits(time: &[f64], unit: f64) -> Option<Vec<f64>> {
     }
     [1.0, 1e-3].into_iter().find_map(|scale| {
         let seconds: Vec<f64> = time.iter().map(|time| seconds_of_digits(time * scale)).collect::<Option<_>>()?;
-        let usual = usual_step(&seconds);
+        let usual = median_step(&seconds);
         let leaves_out = |k: usize| {
             let (step, written) = (seconds[k] - seconds[k - 1], scale * (time[k] - time[k - 1]));
             let is_usual = step > 0.0 && step <= 3.0 * usual;

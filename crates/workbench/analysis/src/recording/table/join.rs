@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::interpolation::{places, values};
-use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
+use super::times::{LONGEST_GAP, disorder, gaps, median_step, spread_equal_times};
 use crate::message::Message;
 use crate::recording::columns::{Column, period};
 use crate::recording::conventions::Quantity;
@@ -41,7 +41,7 @@ impl Part {
         // further apart, as those of a satellite receiver [steps].
         const GAP_STEPS: f64 = 2.5;
         let Samples { time, lines, .. } = &self.samples;
-        let longest = LONGEST_GAP.max(GAP_STEPS * usual_step(time));
+        let longest = LONGEST_GAP.max(GAP_STEPS * median_step(time));
         let (step, line) = gaps(time, lines, longest).next()?;
         Some(text!["file-with-a-gap", file = self.file.display().to_string(), step, line])
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::Table;
 use super::interpolation::{orientations, places, values};
-use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
+use super::times::{LONGEST_GAP, disorder, gaps, median_step, spread_equal_times};
 use moris_interface::shown;
 
 use crate::message::{Message, given};
@@ -43,7 +43,7 @@ fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RecordingE
     const COARSEST: f64 = 0.25;
     // Ticks of 100 ns of our days, since the year 1601 or 1.
     const TICKS: Range<f64> = 1.2e17..7e17;
-    let usual = usual_step(&table.time);
+    let usual = median_step(&table.time);
     let (unit, _) = table.unit(Quantity::Time);
     let rate = |other: Unit| unit.in_si / (usual * other.in_si);
     let fits = |other: &Unit| (4.0..=2000.0).contains(&rate(*other));
@@ -82,7 +82,7 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     // Largest distance of a sample from its time at equal steps [fractions of a step]. It allows
     // for times written with few digits.
     const JITTER: f64 = 0.2;
-    let (step, usual) = (table.step(), usual_step(&table.time));
+    let (step, usual) = (table.step(), median_step(&table.time));
     let expected = |k: usize| table.time[0] + k as f64 * step;
     let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
         return Ok(());

@@ -68,7 +68,7 @@ fn remedy_for_equal_times(time: &[f64], sample: usize) -> Message {
 }
 
 /// The median step \[s\], which is insensitive to missing samples and outliers.
-pub fn usual_step(time: &[f64]) -> f64 {
+pub fn median_step(time: &[f64]) -> f64 {
     median(time.windows(2).map(|pair| pair[1] - pair[0]))
 }
 
