@@ -381,10 +381,9 @@ impl Washout {
         };
         if !soft {
             self.soft_limits.release();
-        } else if let Some(softened) =
-            self.soft_limits.soften(&demand, self.guard.commanded(), &tilt_compensation, step)
+        } else if let Some(limited) = self.soft_limits.apply(&demand, self.guard.commanded(), &tilt_compensation, step)
         {
-            demand = self.guard.state(softened);
+            demand = self.guard.state(limited);
             self.limited_by.soft = true;
         }
         let linear = *self.direct_linear.advance_within_limits(&demand.coordinates.linear, safety, step);

@@ -64,32 +64,32 @@ impl SafetyUnits {
         let outward = if velocity.is_sign_negative() { -position } else { position };
         let ahead = limits.position_limit[k] - outward;
         let (speed, most) = (velocity.abs(), limits.acceleration_limit[k]);
-        let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * WITH_ROUNDING;
-        !keeps
+        let complies = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * WITH_ROUNDING;
+        !complies
     }
 
     /// Advances by one step at whose end the motion `demand` is.
     pub fn advance(&mut self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) {
-        let keep = self.keep_limits(demand, limits, step);
-        self.motion = if self.deviating == [false; 3] && keep == [true; 3] {
+        let complies = self.complies_with_limits(demand, limits, step);
+        self.motion = if self.deviating == [false; 3] && complies == [true; 3] {
             *demand
         } else {
-            self.followed(demand, keep, limits, step)
+            self.following(demand, complies, limits, step)
         };
     }
 
     /// Axis by axis: the demanded motion where it keeps the limits, and what comes nearest to
     /// it where it does not.
     #[cold]
-    fn followed(
+    fn following(
         &mut self,
         demand: &Motion<Vector3<f64>>,
-        keep: [bool; 3],
+        complies: [bool; 3],
         limits: &SafetyParameters,
         step: f64,
     ) -> Motion<Vector3<f64>> {
-        for (k, keeps) in keep.into_iter().enumerate() {
-            let joins = keeps && (!self.deviating[k] || self.has_caught_up(k, demand, limits, step));
+        for (k, axis_complies) in complies.into_iter().enumerate() {
+            let joins = axis_complies && (!self.deviating[k] || self.has_caught_up(k, demand, limits, step));
             // A unit that follows the platform's real motion is active from where that is beyond the limits.
             let limits_it = self.limited[k] || !self.deviating[k] || self.axis_beyond_limits(k, limits);
             self.limited[k] = !joins && limits_it;
@@ -119,7 +119,7 @@ impl SafetyUnits {
     ///
     /// The gap between the positions' difference and the mean velocity times the step h counts as
     /// an acceleration of 2 gap/h².
-    fn keep_limits(&self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> [bool; 3] {
+    fn complies_with_limits(&self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> [bool; 3] {
         let (farthest, fastest) = (lanes(&limits.position_limit), lanes(&limits.velocity_limit));
         let most = lanes(&limits.acceleration_limit);
         let (position, velocity) = (lanes(&demand.position), lanes(&demand.velocity));
@@ -131,13 +131,13 @@ impl SafetyUnits {
         let mean = 0.5 * (velocity + velocity_before);
         let change = (velocity - velocity_before).abs();
         let gap = (position - position_before - mean * step).abs();
-        let mut keep = farthest.cmp_ge(position.abs());
-        keep &= fastest.cmp_ge(speed);
-        keep &= (fastest * step * WITH_ROUNDING + ROUNDING).cmp_ge(mean.abs() * step + gap);
-        keep &= most.cmp_ge(lanes(&demand.acceleration).abs());
-        keep &= (2.0 * most * ahead).cmp_ge(speed * (speed + most * self.max_step));
-        keep &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).cmp_ge(change * step + 2.0 * gap);
-        let keep = keep.move_mask();
-        core::array::from_fn(|k| keep & (1 << k) != 0)
+        let mut complies = farthest.cmp_ge(position.abs());
+        complies &= fastest.cmp_ge(speed);
+        complies &= (fastest * step * WITH_ROUNDING + ROUNDING).cmp_ge(mean.abs() * step + gap);
+        complies &= most.cmp_ge(lanes(&demand.acceleration).abs());
+        complies &= (2.0 * most * ahead).cmp_ge(speed * (speed + most * self.max_step));
+        complies &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).cmp_ge(change * step + 2.0 * gap);
+        let complies = complies.move_mask();
+        core::array::from_fn(|k| complies & (1 << k) != 0)
     }
 }

@@ -37,7 +37,7 @@ fn moving(before: Motion<Vector3<f64>>) -> SafetyUnits {
 
 /// True if a demand on one axis is kept as it is. The mirrored demand must be treated alike, and
 /// the other axes must not change that.
-fn keeps(k: usize, before: Motion, demand: Motion, step: f64) -> bool {
+fn complies(k: usize, before: Motion, demand: Motion, step: f64) -> bool {
     let kept = [1.0, -1.0].map(|sign| {
         let mirrored = |motion: Motion| {
             on_axis(
@@ -49,9 +49,9 @@ fn keeps(k: usize, before: Motion, demand: Motion, step: f64) -> bool {
                 },
             )
         };
-        let keep = moving(mirrored(before)).keep_limits(&mirrored(demand), &limits(), step);
-        assert!((0..3).all(|axis| axis == k || keep[axis]), "{keep:?}");
-        keep[k]
+        let complies_by_axis = moving(mirrored(before)).complies_with_limits(&mirrored(demand), &limits(), step);
+        assert!((0..3).all(|axis| axis == k || complies_by_axis[axis]), "{complies_by_axis:?}");
+        complies_by_axis[k]
     });
     assert_eq!(kept[0], kept[1], "axis {k}: {before:?} to {demand:?}");
     kept[0]
@@ -68,7 +68,7 @@ fn a_demand_beyond_the_position_limit_is_not_kept_even_on_its_way_back() {
         let limit = limits().position_limit[k];
         for (ratio, inside) in [(1.0 - 1e-12, true), (1.0 + 1e-12, false)] {
             let before = motion(limit * ratio + 0.1 * STEP, -0.1, 0.0);
-            assert_eq!(keeps(k, before, reached(before, -0.1, 0.0, STEP), STEP), inside, "axis {k}, {ratio}");
+            assert_eq!(complies(k, before, reached(before, -0.1, 0.0, STEP), STEP), inside, "axis {k}, {ratio}");
         }
     }
 }
@@ -79,7 +79,11 @@ fn a_demand_beyond_the_velocity_limit_is_not_kept() {
         let limit = limits().velocity_limit[k];
         for (ratio, inside) in [(1.0, true), (1.0 + 1e-9, false)] {
             let before = motion(0.0, limit - 1e-4, 0.0);
-            assert_eq!(keeps(k, before, reached(before, limit * ratio, 0.0, STEP), STEP), inside, "axis {k}, {ratio}");
+            assert_eq!(
+                complies(k, before, reached(before, limit * ratio, 0.0, STEP), STEP),
+                inside,
+                "axis {k}, {ratio}"
+            );
         }
     }
 }
@@ -92,11 +96,11 @@ fn the_mean_velocity_of_a_step_counts_as_velocity() {
             // The velocity falls from beyond the limit to below it.
             let before = motion(0.0, limit * ratio + 1e-3, 0.0);
             let demand = reached(before, limit * ratio - 1e-3, 0.0, STEP);
-            assert_eq!(keeps(k, before, demand, STEP), inside, "axis {k}, {ratio}");
+            assert_eq!(complies(k, before, demand, STEP), inside, "axis {k}, {ratio}");
             // A position further ahead than the velocities account for.
             let before = motion(0.0, limit - 5e-4, 0.0);
             let demand = reached(before, limit - 5e-4, (limit * (ratio - 1.0) + 5e-4) * STEP, STEP);
-            assert_eq!(keeps(k, before, demand, STEP), inside, "axis {k}, gap, {ratio}");
+            assert_eq!(complies(k, before, demand, STEP), inside, "axis {k}, gap, {ratio}");
         }
     }
 }
@@ -106,7 +110,11 @@ fn a_demand_beyond_the_acceleration_limit_is_not_kept() {
     for k in 0..3 {
         let limit = limits().acceleration_limit[k];
         for (ratio, inside) in [(1.0, true), (1.0 + 1e-12, false)] {
-            assert_eq!(keeps(k, Motion::default(), motion(0.0, 0.0, limit * ratio), STEP), inside, "axis {k}, {ratio}");
+            assert_eq!(
+                complies(k, Motion::default(), motion(0.0, 0.0, limit * ratio), STEP),
+                inside,
+                "axis {k}, {ratio}"
+            );
         }
     }
 }
@@ -121,10 +129,10 @@ fn a_demand_must_be_able_to_stop_before_the_position_limit() {
         for (ratio, inside) in [(1.0 + 1e-9, true), (1.0 - 1e-9, false)] {
             let position = farthest - distance * ratio;
             let before = motion(position - velocity * STEP, velocity, 0.0);
-            assert_eq!(keeps(k, before, motion(position, velocity, 0.0), STEP), inside, "axis {k}, {ratio}");
+            assert_eq!(complies(k, before, motion(position, velocity, 0.0), STEP), inside, "axis {k}, {ratio}");
             // Away from the limit there is room.
             let before = motion(position + velocity * STEP, -velocity, 0.0);
-            assert!(keeps(k, before, motion(position, -velocity, 0.0), STEP));
+            assert!(complies(k, before, motion(position, -velocity, 0.0), STEP));
         }
     }
 }
@@ -137,7 +145,11 @@ fn a_demand_must_be_reached_at_the_acceleration_limit() {
             for (change, gap) in [(1.0, 0.0), (-1.0, 0.0), (0.5, 0.25), (0.5, -0.25), (0.0, 0.5)] {
                 let velocity = 0.1 + change * ratio * most * STEP;
                 let demand = reached(motion(0.0, 0.1, 0.0), velocity, gap * ratio * most * STEP * STEP, STEP);
-                assert_eq!(keeps(k, motion(0.0, 0.1, 0.0), demand, STEP), inside, "axis {k}, {change}, {gap}, {ratio}");
+                assert_eq!(
+                    complies(k, motion(0.0, 0.1, 0.0), demand, STEP),
+                    inside,
+                    "axis {k}, {change}, {gap}, {ratio}"
+                );
             }
         }
     }
@@ -150,11 +162,11 @@ fn positions_that_differ_by_rounding_are_no_acceleration() {
     for k in 0..3 {
         for (rounding, inside) in [(0.9, true), (1.1, false)] {
             let demand = reached(Motion::default(), 0.0, rounding * ROUNDING, SHORT);
-            assert_eq!(keeps(k, Motion::default(), demand, SHORT), inside, "axis {k}, {rounding}");
+            assert_eq!(complies(k, Motion::default(), demand, SHORT), inside, "axis {k}, {rounding}");
             let limit = limits().velocity_limit[k];
             let before = motion(0.0, limit, 0.0);
             let demand = reached(before, limit, rounding * ROUNDING, SHORT);
-            assert_eq!(keeps(k, before, demand, SHORT), inside, "axis {k} at full speed, {rounding}");
+            assert_eq!(complies(k, before, demand, SHORT), inside, "axis {k} at full speed, {rounding}");
         }
     }
 }

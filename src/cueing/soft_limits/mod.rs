@@ -43,11 +43,11 @@ pub struct SoftLimits {
     geometry: Geometry,
     neutral_height: f64,
     pace: f64,
-    axis_ends: [Ends; 3],
-    leg_ends: Ends,
+    axis_limits: [ApproachLimits; 3],
+    leg_limits: ApproachLimits,
     /// The same of surge and sway, of heave twice, and of two legs.
-    axes: [TwoEnds; 2],
-    legs: TwoEnds,
+    axis_pairs: [ApproachLimitPair; 2],
+    leg_pair: ApproachLimitPair,
     /// The part of the relaxation for which the clearance at neutral suffices.
     relaxation_fraction: f64,
     /// The rows that acted in the last step.
@@ -89,7 +89,7 @@ impl GentleSlope {
 
 /// A quantity's limits of position, velocity and acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Ends {
+struct ApproachLimits {
     min: f64,
     max: f64,
     velocity: f64,
@@ -98,14 +98,14 @@ struct Ends {
     neutral_clearance: [f64; 2],
 }
 
-impl Ends {
+impl ApproachLimits {
     /// The limits of a quantity that is between `neutral[0]` and `neutral[1]` at neutral. At either
     /// end the margin takes at most half the clearance at neutral. No velocity is larger than
     /// what the acceleration can brake at this pace.
     fn new([min, max]: [f64; 2], neutral: [f64; 2], velocity: f64, acceleration: f64, margin: f64, pace: f64) -> Self {
         let clearance = [neutral[0] - min, max - neutral[1]].map(|clearance| self::max(clearance, 0.0));
         let [below, above] = clearance.map(|clearance| self::min(margin, 0.5 * clearance));
-        Ends {
+        ApproachLimits {
             min: min + below,
             max: max - above,
             velocity: if pace > 0.0 { self::min(velocity, acceleration / pace) } else { velocity },
@@ -136,9 +136,9 @@ impl Ends {
     }
 }
 
-/// The ends of two quantities side by side, as [`Ends::range`] has them.
+/// The limits of two quantities side by side, as [`ApproachLimits::range`] has them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct TwoEnds {
+struct ApproachLimitPair {
     middle: f64x2,
     /// Half the range of position, times the pace.
     by_position: f64x2,
@@ -147,10 +147,10 @@ struct TwoEnds {
     acceleration: f64x2,
 }
 
-impl TwoEnds {
-    fn of(ends: [Ends; 2], pace: f64) -> Self {
-        let two = |value: &dyn Fn(&Ends) -> f64| f64x2::new(ends.each_ref().map(value));
-        TwoEnds {
+impl ApproachLimitPair {
+    fn of(ends: [ApproachLimits; 2], pace: f64) -> Self {
+        let two = |value: &dyn Fn(&ApproachLimits) -> f64| f64x2::new(ends.each_ref().map(value));
+        ApproachLimitPair {
             middle: two(&|ends| 0.5 * (ends.min + ends.max)),
             by_position: two(&|ends| pace * 0.5 * (ends.max - ends.min)),
             by_velocity: two(&|ends| ends.velocity),
@@ -158,19 +158,19 @@ impl TwoEnds {
         }
     }
 
-    /// In each lane, whether this acceleration is within [`Ends::range`].
+    /// In each lane, whether this acceleration is within [`ApproachLimits::range`].
     #[inline(always)]
-    fn keep(&self, position: f64x2, velocity: f64x2, acceleration: f64x2, pace: f64) -> f64x2 {
+    fn is_within(&self, position: f64x2, velocity: f64x2, acceleration: f64x2, pace: f64) -> f64x2 {
         // The inverses of psi: beside the linear part the square of what is beyond the knee. Where signs
-        // differ the square belongs to the other end, and this is stricter than `Ends::range`.
+        // differ the square belongs to the other end, and this is stricter than `ApproachLimits::range`.
         let beyond = |value: f64x2, knee: f64, slope: f64| {
             let beyond = (value.abs() - f64x2::splat(knee)).max(f64x2::ZERO);
             beyond * beyond * (0.5 / slope)
         };
-        let drawn = acceleration + velocity * pace;
-        let to_position = drawn * (1.0 / pace) + velocity + (position - self.middle) * pace;
+        let damped = acceleration + velocity * pace;
+        let to_position = damped * (1.0 / pace) + velocity + (position - self.middle) * pace;
         let to_velocity = acceleration * (1.0 / VELOCITY_PACE) + velocity;
-        let by_position = to_position.abs() + beyond(drawn, POSITION_SLOPE / pace, POSITION_SLOPE);
+        let by_position = to_position.abs() + beyond(damped, POSITION_SLOPE / pace, POSITION_SLOPE);
         let by_velocity = to_velocity.abs() + beyond(acceleration, VELOCITY_SLOPE / VELOCITY_PACE, VELOCITY_SLOPE);
         self.by_position.cmp_ge(by_position)
             & self.by_velocity.cmp_ge(by_velocity)
@@ -187,19 +187,19 @@ impl SoftLimits {
         let geometry = Geometry::from(rig);
         let axes = [0, 1, 2].map(|k: usize| {
             let ends = [-farthest(k), farthest(k)];
-            Ends::new(ends, [0.0; 2], safety.velocity_limit[k], safety.acceleration_limit[k], margin, pace)
+            ApproachLimits::new(ends, [0.0; 2], safety.velocity_limit[k], safety.acceleration_limit[k], margin, pace)
         });
         let Rig { velocity_limit, acceleration_limit, .. } = *rig;
         let neutral = neutral_lengths(&geometry, rig.neutral_height);
-        let leg = Ends::new(clear_stroke(rig), neutral, velocity_limit, acceleration_limit, margin, pace);
+        let leg = ApproachLimits::new(clear_stroke(rig), neutral, velocity_limit, acceleration_limit, margin, pace);
         SoftLimits {
             geometry,
             neutral_height: rig.neutral_height,
             pace,
-            axis_ends: axes,
-            leg_ends: leg,
-            axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, pace)),
-            legs: TwoEnds::of([leg; 2], pace),
+            axis_limits: axes,
+            leg_limits: leg,
+            axis_pairs: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| ApproachLimitPair::of(ends, pace)),
+            leg_pair: ApproachLimitPair::of([leg; 2], pace),
             relaxation_fraction: Relaxation::fraction_within(
                 axes.iter()
                     .chain([&leg])
@@ -236,52 +236,52 @@ impl SoftLimits {
     pub fn stop_from(&self, state: &PlatformState, part: f64, slow: f64) -> bool {
         let pace = part * self.pace;
         let linear = &state.coordinates.linear;
-        let axes = (0..3).all(|k| self.axis_ends[k].stop(linear.position[k], linear.velocity[k], pace, slow));
-        axes && (0..6).all(|i| self.leg_ends.stop(state.legs.length[i], state.legs.velocity[i], pace, slow))
+        let axes = (0..3).all(|k| self.axis_limits[k].stop(linear.position[k], linear.velocity[k], pace, slow));
+        axes && (0..6).all(|i| self.leg_limits.stop(state.legs.length[i], state.legs.velocity[i], pace, slow))
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.
     /// None if it need not be changed. `state` is that of the step's start. The limits relax by
     /// the surge and sway that make up for the tilt.
     #[inline(always)]
-    pub fn soften(
+    pub fn apply(
         &mut self,
         demand: &PlatformState,
         state: &PlatformState,
         tilt_compensation: &Vector3<f64>,
         step: f64,
     ) -> Option<PlatformCoordinates> {
-        if !self.relaxation.acts() && self.keeps(demand, state, step) {
+        if !self.relaxation.acts() && self.is_within_ranges(demand, state, step) {
             return None;
         }
         self.relaxation = self.relaxation.accelerated(&(self.relaxation_fraction * tilt_compensation));
-        let softened = self.softened(&demand.coordinates, state, step);
-        self.relaxation = softened.map_or(Relaxation::default(), |_| self.relaxation.after(step));
-        softened
+        let limited = self.limited_demand(&demand.coordinates, state, step);
+        self.relaxation = limited.map_or(Relaxation::default(), |_| self.relaxation.after(step));
+        limited
     }
 
     /// True if the mean accelerations of axes and legs over the step are within their ranges.
     #[inline(always)]
-    fn keeps(&self, demand: &PlatformState, state: &PlatformState, step: f64) -> bool {
+    fn is_within_ranges(&self, demand: &PlatformState, state: &PlatformState, step: f64) -> bool {
         let per_step = 1.0 / step;
         let (after, before) = (&demand.coordinates.linear.velocity, &state.coordinates.linear);
         let two = |values: &[f64], [i, j]: [usize; 2]| f64x2::new([values[i], values[j]]);
         let axes = |k: usize, pair: [usize; 2]| {
             let velocity = two(before.velocity.as_slice(), pair);
             let acceleration = (two(after.as_slice(), pair) - velocity) * per_step;
-            self.axes[k].keep(two(before.position.as_slice(), pair), velocity, acceleration, self.pace)
+            self.axis_pairs[k].is_within(two(before.position.as_slice(), pair), velocity, acceleration, self.pace)
         };
         let of_legs = |pair: [usize; 2]| {
             let velocity = two(&state.legs.velocity, pair);
             let acceleration = (two(&demand.legs.velocity, pair) - velocity) * per_step;
-            self.legs.keep(two(&state.legs.length, pair), velocity, acceleration, self.pace)
+            self.leg_pair.is_within(two(&state.legs.length, pair), velocity, acceleration, self.pace)
         };
-        let keeps = axes(0, [0, 1]) & axes(1, [2, 2]) & of_legs([0, 1]) & of_legs([2, 3]) & of_legs([4, 5]);
-        keeps.move_mask() == 0b11
+        let within = axes(0, [0, 1]) & axes(1, [2, 2]) & of_legs([0, 1]) & of_legs([2, 3]) & of_legs([4, 5]);
+        within.move_mask() == 0b11
     }
 
     #[cold]
-    fn softened(
+    fn limited_demand(
         &mut self,
         demand: &PlatformCoordinates,
         state: &PlatformState,
@@ -325,15 +325,15 @@ impl SoftLimits {
         normals.fixed_view_mut::<6, 3>(3, 0).copy_from(&jacobian.fixed_columns::<3>(0));
         normals.fixed_view_mut::<6, 3>(3, 3).copy_from(&by_angles);
         let (mut lower, mut upper) = (RowValues::zeros(), RowValues::zeros());
-        let range = |row: usize, ends: &Ends, motion: [f64; 2]| {
+        let range = |row: usize, ends: &ApproachLimits, motion: [f64; 2]| {
             let direction = normals.fixed_view::<1, 3>(row, 0).transpose();
             self.relaxation.range(ends, motion, &direction, self.pace)
         };
         for k in 0..3 {
-            (lower[k], upper[k]) = range(k, &self.axis_ends[k], [linear.position[k], linear.velocity[k]]);
+            (lower[k], upper[k]) = range(k, &self.axis_limits[k], [linear.position[k], linear.velocity[k]]);
         }
         for i in 0..6 {
-            let (least, most) = range(3 + i, &self.leg_ends, [state.legs.length[i], state.legs.velocity[i]]);
+            let (least, most) = range(3 + i, &self.leg_limits, [state.legs.length[i], state.legs.velocity[i]]);
             (lower[3 + i], upper[3 + i]) = (least - remaining[i], most - remaining[i]);
         }
         Rows { normals, lower, upper }

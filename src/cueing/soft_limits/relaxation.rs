@@ -15,7 +15,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::Ends;
+use super::ApproachLimits;
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
@@ -66,7 +66,7 @@ impl Relaxation {
     }
 
     /// The range of the acceleration of a quantity that travel changes along `direction`.
-    pub fn range(&self, ends: &Ends, [q, v]: [f64; 2], direction: &Vector3<f64>, pace: f64) -> (f64, f64) {
+    pub fn range(&self, ends: &ApproachLimits, [q, v]: [f64; 2], direction: &Vector3<f64>, pace: f64) -> (f64, f64) {
         let (lower, upper) = ends.range(q, v, pace);
         if !self.acts() {
             return (lower, upper);

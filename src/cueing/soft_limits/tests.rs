@@ -95,11 +95,11 @@ fn a_demand_within_its_ranges_is_the_nearest() {
 fn an_end_is_approached_critically_damped_and_never_passed() {
     const STEP: f64 = 1e-4;
     let (pace, margin) = (5.0, 0.01);
-    let ends = Ends::new([-0.45, 0.45], [0.0; 2], 1.0, 10.0, margin, pace);
+    let ends = ApproachLimits::new([-0.45, 0.45], [0.0; 2], 1.0, 10.0, margin, pace);
     assert!((ends.max - 0.44).abs() < 1e-15 && (ends.min + 0.44).abs() < 1e-15);
-    let narrow = Ends::new([-0.01, 0.01], [0.0; 2], 1.0, 10.0, margin, pace);
+    let narrow = ApproachLimits::new([-0.01, 0.01], [0.0; 2], 1.0, 10.0, margin, pace);
     assert!((narrow.max - 0.005).abs() < 1e-15, "at most half the clearance at neutral");
-    let low = Ends::new([0.7, 1.0], [0.704, 0.706], 1.0, 10.0, margin, pace);
+    let low = ApproachLimits::new([0.7, 1.0], [0.704, 0.706], 1.0, 10.0, margin, pace);
     assert!((low.min - 0.702).abs() < 1e-15 && (low.max - 0.99).abs() < 1e-15);
     assert!((low.neutral_clearance[0] - 0.002).abs() < 1e-15 && (low.neutral_clearance[1] - 0.284).abs() < 1e-15);
     // From here on psi is in its linear part.
@@ -120,7 +120,7 @@ fn an_end_is_approached_critically_damped_and_never_passed() {
 
 #[test]
 fn a_velocity_limit_is_approached_as_well() {
-    let ends = Ends::new([-1e3, 1e3], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
+    let ends = ApproachLimits::new([-1e3, 1e3], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
     // 25/s times the distance up to 1 m/s2, then sqrt(2 (25 m/s3) distance - (1 m/s2)^2).
     for (distance, expected) in [(0.02, 0.5), (0.04, 1.0), (0.1, 2.0), (0.34, 4.0)] {
         assert!((ends.range(0.0, 1.0 - distance, 0.1).1 - expected).abs() < 1e-12);
@@ -129,7 +129,7 @@ fn a_velocity_limit_is_approached_as_well() {
 }
 
 /// Accelerations of a quantity that is demanded to accelerate at 4 m/s2 towards its end, from rest.
-fn accelerated(ends: &Ends, pace: f64, step: f64) -> Vec<f64> {
+fn accelerated(ends: &ApproachLimits, pace: f64, step: f64) -> Vec<f64> {
     let (mut x, mut v) = (0.0, 0.0);
     let one = |_| {
         let acceleration = min(4.0, ends.range(x, v, pace).1);
@@ -143,8 +143,8 @@ fn accelerated(ends: &Ends, pace: f64, step: f64) -> Vec<f64> {
 #[test]
 fn the_acceleration_towards_a_limit_ends_gently() {
     const STEP: f64 = 1e-3;
-    let by_velocity = accelerated(&Ends::new([-1e3, 1e3], [0.0; 2], 1.0, 10.0, 0.0, 5.0), 5.0, STEP);
-    let by_position = accelerated(&Ends::new([-0.4, 0.4], [0.0; 2], 10.0, 100.0, 0.0, 5.0), 5.0, STEP);
+    let by_velocity = accelerated(&ApproachLimits::new([-1e3, 1e3], [0.0; 2], 1.0, 10.0, 0.0, 5.0), 5.0, STEP);
+    let by_position = accelerated(&ApproachLimits::new([-0.4, 0.4], [0.0; 2], 10.0, 100.0, 0.0, 5.0), 5.0, STEP);
     let slopes = |course: &[f64]| course.windows(2).map(|pair| (pair[0] - pair[1]) / STEP).collect::<Vec<f64>>();
     let steepest = slopes(&by_velocity).into_iter().fold(0.0, f64::max);
     assert!((24.0..25.5).contains(&steepest), "{steepest} m/s3");
@@ -156,37 +156,37 @@ fn the_acceleration_towards_a_limit_ends_gently() {
 #[test]
 fn weak_actuators_are_never_faster_than_they_can_brake() {
     for (acceleration, fastest) in [(0.8, 0.16), (2.0, 0.4), (10.0, 1.0)] {
-        let ends = Ends::new([-1.0, 1.0], [0.0; 2], 1.0, acceleration, 0.0, 5.0);
+        let ends = ApproachLimits::new([-1.0, 1.0], [0.0; 2], 1.0, acceleration, 0.0, 5.0);
         assert!((ends.velocity - fastest).abs() < 1e-15);
         let hardest = accelerated(&ends, 5.0, 1e-3).into_iter().fold(0.0, min);
         assert!(hardest > -0.95 * acceleration, "{hardest} of {acceleration} m/s2");
     }
-    assert_eq!(Ends::new([-1.0, 1.0], [0.0; 2], 1.0, 0.8, 0.0, 0.0).velocity, 1.0, "switched off");
+    assert_eq!(ApproachLimits::new([-1.0, 1.0], [0.0; 2], 1.0, 0.8, 0.0, 0.0).velocity, 1.0, "switched off");
 }
 
 /// Where the quick check says that an acceleration is within its range, it is.
 #[test]
-fn what_keeps_the_ranges_is_within_them() {
-    let (ends, pace) = (Ends::new([0.9, 1.6], [1.2, 1.3], 1.0, 10.0, 0.01, 5.0), 5.0);
-    let both = TwoEnds::of([ends; 2], pace);
+fn what_a_pair_accepts_is_within_the_ranges() {
+    let (ends, pace) = (ApproachLimits::new([0.9, 1.6], [1.2, 1.3], 1.0, 10.0, 0.01, 5.0), 5.0);
+    let both = ApproachLimitPair::of([ends; 2], pace);
     let mut random = Random(3);
-    let (mut kept, mut within) = (0, 0);
+    let (mut accepted, mut within) = (0, 0);
     for _ in 0..100_000 {
         let [position, velocity, acceleration] = [1.25 + 0.35 * random.next(), random.next(), 8.0 * random.next()];
         let (lower, upper) = ends.range(position, velocity, pace);
         let inside = (lower..=upper).contains(&acceleration);
         let two = |value: f64| f64x2::splat(value);
-        let keeps = both.keep(two(position), two(velocity), two(acceleration), pace).move_mask() == 0b11;
-        assert!(inside || !keeps, "{position} m, {velocity} m/s, {acceleration} m/s2");
-        kept += usize::from(keeps);
+        let is_within = both.is_within(two(position), two(velocity), two(acceleration), pace).move_mask() == 0b11;
+        assert!(inside || !is_within, "{position} m, {velocity} m/s, {acceleration} m/s2");
+        accepted += usize::from(is_within);
         within += usize::from(inside);
     }
-    assert!(kept > within * 8 / 10 && within > 10_000, "{kept} of {within}");
+    assert!(accepted > within * 8 / 10 && within > 10_000, "{accepted} of {within}");
 }
 
 #[test]
 fn a_relaxation_leaves_neutral_within_the_limits() {
-    let ends = Ends::new([-0.1, 0.4], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
+    let ends = ApproachLimits::new([-0.1, 0.4], [0.0; 2], 1.0, 10.0, 0.0, 5.0);
     let direction = Vector3::x();
     // A tilt that would make limits relax by far more than the clearance permits.
     for side in [1.0, -1.0] {

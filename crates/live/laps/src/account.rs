@@ -53,9 +53,9 @@ impl Account {
     pub fn tick(&mut self, force: [f64; 2], gains: [Gain; 2]) {
         // Time constant of the mean squared force [s].
         const MEAN_TIME: f64 = 60.0;
-        let keep = 1.0 - TICK / MEAN_TIME;
-        self.squares = keep * self.squares + force[0] * force[0] + force[1] * force[1];
-        self.weights = keep * self.weights + 1.0;
+        let forgetting_factor = 1.0 - TICK / MEAN_TIME;
+        self.squares = forgetting_factor * self.squares + force[0] * force[0] + force[1] * force[1];
+        self.weights = forgetting_factor * self.weights + 1.0;
         let square = self.squares / self.weights + FORCE_FLOOR;
         let time = |gain: f64| TICK * (gain / square).min(1.0);
         let given = time(gains[0].given + gains[1].given);

@@ -93,12 +93,12 @@ struct Wave {
 }
 
 impl Wave {
-    fn learn(&mut self, keep: f64, present: &Present, truth: f64) {
+    fn learn(&mut self, forgetting_factor: f64, present: &Present, truth: f64) {
         for i in 0..3 {
             for j in 0..=i {
-                self.squares[i][j] = keep * self.squares[i][j] + present[i] * present[j];
+                self.squares[i][j] = forgetting_factor * self.squares[i][j] + present[i] * present[j];
             }
-            self.products[i] = keep * self.products[i] + present[i] * truth;
+            self.products[i] = forgetting_factor * self.products[i] + present[i] * truth;
         }
     }
 
@@ -204,13 +204,13 @@ impl Record {
         // memory.
         const PROVED_ERROR_RATIO: f64 = 0.25;
         let [rising, falling] = ERROR_TIMES.map(|time| TICK / time);
-        let keep = 1.0 - TICK / FIT_TIME;
+        let forgetting_factor = 1.0 - TICK / FIT_TIME;
         for (k, fit) in self.fits.iter_mut().enumerate() {
             let made =
                 &self.made[(self.latest + KEPT_FORECASTS - LAG_TICKS - (k + 1) * POINT_SPACING_TICKS) % KEPT_FORECASTS];
             if made.is_made {
-                fit.squares = keep * fit.squares + made.difference * made.difference;
-                fit.products = keep * fit.products + made.difference * (truth - made.passes[k]);
+                fit.squares = forgetting_factor * fit.squares + made.difference * made.difference;
+                fit.products = forgetting_factor * fit.products + made.difference * (truth - made.passes[k]);
             }
         }
         let [mut square, mut without, mut count] = [0.0; 3];
@@ -237,7 +237,7 @@ impl Record {
                 count += 1.0;
             }
             if made.is_known {
-                self.waves[k].learn(keep, &made.present, truth);
+                self.waves[k].learn(forgetting_factor, &made.present, truth);
                 for (error, square) in self.plain[k].iter_mut().zip(squares) {
                     *error += falling * (square - *error);
                 }

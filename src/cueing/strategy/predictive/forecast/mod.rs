@@ -115,7 +115,7 @@ pub struct Forecaster {
     /// The next target that the latest sample has to be added to, and the part of its fit that it
     /// keeps.
     unlearned: usize,
-    keep_fit: f64,
+    fit_forgetting_factor: f64,
     /// Mean squared error of each expert on each target.
     errors: SMatrix<f64, EXPERTS, TARGETS>,
     /// The forecast without the preview.
@@ -168,7 +168,7 @@ pub struct Tables {
     priors: [Regression; TARGETS],
     /// Fractions of the squared errors beside a preview that are kept over a sample, while they
     /// rise and while they fall.
-    preview_keep: [f64; 2],
+    preview_forgetting_factors: [f64; 2],
 }
 
 impl Tables {
@@ -194,7 +194,7 @@ impl Default for Tables {
                 let samples = PRIOR_FRACTION * samples_to_end(target) as f64;
                 Regression::new(samples * covariance, &linear.row(target).transpose())
             }),
-            preview_keep: PREVIEW_MEMORY.map(|time| libm::exp(-PLAN_INTERVAL / time)),
+            preview_forgetting_factors: PREVIEW_MEMORY.map(|time| libm::exp(-PLAN_INTERVAL / time)),
         }
     }
 }
@@ -272,7 +272,7 @@ impl Forecaster {
             fitted: from_features(&tables.fade),
             turn: 0,
             unlearned: TARGETS,
-            keep_fit: 0.0,
+            fit_forgetting_factor: 0.0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
             courses: PreviewedCues::default(),
@@ -446,11 +446,12 @@ impl Forecaster {
     /// Updates the errors with the targets whose time has just ended. Fits a part of the targets
     /// anew; the fits of the others learn [in the steps that follow](Forecaster::learn_next).
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
-        let [keep_fit, keep_errors] = [memory.fit, memory.selection].map(|time| libm::exp(-PLAN_INTERVAL / time));
+        let [fit_forgetting_factor, error_forgetting_factor] =
+            [memory.fit, memory.selection].map(|time| libm::exp(-PLAN_INTERVAL / time));
         for target in 0..TARGETS {
-            self.compare(target, tables, keep_errors);
+            self.compare(target, tables, error_forgetting_factor);
         }
-        (self.unlearned, self.keep_fit) = (0, keep_fit);
+        (self.unlearned, self.fit_forgetting_factor) = (0, fit_forgetting_factor);
         self.turn = (self.turn + 1) % FIT_EVERY;
         for target in (self.turn..TARGETS).step_by(FIT_EVERY) {
             self.add_to_fit(target, tables);
@@ -476,28 +477,28 @@ impl Forecaster {
     fn add_to_fit(&mut self, target: usize, tables: &Tables) {
         if let Some((then, truth)) = self.ended(target) {
             let features = then.features();
-            self.fits[target].add(self.keep_fit, &tables.priors[target], &features, truth);
+            self.fits[target].add(self.fit_forgetting_factor, &tables.priors[target], &features, truth);
         }
     }
 
     /// Updates the mean squared errors with those of the forecasts of a target whose time has just
-    /// ended. The experts' errors keep a part `keep` of what they were.
-    fn compare(&mut self, target: usize, tables: &Tables, keep: f64) {
+    /// ended. The experts' errors keep the part `forgetting_factor` of what they were.
+    fn compare(&mut self, target: usize, tables: &Tables, forgetting_factor: f64) {
         let Some((then, truth)) = self.ended(target) else { return };
         let ([hold, trend, fade], fitted) = (tables.fixed_forecasts(then.parts(), target), then.fitted[target]);
         let expected = then.expected.filter(|_| target < BLOCKS).map(|means| means.map(|means| means[target]));
         for (expert, forecast) in [hold, trend, fade, fitted].into_iter().enumerate() {
             let error = forecast - truth;
             let mean = &mut self.errors[(expert, target)];
-            *mean = keep * *mean + (1.0 - keep) * (LEAST_ERROR + error * error);
+            *mean = forgetting_factor * *mean + (1.0 - forgetting_factor) * (LEAST_ERROR + error * error);
         }
         if let Some(expected) = expected {
-            let [keep_rising, keep_falling] = tables.preview_keep;
+            let [rising, falling] = tables.preview_forgetting_factors;
             for (errors, mean) in self.preview_errors.iter_mut().zip(expected) {
                 let error = mean - truth;
                 let squared = LEAST_ERROR + error * error;
-                let keep = if squared > errors[target] { keep_rising } else { keep_falling };
-                errors[target] = keep * errors[target] + (1.0 - keep) * squared;
+                let forgetting_factor = if squared > errors[target] { rising } else { falling };
+                errors[target] = forgetting_factor * errors[target] + (1.0 - forgetting_factor) * squared;
             }
         }
     }

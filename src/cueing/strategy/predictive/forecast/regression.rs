@@ -25,14 +25,16 @@ impl Regression {
     }
 
     /// Forgets a part of the past in favour of the prior, and adds a sample.
-    pub fn add(&mut self, keep: f64, prior: &Regression, x: &Features, y: f64) {
-        let forgotten = 1.0 - keep;
+    pub fn add(&mut self, forgetting_factor: f64, prior: &Regression, x: &Features, y: f64) {
+        let forgotten = 1.0 - forgetting_factor;
         for column in 0..FEATURES {
             for row in column..FEATURES {
                 let at = (row, column);
-                self.squares[at] = keep * self.squares[at] + forgotten * prior.squares[at] + x[row] * x[column];
+                self.squares[at] =
+                    forgetting_factor * self.squares[at] + forgotten * prior.squares[at] + x[row] * x[column];
             }
-            self.products[column] = keep * self.products[column] + forgotten * prior.products[column] + x[column] * y;
+            self.products[column] =
+                forgetting_factor * self.products[column] + forgotten * prior.products[column] + x[column] * y;
         }
     }
 
