@@ -215,7 +215,7 @@ impl Washout {
         let (conditioning, structure) = (&self.conditioning, &self.parameters.structure);
         let CuedInput { input, head, .. } = &self.last;
         let (engagement, factor) = (self.engagement(), self.scale.factor());
-        let Some(law) = self.strategy.previewed() else { return };
+        let Some(law) = self.strategy.as_previewing() else { return };
         let force = |[surge, sway]: [f64; 2]| Vector3::new(surge, sway, input.specific_force.z);
         law.preview(&PreviewedCue::of(preview, |forces| {
             let cue = cue_force(force(forces), input, conditioning, structure.gravity, head.lean, factor);
@@ -266,7 +266,7 @@ impl Washout {
             InputCourse::Ramp(end) => {
                 let end = end.sanitized();
                 self.last.input.engaged = end.engaged;
-                if let Some(law) = self.strategy.previewed() {
+                if let Some(law) = self.strategy.as_previewing() {
                     law.delay_preview(step);
                     self.scale.delay_preview(step);
                 }

@@ -4,18 +4,18 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::filter::bumpless::FadingOffset;
+use crate::filter::bumpless::DecayingOffset;
 use crate::filter::chain::Denominator;
-use crate::filter::crossfade::FadedChains;
+use crate::filter::crossfade::CrossfadedChains;
 use crate::interface::AngularParameters;
 use crate::motion::Motion;
 
 /// The angular channel with its state: roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngularChannel {
-    chains: FadedChains,
+    chains: CrossfadedChains,
     /// Correction to the input, after the motion was another one than demanded.
-    offset: FadingOffset,
+    offset: DecayingOffset,
     /// The rates at the end of the last step \[rad/s\].
     rates: Vector3<f64>,
 }
@@ -23,8 +23,8 @@ pub struct AngularChannel {
 impl AngularChannel {
     /// The channel at rest, ready for steps of `max_step` seconds.
     pub fn new(parameters: &AngularParameters, order: i32, max_step: f64) -> Self {
-        let chains = FadedChains::new(denominators(parameters, order), 1, max_step);
-        AngularChannel { chains, offset: FadingOffset::default(), rates: Vector3::zeros() }
+        let chains = CrossfadedChains::new(denominators(parameters, order), 1, max_step);
+        AngularChannel { chains, offset: DecayingOffset::default(), rates: Vector3::zeros() }
     }
 
     /// Changes the filter parameters. Angles and rates fade to those of the new filters.

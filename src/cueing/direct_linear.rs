@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 use crate::cueing::safety::SafetyUnits;
 use crate::cueing::splitter::high_pass_denominators;
 use crate::filter::bumpless::GlidingOffset;
-use crate::filter::crossfade::FadedChains;
+use crate::filter::crossfade::CrossfadedChains;
 use crate::interface::{SafetyParameters, SplitterParameters};
 use crate::motion::Motion;
 
 /// The linear channel with its state: surge, sway and heave, along x, y and z of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DirectLinearMotion {
-    chains: FadedChains,
+    chains: CrossfadedChains,
     /// Correction to the input.
     offset: GlidingOffset<3>,
     safety: SafetyUnits,
@@ -23,7 +23,7 @@ pub struct DirectLinearMotion {
 impl DirectLinearMotion {
     /// At rest at neutral; no step will be longer than `max_step` \[s\].
     pub fn new(parameters: &SplitterParameters, order: i32, max_step: f64) -> Self {
-        let chains = FadedChains::new(high_pass_denominators(parameters, order), 2, max_step);
+        let chains = CrossfadedChains::new(high_pass_denominators(parameters, order), 2, max_step);
         DirectLinearMotion { chains, offset: GlidingOffset::default(), safety: SafetyUnits::new(max_step) }
     }
 

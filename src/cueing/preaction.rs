@@ -167,8 +167,8 @@ impl StopPreaction {
                 self.accelerated(-growing.min(self.tilted_for - force), step)
             }
             Phase::Recovering { from } => {
-                let easing = 2.0 * square_root(from * self.surge.velocity.abs()) / LAUNCH_TIME;
-                self.accelerated(easing.min(-self.surge.velocity / step), step)
+                let deceleration = 2.0 * square_root(from * self.surge.velocity.abs()) / LAUNCH_TIME;
+                self.accelerated(deceleration.min(-self.surge.velocity / step), step)
             }
         };
     }

@@ -1,13 +1,13 @@
 //! Bumpless transfer: a jump that a new parameter would cause is held as a
-//! correction, and fades away. A [`FadingOffset`] begins to fade at once, a [`GlidingOffset`]
-//! without a jump of its first three derivatives.
+//! correction, and goes to zero. A [`DecayingOffset`] begins to decay at once; a [`GlidingOffset`]
+//! glides, without a jump of its first three derivatives.
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// A correction to the inputs of three filters that decays to zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FadingOffset {
+pub struct DecayingOffset {
     value: Vector3<f64>,
 }
 
@@ -83,7 +83,7 @@ const OFFSET_TIME_CONSTANT: f64 = 0.5;
 /// Offsets below this become zero.
 const OFFSET_TOLERANCE: f64 = 1e-15;
 
-impl FadingOffset {
+impl DecayingOffset {
     /// The correction now.
     pub fn value(&self) -> Vector3<f64> {
         self.value
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn an_offset_decays_with_its_time_constant_and_ends() {
-        let mut offset = FadingOffset::default();
+        let mut offset = DecayingOffset::default();
         offset.add(Vector3::new(1.0, -2.0, 0.0));
         for k in 0..100 {
             let (start, end) = offset.advance(0.02);

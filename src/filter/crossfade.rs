@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::bumpless::FadingOffset;
+use super::bumpless::DecayingOffset;
 use super::chain::{Chains, Denominator};
 use crate::motion::Motion;
 use crate::motion::min_max::min;
@@ -17,7 +17,7 @@ use crate::motion::min_max::min;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct CorrectedChains {
     chains: Chains,
-    offset: FadingOffset,
+    offset: DecayingOffset,
 }
 
 impl CorrectedChains {
@@ -54,7 +54,7 @@ impl CorrectedChains {
 
 /// Chains, and those before the last change while they fade.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FadedChains {
+pub struct CrossfadedChains {
     now: CorrectedChains,
     before: CorrectedChains,
     /// The input at the end of the last step.
@@ -70,12 +70,12 @@ pub struct FadedChains {
 /// Time in which the motion fades to that of other coefficients \[s\].
 const FADE_TIME: f64 = 1.8;
 
-impl FadedChains {
+impl CrossfadedChains {
     /// Chains at rest, of which the first `kept` states make up the motion, ready for steps of
     /// `max_step` seconds.
     pub fn new(denominators: [Denominator; 3], kept: usize, max_step: f64) -> Self {
-        let now = CorrectedChains { chains: Chains::new(denominators, max_step), offset: FadingOffset::default() };
-        FadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept }
+        let now = CorrectedChains { chains: Chains::new(denominators, max_step), offset: DecayingOffset::default() };
+        CrossfadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept }
     }
 
     /// Changes the coefficients. A change during a fade waits for its end.
@@ -158,7 +158,7 @@ impl FadedChains {
     }
 
     /// Continues from a motion that is not the one demanded: its position and velocity, as
-    /// [`FadedChains::motion`] has them.
+    /// [`CrossfadedChains::motion`] has them.
     pub fn set_motion(&mut self, position: &Vector3<f64>, velocity: &Vector3<f64>) {
         if self.fraction >= 1.0 {
             return self.now.chains.set_integrals(velocity, position);

@@ -43,11 +43,11 @@ pub struct Coordinated {
     dropped_force: [f64; 2],
     /// Correction to the dropped forces, after a change of the law's parameters.
     offset: GlidingOffset<2>,
-    /// Fraction of the law in force; the rest returns to neutral.
-    fraction: f64,
-    /// 1: the law decides, 0: it has nothing to decide by, as after the end of a plan; between
-    /// them: on the way.
-    decided: f64,
+    /// Weight of the law in force, with the engagement; the rest of the motion returns to neutral.
+    law_weight: f64,
+    /// Weight of the law's decisions: 1 while it decides, falling to 0 where it has none, as after
+    /// the end of a plan.
+    decision_weight: f64,
 }
 
 /// Disengaged, travel returns to neutral critically damped at this frequency \[rad/s\].
@@ -76,8 +76,8 @@ impl Coordinated {
             limited: false,
             dropped_force: [0.0; 2],
             offset: GlidingOffset::default(),
-            fraction: 1.0,
-            decided: 1.0,
+            law_weight: 1.0,
+            decision_weight: 1.0,
         }))
     }
 
@@ -121,8 +121,9 @@ impl Coordinated {
         let decisions = self.law.decisions(&law_input, step);
         // Where a law has nothing to decide by, the dropped force stays while the return fades in.
         let change = step / DECISION_FADE;
-        self.decided = (self.decided + if decisions.is_some() { change } else { -change }).clamp(0.0, 1.0);
-        let fraction = self.decided * engagement;
+        self.decision_weight =
+            (self.decision_weight + if decisions.is_some() { change } else { -change }).clamp(0.0, 1.0);
+        let law_weight = self.decision_weight * engagement;
         let decisions = decisions
             .unwrap_or(self.dropped_force.map(|dropped_force| Decision { dropped_force, tilt_acceleration: 0.0 }));
         self.offset.advance(step);
@@ -134,7 +135,7 @@ impl Coordinated {
         for (k, decision) in decisions.iter().enumerate() {
             let now = self.tilt[k];
             let returning = -LEVEL_FREQUENCY * (LEVEL_FREQUENCY * now.position + 2.0 * now.velocity);
-            let demanded = fraction * decision.tilt_acceleration + (1.0 - fraction) * returning;
+            let demanded = law_weight * decision.tilt_acceleration + (1.0 - law_weight) * returning;
             let acceleration = smooth.nearest_acceleration(&law_input.states[k], demanded, step);
             let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
             self.limited |= next.position.abs() >= LIMITED_FRACTION * tilt.angle_limit;
@@ -142,7 +143,7 @@ impl Coordinated {
             self.tilt[k] = without_tiny_components(&next);
             self.dropped_force[k] = decision.dropped_force;
         }
-        self.fraction = fraction;
+        self.law_weight = law_weight;
     }
 
     /// Surge and sway at the end of a step, such that the rider feels the cue plus the dropped
@@ -151,9 +152,9 @@ impl Coordinated {
         let StepContext { parameters, guard, head, force, .. } = *context;
         let rotation = &turning.orientation.rotation;
         let arm = rotation * head.point;
-        let mut beside = tangential(turning.acceleration, arm) + centripetal(turning.velocity, arm);
-        beside.z += heave.acceleration + parameters.structure.gravity;
-        // The head's x and y, in the base frame: felt = axis . (a + beside).
+        let mut other_acceleration = tangential(turning.acceleration, arm) + centripetal(turning.velocity, arm);
+        other_acceleration.z += heave.acceleration + parameters.structure.gravity;
+        // The head's x and y, in the base frame: felt = axis . (a + other), with the acceleration of travel a.
         let axes = [Vector3::x(), Vector3::y()].map(|axis| rotation * head.to_platform_axes(axis));
         let now = &guard.commanded().coordinates.linear;
         // Disengaged, travel returns to neutral, and the rider feels that and the tilt's gravity. The tilt's
@@ -163,7 +164,7 @@ impl Coordinated {
         let offset = self.offset.values();
         let needed = [0, 1].map(|k: usize| {
             let cued = force[k] + self.dropped_force[k] + offset[k];
-            self.fraction * cued + (1.0 - self.fraction) * axes[k].dot(&alone) - axes[k].dot(&beside)
+            self.law_weight * cued + (1.0 - self.law_weight) * axes[k].dot(&alone) - axes[k].dot(&other_acceleration)
         });
         let determinant = axes[0].x * axes[1].y - axes[0].y * axes[1].x;
         let divisor = determinant.abs().max(LEAST_DETERMINANT).copysign(determinant);
@@ -460,15 +461,15 @@ mod tests {
             let (mut fading, mut largest) = (0, 0.0_f64);
             for _ in 0..1100 {
                 strategy.advance_tilt(&unknown, STEP);
-                assert!((strategy.fraction - before.fraction).abs() < 1.001 * STEP);
-                if strategy.fraction < 1.0 {
+                assert!((strategy.law_weight - before.law_weight).abs() < 1.001 * STEP);
+                if strategy.law_weight < 1.0 {
                     fading += 1;
                     assert_eq!(strategy.dropped_force, before.dropped_force);
                     largest = largest.max(strategy.dropped_force[0].abs());
                 }
                 before = strategy.clone();
             }
-            assert!(strategy.fraction == 0.0 && fading > 250 && largest > 0.01, "{fading} steps, {largest} m/s2");
+            assert!(strategy.law_weight == 0.0 && fading > 250 && largest > 0.01, "{fading} steps, {largest} m/s2");
         });
     }
 

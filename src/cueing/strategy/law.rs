@@ -114,13 +114,13 @@ pub trait Law {
     }
 
     /// The law as one that makes use of a preview, if it does.
-    fn previewed(&mut self) -> Option<&mut dyn Previewed> {
+    fn as_previewing(&mut self) -> Option<&mut dyn Previewing> {
         None
     }
 }
 
 /// A law that makes use of a preview.
-pub trait Previewed {
+pub trait Previewing {
     /// Sets the specific force of surge and sway that is to come.
     fn preview(&mut self, courses: &[PreviewedCue; 2]);
 

@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 use self::classical::Classical;
 use self::coordinated::Coordinated;
 pub use self::law::{AxisState, Decision, Unsolvable};
-use self::law::{PlanStatus, Previewed, StepContext};
+use self::law::{PlanStatus, Previewing, StepContext};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::gravitational::Tilt;
 use crate::interface::{Compensation, Parameters};
@@ -159,10 +159,10 @@ impl Strategy {
     }
 
     /// The user of a preview; none if the strategy has no use for one.
-    pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
+    pub fn as_previewing(&mut self) -> Option<&mut dyn Previewing> {
         match self {
             Strategy::Classical(_) => None,
-            Strategy::Coordinated(coordinated) => coordinated.law.previewed(),
+            Strategy::Coordinated(coordinated) => coordinated.law.as_previewing(),
         }
     }
 

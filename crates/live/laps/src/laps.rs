@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::account::Account;
 use crate::forecast::{FORECAST_POINTS, POINT_SPACING_TICKS, Record, time_ahead};
 use crate::line::{Line, MAX_POINTS, Point};
-use crate::pass::{MAX_PASSES, Pass, UNKNOWN_PASS_ERROR, fade};
+use crate::pass::{MAX_PASSES, Pass, UNKNOWN_PASS_ERROR, pace_weight};
 use crate::search::{LEAST_AGE, MIN_PASS_DISTANCE, Search};
 use crate::smooth::{LAG_TICKS, LATEST_LAG, Smooth};
 use crate::ticks::{Sample, TICK, Ticks};
@@ -240,7 +240,7 @@ impl Whole<'_> {
         let mut now = [0.0; 2];
         let mut weights = [0.0; 2];
         // Parts of the differences of the pace that are left at the times ahead.
-        let fades: [f64; FORECAST_POINTS] = core::array::from_fn(|k| fade(time_ahead(k)));
+        let fades: [f64; FORECAST_POINTS] = core::array::from_fn(|k| pace_weight(time_ahead(k)));
         for pass in self.passes.iter().flatten() {
             let mut forces = [[0.0; 2]; FORECAST_POINTS];
             let is_known = forces.iter_mut().enumerate().all(|(k, force)| {

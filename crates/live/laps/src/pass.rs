@@ -18,7 +18,7 @@ const PACE_FADE: f64 = 3.0;
 pub const UNKNOWN_PASS_ERROR: f64 = 4.0;
 
 /// Part of a difference of the pace from 1 that is left after so many seconds.
-pub fn fade(time: f64) -> f64 {
+pub fn pace_weight(time: f64) -> f64 {
     libm::exp(-time / PACE_FADE)
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::horizon::{BLOCKS, FORECAST_TIME, Horizon};
 
 /// Decay of the slow and the fast part of a reference that fades \[1/s\].
-pub const FADE_DECAY: [f64; 2] = [0.1, 3.0];
+pub const DECAY_RATES: [f64; 2] = [0.1, 3.0];
 
 /// The expected reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ impl Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let means =
             SVector::from_fn(|k, _| (self.integral(ends[k]) - self.integral(ends[k] - durations[k])) / durations[k]);
-        let faded = |part: usize| libm::exp(-FADE_DECAY[part] * (ends[BLOCKS - 1] - FORECAST_TIME).max(0.0));
+        let faded = |part: usize| libm::exp(-DECAY_RATES[part] * (ends[BLOCKS - 1] - FORECAST_TIME).max(0.0));
         Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(part)) }
     }
 
@@ -35,7 +35,7 @@ impl Forecast {
         let within = |(end, duration): (f64, f64)| (time - (end - duration)).clamp(0.0, duration);
         let inside: f64 = self.means.iter().zip(blocks).map(|(mean, block)| mean * within(block)).sum();
         let beyond = (time - FORECAST_TIME).max(0.0);
-        let tail = |part: usize| self.end[part] * (1.0 - libm::exp(-FADE_DECAY[part] * beyond)) / FADE_DECAY[part];
+        let tail = |part: usize| self.end[part] * (1.0 - libm::exp(-DECAY_RATES[part] * beyond)) / DECAY_RATES[part];
         inside + tail(0) + tail(1)
     }
 

@@ -34,7 +34,7 @@ use self::preview::{PreviewedCue, TIME_ROUNDING};
 use self::program::{
     AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, ROWS, TILT_RAMP_TIME,
 };
-use super::law::{AxisState, Decision, Jump, Law, LawInput, PlanStatus, Previewed, Unsolvable};
+use super::law::{AxisState, Decision, Jump, Law, LawInput, PlanStatus, Previewing, Unsolvable};
 use super::regulator::{AxisModel, Weights};
 use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
@@ -160,12 +160,12 @@ impl Law for Box<Predictive> {
         Some(PlanStatus { age, iterations, kept })
     }
 
-    fn previewed(&mut self) -> Option<&mut dyn Previewed> {
+    fn as_previewing(&mut self) -> Option<&mut dyn Previewing> {
         Some(&mut **self)
     }
 }
 
-impl Previewed for Predictive {
+impl Previewing for Predictive {
     /// Sets the courses that the cue will take in surge and sway.
     fn preview(&mut self, courses: &[PreviewedCue; 2]) {
         for (forecaster, course) in self.forecasters.iter_mut().zip(courses) {
@@ -299,11 +299,11 @@ impl Predictive {
         decisions
     }
 
-    /// Advances by `step` seconds with these references of surge and sway; `beside` is the angular
-    /// channel's part of them, and `rates` the angular velocity that it cues.
-    pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], rates: &Vector3<f64>, step: f64) {
-        for (forecaster, beside) in self.forecasters.iter_mut().zip(beside) {
-            forecaster.set_angular(beside, rates);
+    /// Advances by `step` seconds with these references of surge and sway; `angular_part` is the
+    /// angular channel's part of them, and `rates` the angular velocity that it cues.
+    pub fn observe(&mut self, references: [f64; 2], angular_part: [f64; 2], rates: &Vector3<f64>, step: f64) {
+        for (forecaster, angular_part) in self.forecasters.iter_mut().zip(angular_part) {
+            forecaster.set_angular(angular_part, rates);
             forecaster.learn_next(&self.tables);
         }
         let mut left = step;

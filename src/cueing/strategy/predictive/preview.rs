@@ -4,12 +4,12 @@ use moris_interface::Group;
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
-use super::expected::{FADE_DECAY, Forecast};
+use super::expected::{DECAY_RATES, Forecast};
 use super::horizon::{BLOCKS, FORECAST_TIME, Horizon};
 use crate::interface::{PREVIEW_SAMPLES, Preview};
 
 /// Time constant with which the angular channel's part of the reference is expected to fade \[s\].
-const BESIDE_TIME: f64 = 1.0;
+const ANGULAR_PART_TIME: f64 = 1.0;
 /// Differences of time below this are rounding \[s\].
 pub const TIME_ROUNDING: f64 = 1e-9;
 
@@ -155,16 +155,17 @@ impl Default for Ahead {
 }
 
 impl Ahead {
-    /// Sets the course from now on. The angular channel is the part `beside` of the effective
-    /// reference \[m/s2\]. False if the course is over.
+    /// Sets the course from now on. Its `angular_part` is the angular channel's share of the
+    /// effective reference \[m/s2\]. False if the course is over.
     ///
     /// Now the reference is on the line from `low`, what it was about `lag` seconds ago without its
     /// vibration, to the course's next value.
-    pub fn set(&mut self, courses: &PreviewedCues, (lag, low): (f64, f64), beside: f64) -> bool {
+    pub fn set(&mut self, courses: &PreviewedCues, (lag, low): (f64, f64), angular_part: f64) -> bool {
         (self.times[0], self.count) = (0.0, 1);
         for (time, value) in courses.points() {
             if time > self.times[self.count - 1] + TIME_ROUNDING {
-                let fading = if beside == 0.0 { 0.0 } else { beside * libm::exp(-time / BESIDE_TIME) };
+                let fading =
+                    if angular_part == 0.0 { 0.0 } else { angular_part * libm::exp(-time / ANGULAR_PART_TIME) };
                 self.times[self.count] = time;
                 self.values[self.count] = value + fading;
                 self.count += 1;
@@ -232,7 +233,7 @@ impl Ahead {
 
 /// A reference as previewed, and from the preview's end on as forecast there.
 #[derive(Clone, Copy, Debug)]
-pub struct Previewed<'a> {
+pub struct PreviewedReference<'a> {
     pub ahead: &'a Ahead,
     /// The forecast as of the preview's end.
     pub after: Forecast,
@@ -241,7 +242,7 @@ pub struct Previewed<'a> {
     pub slow_time: f64,
 }
 
-impl Previewed<'_> {
+impl PreviewedReference<'_> {
     /// The reference's means over the blocks of a horizon, and its slow and its
     /// fast part at the end.
     pub fn over(&self, horizon: Horizon) -> Forecast {
@@ -265,7 +266,7 @@ impl Previewed<'_> {
         }
         if time >= length + FORECAST_TIME {
             let fading = time - length - FORECAST_TIME;
-            return [0, 1].map(|part: usize| self.after.end[part] * libm::exp(-FADE_DECAY[part] * fading));
+            return [0, 1].map(|part: usize| self.after.end[part] * libm::exp(-DECAY_RATES[part] * fading));
         }
         let mut value = self.ahead.last();
         let mut left = time - length;
@@ -286,9 +287,9 @@ mod tests {
 
     use super::*;
 
-    fn ahead(courses: &PreviewedCues, past: (f64, f64), beside: f64) -> Option<Ahead> {
+    fn ahead(courses: &PreviewedCues, past: (f64, f64), angular_part: f64) -> Option<Ahead> {
         let mut ahead = Ahead::default();
-        ahead.set(courses, past, beside).then_some(ahead)
+        ahead.set(courses, past, angular_part).then_some(ahead)
     }
 
     /// One and a half seconds of a course that was given 0.1 s ago.
@@ -351,7 +352,7 @@ mod tests {
     fn blocks_hold_the_preview_s_integral_and_then_the_forecast_s() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
         let ahead = ahead(&alone(course()), (0.0, 0.5), 0.0).unwrap();
-        let previewed = Previewed { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
+        let previewed = PreviewedReference { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
         for horizon in [Horizon::Near, Horizon::Far] {
             let forecast = previewed.over(horizon);
             let total = forecast.means.dot(&SVector::from(*horizon.durations()));
@@ -374,7 +375,7 @@ mod tests {
         for count in [4, 8] {
             let ahead = ahead(&alone(PreviewedCue { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
             let length = ahead.length();
-            let previewed = Previewed { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
+            let previewed = PreviewedReference { ahead: &ahead, after, slow: 0.2, slow_time: 0.6 };
             let mut low = ahead.low_passes([0.2], [0.6], length)[0];
             let (ends, step) = (Horizon::Near.ends(), 1e-4);
             for k in 0..29_000 {

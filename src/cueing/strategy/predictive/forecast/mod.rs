@@ -22,9 +22,9 @@ use alloc::{vec, vec::Vec};
 use nalgebra::{SMatrix, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::expected::{FADE_DECAY, Forecast};
+use super::expected::{DECAY_RATES, Forecast};
 use super::horizon::{BLOCK_SAMPLES, BLOCKS, FORECAST_SAMPLES, FORECAST_TIME, Horizon, PLAN_INTERVAL, end_samples};
-use super::preview::{Ahead, Previewed, PreviewedCue, PreviewedCues};
+use super::preview::{Ahead, PreviewedCue, PreviewedCues, PreviewedReference};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 use regression::{Covariance, FEATURES, FORCES, Features, Regression};
@@ -52,7 +52,7 @@ const RATE_VARIANCE: f64 = 0.1;
 const REMEMBERED_SAMPLES: usize = FORECAST_SAMPLES + 1;
 
 /// Decay of the expert that holds the reference \[1/s\].
-const HOLD_DECAY: f64 = 0.02;
+const HOLD_DECAY_RATE: f64 = 0.02;
 /// Time constant with which a trend fades \[s\].
 const TREND_TIME: f64 = 1.5;
 /// The prior of a target's fit has the weight of samples over this fraction of the time to the
@@ -122,7 +122,7 @@ pub struct Forecaster {
     forecast: Forecast,
     courses: PreviewedCues,
     /// The part of the reference that is the angular channel's \[m/s2\].
-    beside: f64,
+    angular_part: f64,
     /// Angular velocity that the angular channel cues \[rad/s\].
     rates: Vector3<f64>,
     /// Mean squared errors of the means forecast without the preview and by it.
@@ -162,7 +162,7 @@ impl StoredSample {
 pub struct Tables {
     /// Targets of the fixed experts for a slow and a fast part of 1, and for a slope of 1.
     hold: [Targets; 2],
-    fade: [Targets; 2],
+    decay: [Targets; 2],
     trend: Targets,
     /// Prior of each target's recursive least-squares fit; old data decay towards it.
     priors: [Regression; TARGETS],
@@ -176,19 +176,19 @@ impl Tables {
     /// trend, fade.
     fn fixed_forecasts(&self, [slow, fast, slope]: [f64; 3], target: usize) -> [f64; EXPERTS - 1] {
         let hold = slow * self.hold[0][target] + fast * self.hold[1][target];
-        let fade = slow * self.fade[0][target] + fast * self.fade[1][target];
-        [hold, hold + slope * self.trend[target], fade]
+        let decay = slow * self.decay[0][target] + fast * self.decay[1][target];
+        [hold, hold + slope * self.trend[target], decay]
     }
 }
 
 impl Default for Tables {
     fn default() -> Self {
-        let [slow, fast] = FADE_DECAY;
-        let fade = [exponential(slow, true), exponential(fast, false)];
-        let (covariance, linear) = (prior_covariance() + PRIOR_RIDGE * Covariance::identity(), from_features(&fade));
+        let [slow, fast] = DECAY_RATES;
+        let decay = [exponential(slow, true), exponential(fast, false)];
+        let (covariance, linear) = (prior_covariance() + PRIOR_RIDGE * Covariance::identity(), from_features(&decay));
         Tables {
-            hold: [exponential(HOLD_DECAY, true), exponential(HOLD_DECAY, false)],
-            fade,
+            hold: [exponential(HOLD_DECAY_RATE, true), exponential(HOLD_DECAY_RATE, false)],
+            decay,
             trend: trend(),
             priors: core::array::from_fn(|target| {
                 let samples = PRIOR_FRACTION * samples_to_end(target) as f64;
@@ -269,14 +269,14 @@ impl Forecaster {
             samples: vec![StoredSample::default(); REMEMBERED_SAMPLES],
             latest: 0,
             fits: tables.priors,
-            fitted: from_features(&tables.fade),
+            fitted: from_features(&tables.decay),
             turn: 0,
             unlearned: TARGETS,
             fit_forgetting_factor: 0.0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
             courses: PreviewedCues::default(),
-            beside: 0.0,
+            angular_part: 0.0,
             rates: Vector3::zeros(),
             preview_errors: [LEAST_ERROR, UNPROVED_PREVIEW_ERROR].map(SVector::repeat),
         }
@@ -312,8 +312,8 @@ impl Forecaster {
 
     /// The part of the reference that is the angular channel's \[m/s2\], and the angular velocity
     /// that it cues \[rad/s\].
-    pub fn set_angular(&mut self, beside: f64, rates: &Vector3<f64>) {
-        self.beside = beside;
+    pub fn set_angular(&mut self, angular_part: f64, rates: &Vector3<f64>) {
+        self.angular_part = angular_part;
         self.rates = *rates;
     }
 
@@ -332,16 +332,21 @@ impl Forecaster {
         if self.preview_length() == 0.0 {
             return None;
         }
-        self.previewed(&mut Ahead::default(), tables, kind).map(|previewed| previewed.over(horizon))
+        self.previewed_reference(&mut Ahead::default(), tables, kind).map(|previewed| previewed.over(horizon))
     }
 
     /// The reference by the preview, followed from the preview's end by the
     /// forecast as of that time.
     ///
     /// `ahead` is the room for it, so that the many corners are not moved.
-    fn previewed<'a>(&self, ahead: &'a mut Ahead, tables: &Tables, kind: ForecastKind) -> Option<Previewed<'a>> {
+    fn previewed_reference<'a>(
+        &self,
+        ahead: &'a mut Ahead,
+        tables: &Tables,
+        kind: ForecastKind,
+    ) -> Option<PreviewedReference<'a>> {
         let past = (TIME_CONSTANTS[QUICK_LOW_PASS], self.low_passes[QUICK_LOW_PASS]);
-        if !ahead.set(&self.courses, past, self.beside) {
+        if !ahead.set(&self.courses, past, self.angular_part) {
             return None;
         }
         let mut end = StoredSample { value: ahead.last(), ..StoredSample::default() };
@@ -351,7 +356,12 @@ impl Forecaster {
         end.low_passes.fixed_rows_mut::<QUICK_LOW_PASS>(0).copy_from_slice(&low);
         let fitted = self.fitted * end.features();
         let after = self.expected(&end, &fitted, tables, kind);
-        Some(Previewed { ahead, after, slow: self.low_passes[SLOW_LOW_PASS], slow_time: TIME_CONSTANTS[SLOW_LOW_PASS] })
+        Some(PreviewedReference {
+            ahead,
+            after,
+            slow: self.low_passes[SLOW_LOW_PASS],
+            slow_time: TIME_CONSTANTS[SLOW_LOW_PASS],
+        })
     }
 
     /// The weight of the preview in each block of a horizon, from 0 to 1.
@@ -411,11 +421,11 @@ impl Forecaster {
     fn expected(&self, then: &StoredSample, fitted: &Targets, tables: &Tables, kind: ForecastKind) -> Forecast {
         let parts = then.parts();
         let target = |target: usize| {
-            let [hold, trend, fade] = tables.fixed_forecasts(parts, target);
+            let [hold, trend, decay] = tables.fixed_forecasts(parts, target);
             match kind {
                 ForecastKind::Hold => hold,
-                ForecastKind::Decay => fade,
-                ForecastKind::Learned => self.mixture(target, [hold, trend, fade, fitted[target]]),
+                ForecastKind::Decay => decay,
+                ForecastKind::Learned => self.mixture(target, [hold, trend, decay, fitted[target]]),
             }
         };
         Forecast { means: SVector::from_fn(|block, _| target(block)), end: [target(BLOCKS), target(BLOCKS + 1)] }
@@ -485,9 +495,9 @@ impl Forecaster {
     /// ended. The experts' errors keep the part `forgetting_factor` of what they were.
     fn compare(&mut self, target: usize, tables: &Tables, forgetting_factor: f64) {
         let Some((then, truth)) = self.ended(target) else { return };
-        let ([hold, trend, fade], fitted) = (tables.fixed_forecasts(then.parts(), target), then.fitted[target]);
+        let ([hold, trend, decay], fitted) = (tables.fixed_forecasts(then.parts(), target), then.fitted[target]);
         let expected = then.expected.filter(|_| target < BLOCKS).map(|means| means.map(|means| means[target]));
-        for (expert, forecast) in [hold, trend, fade, fitted].into_iter().enumerate() {
+        for (expert, forecast) in [hold, trend, decay, fitted].into_iter().enumerate() {
             let error = forecast - truth;
             let mean = &mut self.errors[(expert, target)];
             *mean = forgetting_factor * *mean + (1.0 - forgetting_factor) * (LEAST_ERROR + error * error);

@@ -57,7 +57,7 @@ fn over_a_longer_horizon_a_forecast_keeps_its_integral_and_fades() {
     assert!((forecast.over(Horizon::Near).means - forecast.means).amax() < 1e-12);
     let far = forecast.over(Horizon::Far);
     let sum = |means: &SVector<f64, BLOCKS>, horizon: Horizon| means.dot(&SVector::from(*horizon.durations()));
-    let [slow, fast] = FADE_DECAY;
+    let [slow, fast] = DECAY_RATES;
     let tail = 2.0 * (1.0 - (-slow * FORECAST_TIME).exp()) / slow + 0.5 * (1.0 - (-fast * FORECAST_TIME).exp()) / fast;
     let expected = sum(&forecast.means, Horizon::Near) + tail;
     assert!((sum(&far.means, Horizon::Far) - expected).abs() < 1e-12);
@@ -194,7 +194,7 @@ impl Plain {
         }
     }
 
-    /// The fixed experts at a sample: hold, trend and fade, by integrals of their courses.
+    /// The fixed experts at a sample: hold, trend and decay, by integrals of their courses.
     fn fixed(&self, n: isize) -> [Targets; 3] {
         if n < 0 {
             return [Targets::zeros(); 3];
@@ -249,7 +249,7 @@ fn the_learned_forecast_is_that_of_plain_sums() {
     let samples = 420;
     let plain = Plain::new(lively, samples);
     let mut forecaster = Forecaster::new(&tables);
-    let mut fits = vec![from_features(&tables.fade)];
+    let mut fits = vec![from_features(&tables.decay)];
     for n in 1..=samples {
         plain.advance(&mut forecaster, n);
         forecaster.sample(&tables, ForecastKind::Learned, &MEMORY);
@@ -265,9 +265,9 @@ fn the_learned_forecast_is_that_of_plain_sums() {
     // Mean squared errors of each expert for each target, over all samples.
     let mut errors = SMatrix::<f64, EXPERTS, TARGETS>::repeat(1e-4);
     let forecasts = |n: isize| {
-        let [hold, trend, fade] = plain.fixed(n);
+        let [hold, trend, decay] = plain.fixed(n);
         let fitted = if n < 1 { Targets::zeros() } else { fits[n as usize] * plain.features(n) };
-        [hold, trend, fade, fitted]
+        [hold, trend, decay, fitted]
     };
     let all: Vec<_> = (0..=samples as isize).map(forecasts).collect();
     let mut age = 0;
@@ -322,8 +322,8 @@ fn the_fit_begins_as_the_fading_expert_with_the_priors_weight() {
     let sample = StoredSample { value: 1.3, low_passes, rates: Vector3::new(0.3, 0.2, 0.1), ..StoredSample::default() };
     for (target, prior) in tables.priors.iter().enumerate() {
         let forecast = prior.coefficients().unwrap().dot(&sample.features());
-        let [.., fade] = tables.fixed_forecasts(sample.parts(), target);
-        assert!((forecast - fade).abs() < 1e-9, "target {target}");
+        let [.., decay] = tables.fixed_forecasts(sample.parts(), target);
+        assert!((forecast - decay).abs() < 1e-9, "target {target}");
     }
 }
 
@@ -388,7 +388,7 @@ fn after_a_right_preview_the_forecast_is_the_one_made_then() {
     assert!((forecaster.preview_length() - 1.6).abs() < 1e-12);
     let then = followed(cornered, 13.6, ForecastKind::Decay);
     let mut ahead = Ahead::default();
-    let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Decay).unwrap();
+    let previewed = forecaster.previewed_reference(&mut ahead, &tables, ForecastKind::Decay).unwrap();
     // The forecaster holds each value for a millisecond, and knows the present one by a low-pass.
     assert!((previewed.after.means - then.forecast.means).amax() < 0.02, "{}", previewed.after.means);
     assert!((previewed.slow - forecaster.low_passes[SLOW_LOW_PASS]).abs() < 1e-15);
@@ -405,7 +405,7 @@ fn the_forecast_goes_towards_the_preview_by_its_trust() {
     let mut forecaster = followed(lively, 8.0, ForecastKind::Learned);
     forecaster.preview(&course(|time| 3.0 * time.cos(), 0.0, 30));
     let mut ahead = Ahead::default();
-    let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Learned).unwrap();
+    let previewed = forecaster.previewed_reference(&mut ahead, &tables, ForecastKind::Learned).unwrap();
     for horizon in [Horizon::Near, Horizon::Far] {
         let learned = forecaster.forecast.over(horizon);
         let (previewed, trust) = (previewed.over(horizon), forecaster.trust(horizon));
@@ -488,6 +488,6 @@ fn the_angular_channels_part_of_the_reference_fades_over_a_preview() {
     forecaster.preview(&course(|_| 0.0, 0.0, 8));
     forecaster.set_angular(0.5, &Vector3::zeros());
     let mut ahead = Ahead::default();
-    let previewed = forecaster.previewed(&mut ahead, &tables, ForecastKind::Hold).unwrap();
+    let previewed = forecaster.previewed_reference(&mut ahead, &tables, ForecastKind::Hold).unwrap();
     assert!((previewed.ahead.last() - 0.5 * (-1.6_f64).exp()).abs() < 1e-12, "{}", previewed.ahead.last());
 }
