@@ -23,7 +23,7 @@ pub struct AngularChannel {
 impl AngularChannel {
     /// The channel at rest, ready for steps of `max_step` seconds.
     pub fn new(parameters: &AngularParameters, order: i32, max_step: f64) -> Self {
-        let chains = CrossfadedChains::new(denominators(parameters, order), 1, max_step);
+        let chains = CrossfadedChains::of_angle(denominators(parameters, order), max_step);
         AngularChannel { chains, offset: DecayingOffset::default(), rates: Vector3::zeros() }
     }
 

@@ -23,7 +23,7 @@ pub struct DirectLinearMotion {
 impl DirectLinearMotion {
     /// At rest at neutral; no step will be longer than `max_step` \[s\].
     pub fn new(parameters: &SplitterParameters, order: i32, max_step: f64) -> Self {
-        let chains = CrossfadedChains::new(high_pass_denominators(parameters, order), 2, max_step);
+        let chains = CrossfadedChains::of_position(high_pass_denominators(parameters, order), max_step);
         DirectLinearMotion { chains, offset: GlidingOffset::default(), safety: SafetyUnits::new(max_step) }
     }
 

@@ -64,18 +64,27 @@ pub struct CrossfadedChains {
     /// Coefficients that come into force once the fade is over.
     next: Option<[Denominator; 3]>,
     /// Number of states that make up the motion and are kept at a change.
-    kept: usize,
+    kept_states: usize,
 }
 
 /// Time in which the motion fades to that of other coefficients \[s\].
 const FADE_TIME: f64 = 1.8;
 
 impl CrossfadedChains {
-    /// Chains at rest, of which the first `kept` states make up the motion, ready for steps of
-    /// `max_step` seconds.
-    pub fn new(denominators: [Denominator; 3], kept: usize, max_step: f64) -> Self {
+    /// Chains at rest whose motion is a position and a velocity, ready for steps of `max_step`
+    /// seconds.
+    pub fn of_position(denominators: [Denominator; 3], max_step: f64) -> Self {
+        CrossfadedChains::new(denominators, 2, max_step)
+    }
+
+    /// Chains at rest whose motion is an angle, ready for steps of `max_step` seconds.
+    pub fn of_angle(denominators: [Denominator; 3], max_step: f64) -> Self {
+        CrossfadedChains::new(denominators, 1, max_step)
+    }
+
+    fn new(denominators: [Denominator; 3], kept_states: usize, max_step: f64) -> Self {
         let now = CorrectedChains { chains: Chains::new(denominators, max_step), offset: DecayingOffset::default() };
-        CrossfadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept }
+        CrossfadedChains { now, before: now, input: Vector3::zeros(), fraction: 1.0, next: None, kept_states }
     }
 
     /// Changes the coefficients. A change during a fade waits for its end.
@@ -85,7 +94,7 @@ impl CrossfadedChains {
         } else if self.now.chains.denominators() != &denominators {
             self.before = self.now;
             let CorrectedChains { chains, offset } = &mut self.now;
-            chains.retune(denominators, self.kept);
+            chains.retune(denominators, self.kept_states);
             if !chains.is_at_rest() {
                 self.fraction = 0.0;
                 offset.add(self.before.chains.high_pass(self.input) - chains.high_pass(self.input));
