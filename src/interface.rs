@@ -92,9 +92,9 @@ interface_tree! {
 
 interface! {
     /// Commands to the platform and its actuators, and the motion felt by the rider.
-    pub struct Output: Output, Continuous, starts_from(&[]) {
+    pub struct Output: Output, Continuous, start_depends_on(&[]) {
         /// Position of the platform frame's origin in the base frame.
-        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["rig.neutralHeight"]);
+        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(&["rig.neutralHeight"]);
         /// Velocity of the platform frame's origin in the base frame.
         "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Acceleration of the platform frame's origin in the base frame.
@@ -104,11 +104,11 @@ interface! {
         /// Angular velocity of the platform in the base frame.
         "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Commanded length of the actuator, from base joint to platform joint; with cranks, the distance from axle to platform joint.
-        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], starts_from(&["rig."]);
+        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], start_depends_on(&["rig."]);
         /// Commanded rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
         /// Specific force at the washout location on the commanded motion, in head axes.
-        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["gravity", "rider.lean", "washoutLocation"]);
+        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(&["gravity", "rider.lean", "washoutLocation"]);
         /// Angular velocity at the washout location on the commanded motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Part of the platform's roll due to tilt coordination.
@@ -126,7 +126,7 @@ interface! {
         /// True if the actuator guard changed the motion to keep an actuator's or the platform's limits during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
-        "status.strokeMargin" stroke_margin: f64 [M] = 0.0, starts_from(&["actuator.", "rig."]);
+        "status.strokeMargin" stroke_margin: f64 [M] = 0.0, start_depends_on(&["actuator.", "rig."]);
         /// True if the predictive strategy's last attempt at a new plan failed and the previous plan continues.
         "status.planKept" plan_kept: bool = false;
         /// Time since the plan of the predictive strategy was begun.
@@ -136,9 +136,9 @@ interface! {
         /// True if the soft limits changed the motion during the last communication step.
         "status.softLimited" soft_limited: bool = false;
         /// Factor by which the automatic scale multiplies surge, sway and rates; 1 while it is off.
-        "automaticScale.factor" scale_factor: f64 = 1.0, starts_from(&["automaticScale.", "scale.automatic"]);
+        "automaticScale.factor" scale_factor: f64 = 1.0, start_depends_on(&["automaticScale.", "scale.automatic"]);
         /// Commanded angle of the crank's arm above its heading; 0 with legs.
-        "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], starts_from(&["crank.", "rig."]);
+        "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], start_depends_on(&["crank.", "rig."]);
         /// Commanded angular velocity of the crank's arm; 0 with legs.
         "actuator[#].angularVelocity" angular_rate: [f64; 6] [RAD_PER_S] = [0.0; 6];
     }
@@ -293,13 +293,13 @@ enumeration! {
 
 interface! {
     /// Block (1): the high-pass of each axis of the base frame, and the low-pass beside it.
-    pub struct SplitterParameters: Parameter, Tunable, group("splitter"), partly_used_if(&["x", "y"], "strategy", &["classical"]) {
+    pub struct SplitterParameters: Parameter, Tunable, tuning_group("splitter"), partly_used_if(&["x", "y"], "strategy", &["classical"]) {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.8, 0.8, 5.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), main(4);
+        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.8, 0.8, 5.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), importance_rank(4);
         /// Damping ratio of the high-pass filter's first pair of poles.
         "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.3, 1.2, 1.0), usual(USUAL_DAMPING_RATIOS);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.55, 0.35, 0.3), usual(USUAL_FREQUENCIES), heading("Break frequencies"), main(5), used_if("splitter.order", &["3", "4"]);
+        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(0.55, 0.35, 0.3), usual(USUAL_FREQUENCIES), heading("Break frequencies"), importance_rank(5), used_if("splitter.order", &["3", "4"]);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
         "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_DAMPING_RATIOS), used_if("splitter.order", &["4"]);
         /// Break frequency of the low-pass filter when splitter.lowPass is independent.
@@ -311,9 +311,9 @@ interface! {
 
 interface! {
     /// Block (6): the high-pass of each angle.
-    pub struct AngularParameters: Parameter, Tunable, group("angular") {
+    pub struct AngularParameters: Parameter, Tunable, tuning_group("angular") {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), main(6);
+        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0), usual(USUAL_FREQUENCIES), heading("Break frequencies"), importance_rank(6);
         /// Damping ratio of the high-pass filter's first pair of poles.
         "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0), usual(USUAL_DAMPING_RATIOS);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
@@ -327,15 +327,15 @@ interface! {
     /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
         /// Scale of the specific force after gravity removal; a negative one inverts the cue.
-        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_SCALES), group("scale"), heading("Scales"), main(2);
+        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_SCALES), tuning_group("scale"), heading("Scales"), importance_rank(2);
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw); a negative one inverts the cue.
-        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(USUAL_SCALES), group("scale"), heading("Scales"), main(3);
+        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(USUAL_SCALES), tuning_group("scale"), heading("Scales"), importance_rank(3);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(4.5, 5.0, 8.0);
         /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), limited like the specific force.
         "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] { 1e-3 ..= 1e6 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
-        "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0, usual(5.0 ..= 200.0), group("cutoff");
+        "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0, usual(5.0 ..= 200.0), tuning_group("cutoff");
         /// Method of removing gravity from the specific force.
         "gravityRemoval" gravity_removal: GravityRemoval = GravityRemoval::HeadVertical;
         /// Tilt-induced accelerations that are compensated.
@@ -343,7 +343,7 @@ interface! {
         /// Axes of vehicle.angularVelocity.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Break frequency of a second-order low-pass on the angular rates alone; 0 is off.
-        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 22.0, usual(5.0 ..= 200.0), group("cutoff");
+        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 22.0, usual(5.0 ..= 200.0), tuning_group("cutoff");
         /// Reconstruction of inputs within a step without input derivatives.
         "input.reconstruction" reconstruction: Reconstruction = Reconstruction::Ramp;
     }
@@ -351,13 +351,13 @@ interface! {
 
 interface! {
     /// Block (2): tilt coordination's limits, for roll and pitch each.
-    pub struct TiltParameters: Parameter, Tunable, group("tilt") {
+    pub struct TiltParameters: Parameter, Tunable, tuning_group("tilt") {
         /// Largest rate of tilt coordination (3 deg/s: about the threshold of perception).
-        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_36, usual(0.02 ..= 0.053), heading("Tilt limits"), main(7);
+        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_36, usual(0.02 ..= 0.053), heading("Tilt limits"), importance_rank(7);
         /// Largest acceleration of tilt coordination.
         "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.4, usual(0.05 ..= 0.5), heading("Tilt limits");
         /// Largest angle of tilt coordination.
-        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.257, usual(0.1 ..= 0.38), heading("Tilt limits"), main(8);
+        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.257, usual(0.1 ..= 0.38), heading("Tilt limits"), importance_rank(8);
         /// Law by which the classical strategy's tilt follows its target.
         "tilt.tracking" tracking: TiltTracking = TiltTracking::Smooth;
     }
@@ -368,7 +368,7 @@ interface! {
     /// the neutral position.
     pub struct SafetyParameters: Parameter, Tunable, heading("Rig") {
         /// Largest displacement of the platform from neutral.
-        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.37, 0.37, 0.33), main(9);
+        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.37, 0.37, 0.33), importance_rank(9);
         /// Largest velocity of the platform.
         "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
         /// Largest acceleration of the platform, including braking.
@@ -410,13 +410,13 @@ interface! {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Order of the splitter's high-pass filters.
-        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 3, group("order");
+        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 3, tuning_group("order");
         /// Source of the low-frequency force.
         "splitter.lowPass" low_pass: LowPassKind = LowPassKind::Complementary;
         /// Order of the angular channel's high-pass filters.
-        "angular.order" angular_order: i32 { 2 ..= 4 } = 2, group("order");
+        "angular.order" angular_order: i32 { 2 ..= 4 } = 2, tuning_group("order");
         /// Height of the rider's head above the platform (the paper's h).
-        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2, main(10);
+        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2, importance_rank(10);
         /// Length of the torso from the seat, its lean axis, to the head (the paper's b).
         "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// The point at which the vehicle's motion is given, compensated for and evaluated.
@@ -428,7 +428,7 @@ interface! {
         /// Preaction: tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
         /// Strategy that divides the cue between surge, sway and tilt. On recordings the mean error falls in the order classical, adaptive, optimal, robust, predictive. A step of predictive takes 3 us in the mean, of the others 0.3 to 0.5 us.
-        "strategy" strategy: StrategyKind = StrategyKind::Predictive, heading("Strategy"), main(1);
+        "strategy" strategy: StrategyKind = StrategyKind::Predictive, heading("Strategy"), importance_rank(1);
     }
 }
 
@@ -506,7 +506,7 @@ impl Rig {
 
 interface! {
     /// The adaptive strategy, for surge and sway each.
-    pub struct AdaptiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["adaptive"]), heading(OF_STRATEGY) {
+    pub struct AdaptiveParameters: Parameter, Tunable, tuning_group("strategy"), used_if("strategy", &["adaptive"]), heading(OF_STRATEGY) {
         /// Break frequency of the adaptive strategy's high-pass from force to travel.
         "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.7, usual(USUAL_FREQUENCIES);
         /// Damping ratio of the adaptive strategy's high-pass from force to travel.
@@ -534,7 +534,7 @@ interface! {
 
 interface! {
     /// The optimal strategy, for surge and sway each.
-    pub struct OptimalParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["optimal"]), heading(OF_STRATEGY) {
+    pub struct OptimalParameters: Parameter, Tunable, tuning_group("strategy"), used_if("strategy", &["optimal"]), heading(OF_STRATEGY) {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
         "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209, usual(USUAL_WEIGHTS);
         /// Weight of the travel's velocity at its limit.
@@ -554,7 +554,7 @@ interface! {
 
 interface! {
     /// The robust strategy, for surge and sway each.
-    pub struct RobustParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["robust"]), heading(OF_STRATEGY) {
+    pub struct RobustParameters: Parameter, Tunable, tuning_group("strategy"), used_if("strategy", &["robust"]), heading(OF_STRATEGY) {
         /// Attenuation level gamma relative to the least possible one; values near 1 weigh the worst disturbance most.
         "robust.attenuation" attenuation: f64 { 1.001 ..= 1e3 } = 1.08, usual(1.01 ..= 10.0);
         /// Disturbance of the force's fast part relative to that of its slow part.
@@ -578,7 +578,7 @@ interface! {
 
 interface! {
     /// The predictive strategy, for surge and sway together.
-    pub struct PredictiveParameters: Parameter, Tunable, group("strategy"), used_if("strategy", &["predictive"]) {
+    pub struct PredictiveParameters: Parameter, Tunable, tuning_group("strategy"), used_if("strategy", &["predictive"]) {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
         "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4e-3, usual(USUAL_WEIGHTS), heading(OF_STRATEGY);
         /// Weight of the travel's velocity at its limit.

@@ -129,7 +129,7 @@ fn tuned_table() -> String {
     let mut text = table_line(&["`--tune`", "parameters", "range"]) + &table_line(&["---"; 3]);
     for group in TuningGroup::ALL {
         let mut ranges: Vec<(String, Vec<String>)> = Vec::new();
-        for (row, _) in parameter_rows(&WASHOUT).filter(|(row, _)| row.group == Some(group.name())) {
+        for (row, _) in parameter_rows(&WASHOUT).filter(|(row, _)| row.tuning_group == Some(group.name())) {
             let Some((least, greatest)) = row.usual.or(row.range.filter(|_| row.kind == Kind::Integer)) else {
                 continue;
             };

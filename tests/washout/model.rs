@@ -47,7 +47,7 @@ fn each_function_of_the_model_is_the_washouts() {
 }
 
 #[test]
-fn the_longest_step_is_the_most_internal_steps() {
+fn the_longest_communication_step_is_the_most_internal_steps() {
     let mut parameters = presets::parameters("");
     parameters.structure.max_step = 0.004;
     let model = <Washout as Model>::new(&parameters, &Inputs::default()).unwrap();
@@ -57,9 +57,9 @@ fn the_longest_step_is_the_most_internal_steps() {
 #[test]
 fn each_row_that_is_tuned_is_in_a_group_and_has_a_usual_range_above_zero() {
     let is_of = |group: &str| TuningGroup::ALL.iter().any(|known| known.name() == group);
-    assert!(Parameters::ROWS.iter().filter_map(|row| row.group).all(is_of));
+    assert!(Parameters::ROWS.iter().filter_map(|row| row.tuning_group).all(is_of));
     for group in TuningGroup::ALL {
-        let in_group = || Parameters::ROWS.iter().filter(|row| row.group == Some(group.name()));
+        let in_group = || Parameters::ROWS.iter().filter(|row| row.tuning_group == Some(group.name()));
         let ranges = in_group().filter_map(|row| row.usual);
         assert!(*group == TuningGroup::Order || ranges.clone().count() > 0, "{group:?}");
         assert!(in_group().count() > 0 && ranges.into_iter().all(|(least, _)| least > 0.0), "{group:?}");

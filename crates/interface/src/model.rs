@@ -48,7 +48,7 @@ impl Identity {
     pub fn listed_slots(&self) -> Vec<usize> {
         let rank = |&slot: &usize| {
             let row = self.row(slot);
-            (row.causality == Causality::Parameter, row.main.unwrap_or(u8::MAX))
+            (row.causality == Causality::Parameter, row.importance_rank.unwrap_or(u8::MAX))
         };
         let mut slots: Vec<usize> = (0..self.slots.len()).collect();
         slots.sort_by_key(rank);

@@ -110,11 +110,11 @@ pub struct Row {
     /// The smallest and the largest value of practice: the ends of sliders and of searches.
     pub usual: Option<(f64, f64)>,
     /// Name of the group of rows that a search changes together.
-    pub group: Option<&'static str>,
+    pub tuning_group: Option<&'static str>,
     /// Heading below which people find the row. Rows without one are found by name.
     pub heading: Option<&'static str>,
-    /// Place among the parameters that matter most, from 1. Descriptions list them first.
-    pub main: Option<u8>,
+    /// Rank among the parameters that matter most, from 1. Descriptions list them first.
+    pub importance_rank: Option<u8>,
     conditions: [Option<Condition>; 2],
     /// Beginnings of the names of inputs and parameters on which an output depends before the first
     /// step; `None`: on all of them.
@@ -157,7 +157,8 @@ impl Row {
             (Kind::Boolean | Kind::Integer | Kind::Enumeration(_), Variability::Continuous) => Variability::Discrete,
             (_, variability) => variability,
         };
-        let (usual, group, heading, main, conditions, start_knowns) = (None, None, None, None, [None; 2], None);
+        let (usual, tuning_group, heading, importance_rank, conditions, start_knowns) =
+            (None, None, None, None, [None; 2], None);
         Row {
             name,
             causality,
@@ -168,9 +169,9 @@ impl Row {
             range,
             text,
             usual,
-            group,
+            tuning_group,
             heading,
-            main,
+            importance_rank,
             conditions,
             start_knowns,
         }
@@ -188,8 +189,8 @@ impl Row {
     }
 
     /// The row as one of a group that a search changes together.
-    pub const fn group(mut self, name: &'static str) -> Self {
-        self.group = Some(name);
+    pub const fn tuning_group(mut self, name: &'static str) -> Self {
+        self.tuning_group = Some(name);
         self
     }
 
@@ -199,16 +200,16 @@ impl Row {
         self
     }
 
-    /// The row at this place among the parameters that matter most.
-    pub const fn main(mut self, place: u8) -> Self {
-        self.main = Some(place);
+    /// The row at this rank among the parameters that matter most.
+    pub const fn importance_rank(mut self, rank: u8) -> Self {
+        self.importance_rank = Some(rank);
         self
     }
 
     /// The row of an output that depends, before the first step, on inputs and parameters
     /// alone whose names begin with one of these. What a row itself says counts before
     /// what its struct says.
-    pub const fn starts_from(mut self, names: &'static [&'static str]) -> Self {
+    pub const fn start_depends_on(mut self, names: &'static [&'static str]) -> Self {
         if self.start_knowns.is_none() {
             self.start_knowns = Some(names);
         }
@@ -377,8 +378,8 @@ pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
     panic!("no row has this name")
 }
 
-/// The rows, with those of these names made tunable and [main](Row::main) at these places. For a
-/// model that reuses another model's struct but can change more of its parameters in flight.
+/// The rows, with those of these names made tunable and given these [ranks](Row::importance_rank).
+/// For a model that reuses another model's struct but can change more of its parameters in flight.
 ///
 /// # Panics
 /// If no row has one of the names. In a constant this is a compile error.
@@ -390,7 +391,7 @@ pub const fn with_tunable<const N: usize>(mut rows: [Row; N], names: &[(&str, u8
             r += 1;
         }
         rows[r].variability = Variability::Tunable;
-        rows[r].main = Some(names[n].1);
+        rows[r].importance_rank = Some(names[n].1);
         n += 1;
     }
     rows

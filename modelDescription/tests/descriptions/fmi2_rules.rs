@@ -135,7 +135,7 @@ fn what_matters_comes_first<M: Model>() {
 
 /// Names of the rows that matter most, by their places, which are 1, 2, 3 ...
 fn main_parameters(identity: &Identity) -> Vec<&'static str> {
-    let mut main: Vec<_> = identity.rows.iter().filter_map(|row| Some((row.main?, row.name))).collect();
+    let mut main: Vec<_> = identity.rows.iter().filter_map(|row| Some((row.importance_rank?, row.name))).collect();
     main.sort_unstable();
     assert!(main.iter().zip(1..).all(|((place, _), expected)| *place == expected), "{main:?}");
     main.into_iter().map(|(_, name)| name).collect()

@@ -59,27 +59,27 @@ const DYNAMICS_PREFIXES: &[&str] = &[
 
 interface! {
     /// Inputs of the washout, and further quantities of the simulation.
-    pub struct Output: Output, Continuous, starts_from(&[]) {
+    pub struct Output: Output, Continuous, start_depends_on(&[]) {
         /// Specific force at the rider's head in head axes (x forward, y left, z up), as an accelerometer measures it: (0, 0, +g) at rest.
-        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY), starts_from(DYNAMICS_PREFIXES);
+        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY), start_depends_on(DYNAMICS_PREFIXES);
         /// Angular velocity of the motorcycle, in the axes given by angularVelocityFrame.
         "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Orientation of the motorcycle in the world (roll about x, pitch about y with nose down positive, yaw about z); yaw is the heading and does not wrap.
-        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0), starts_from(&["initial."]);
+        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0), start_depends_on(&["initial."]);
         /// Forward speed; never negative.
-        "vehicle.speed" speed: f64 [M_PER_S] = 0.0, starts_from(&["initial."]);
+        "vehicle.speed" speed: f64 [M_PER_S] = 0.0, start_depends_on(&["initial."]);
         /// Lean of the rider's torso relative to the motorcycle, positive to the right.
         "rider.lean" lean: f64 [RAD] = 0.0;
         /// Position in the world of the point where the rear tyre touches the road.
         "vehicle.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
         /// Rate of the forward speed.
-        "vehicle.acceleration" acceleration: f64 [M_PER_S2] = 0.0, starts_from(DYNAMICS_PREFIXES);
+        "vehicle.acceleration" acceleration: f64 [M_PER_S2] = 0.0, start_depends_on(DYNAMICS_PREFIXES);
         /// Velocity to the left of the point where the rear tyre touches the road.
         "vehicle.lateralVelocity" lateral_velocity: f64 [M_PER_S] = 0.0;
         /// Position in the world of the rider's head.
-        "head.position.@" head_position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(DYNAMICS_PREFIXES);
+        "head.position.@" head_position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(DYNAMICS_PREFIXES);
         /// Velocity in the world of the rider's head, in the world's axes.
-        "head.velocity.@" head_velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["head.", "initial."]);
+        "head.velocity.@" head_velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(&["head.", "initial."]);
         /// Steer angle about the steering axis, which points up; positive to the left.
         "steer.angle" steer_angle: f64 [RAD] = 0.0;
         /// Rate of the steer angle.
@@ -89,19 +89,19 @@ interface! {
         /// Reference roll angle of the rider: command.lean within the rider's limits, low-pass filtered.
         "rider.leanReference" lean_reference: f64 [RAD] = 0.0;
         /// Support by feet on the road and firm hands: 1 at rest, 0 from feet.speed on.
-        "rider.feetDown" feet_down: f64 = 1.0, starts_from(&["feet.", "initial."]);
+        "rider.feetDown" feet_down: f64 = 1.0, start_depends_on(&["feet.", "initial."]);
         /// Throttle after the lag of the drive, from 0 to 1.
         "drive.throttle" throttle: f64 = 0.0;
         /// Brake application after the lag of the brakes, from 0 to 1.
         "brake.application" brake: f64 = 0.0;
         /// Load of the front tyre on the road.
-        "tyre.front.load" front_load: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
+        "tyre.front.load" front_load: f64 [N] = 0.0, start_depends_on(DYNAMICS_PREFIXES);
         /// Load of the rear tyre on the road.
-        "tyre.rear.load" rear_load: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
+        "tyre.rear.load" rear_load: f64 [N] = 0.0, start_depends_on(DYNAMICS_PREFIXES);
         /// Forward force of the road on the front tyre.
-        "tyre.front.longitudinalForce" front_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
+        "tyre.front.longitudinalForce" front_longitudinal: f64 [N] = 0.0, start_depends_on(DYNAMICS_PREFIXES);
         /// Forward force of the road on the rear tyre.
-        "tyre.rear.longitudinalForce" rear_longitudinal: f64 [N] = 0.0, starts_from(DYNAMICS_PREFIXES);
+        "tyre.rear.longitudinalForce" rear_longitudinal: f64 [N] = 0.0, start_depends_on(DYNAMICS_PREFIXES);
         /// Force of the road on the front tyre to the left.
         "tyre.front.lateralForce" front_lateral: f64 [N] = 0.0;
         /// Force of the road on the rear tyre to the left.
@@ -111,9 +111,9 @@ interface! {
         /// Compression of the rear suspension at the wheel, from its length at rest.
         "suspension.rear.travel" rear_travel: f64 [M] = 0.0;
         /// True if tyre friction limited drive or brakes at the end of the last communication step.
-        "status.frictionLimited" friction_limited: bool = false, starts_from(DYNAMICS_PREFIXES);
+        "status.frictionLimited" friction_limited: bool = false, start_depends_on(DYNAMICS_PREFIXES);
         /// True if wheel lift limited drive or brakes at the end of the last communication step.
-        "status.wheelLiftLimited" wheel_lift_limited: bool = false, starts_from(DYNAMICS_PREFIXES);
+        "status.wheelLiftLimited" wheel_lift_limited: bool = false, start_depends_on(DYNAMICS_PREFIXES);
         /// Distance covered along the path, including all laps.
         "path.distance" path_distance: f64 [M] = 0.0;
         /// Deviation of the rear tyre's contact from the path, positive to the left.
@@ -121,7 +121,7 @@ interface! {
         /// Heading relative to the path's, positive to the left.
         "path.headingDeviation" path_heading: f64 [RAD] = 0.0;
         /// Speed that the rider plans for this point of the path.
-        "path.plannedSpeed" planned_speed: f64 [M_PER_S] = 0.0, starts_from(&["gravity", "initial.", "path.", "rider.", "tyre."]);
+        "path.plannedSpeed" planned_speed: f64 [M_PER_S] = 0.0, start_depends_on(&["gravity", "initial.", "path.", "rider.", "tyre."]);
         /// True if friction limited the lateral force of a tyre at the end of the last communication step; only on a path.
         "status.gripLimited" grip_limited: bool = false;
         /// True once the motorcycle has left the path by more than path.halfWidth; the rider then brakes to a stop.
@@ -189,7 +189,7 @@ interface! {
         /// Height of the rear frame's centre of mass, rider included.
         "frame.centre.height" frame_height: f64 [M] { 1e-3 ..= 10.0 } = 0.669;
         /// Mass of the rear frame with engine and rider.
-        "frame.mass" frame_mass: f64 [KG] { 1e-3 ..= 1e4 } = 221.0, main(10);
+        "frame.mass" frame_mass: f64 [KG] { 1e-3 ..= 1e4 } = 221.0, importance_rank(10);
         /// Moment of inertia of the rear frame about its centre of mass, about the axis forward.
         "frame.inertia.xx" frame_xx: f64 [KG_M2] { 1e-6 ..= 1e5 } = 29.7;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis to the left: of pitch.
@@ -241,7 +241,7 @@ interface! {
         /// Relaxation length of the rear tyre.
         "tyre.rear.relaxationLength" rear_relaxation: f64 [M] { 1e-4 ..= 10.0 } = 0.144;
         /// Friction of the tyres on the road: the largest force along the road divided by the load.
-        Tunable "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2, main(7);
+        Tunable "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2, importance_rank(7);
         /// Rolling resistance divided by the load.
         Tunable "tyre.rollingResistance" rolling_resistance: f64 { 0.0 ..= 1.0 } = 0.018;
     }
@@ -251,23 +251,23 @@ interface! {
     /// Drive, brakes and air.
     pub struct Longitudinal: Parameter, Tunable {
         /// Largest power at the rear wheel.
-        "drive.power" power: f64 [W] { 1.0 ..= 1e7 } = 85e3, main(2);
+        "drive.power" power: f64 [W] { 1.0 ..= 1e7 } = 85e3, importance_rank(2);
         /// Largest force at the rear wheel, in the lowest gear.
-        "drive.forceLimit" drive_force: f64 [N] { 1.0 ..= 1e6 } = 3500.0, main(3);
+        "drive.forceLimit" drive_force: f64 [N] { 1.0 ..= 1e6 } = 3500.0, importance_rank(3);
         /// Drag of the engine at the rear wheel with the throttle closed.
         "drive.engineBraking" engine_braking: f64 [N] { 0.0 ..= 1e5 } = 150.0;
         /// Time constant with which the drive follows the throttle.
         "drive.timeConstant" drive_time: f64 [S] { 1e-3 ..= 100.0 } = 0.15;
         /// Force of both brakes together when fully applied.
-        "brake.forceLimit" brake_force: f64 [N] { 0.0 ..= 1e6 } = 3000.0, main(4);
+        "brake.forceLimit" brake_force: f64 [N] { 0.0 ..= 1e6 } = 3000.0, importance_rank(4);
         /// Fraction of the front brake in brake.forceLimit.
-        "brake.frontShare" brake_front_share: f64 { 0.0 ..= 1.0 } = 0.7, main(5);
+        "brake.frontShare" brake_front_share: f64 { 0.0 ..= 1.0 } = 0.7, importance_rank(5);
         /// Time constant with which the brakes follow the lever.
         "brake.timeConstant" brake_time: f64 [S] { 1e-3 ..= 100.0 } = 0.1;
         /// Fraction of the weight that drive and brakes leave on either wheel.
         "wheelLift.reserve" lift_reserve: f64 { 0.0 ..= 0.3 } = 0.05;
         /// Drag coefficient times frontal area.
-        "aero.dragArea" drag_area: f64 [M2] { 1e-6 ..= 100.0 } = 0.467, main(6);
+        "aero.dragArea" drag_area: f64 [M2] { 1e-6 ..= 100.0 } = 0.467, importance_rank(6);
         /// Density of the air.
         "aero.density" air_density: f64 [KG_PER_M3] { 1e-6 ..= 100.0 } = 1.2;
         /// Height of the point at which drag and wind act.
@@ -293,13 +293,13 @@ interface! {
     /// The rider: limits, lean control, torso and head.
     pub struct Rider: Parameter, Fixed {
         /// Largest reference roll angle of the rider.
-        Tunable "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8, main(8);
+        Tunable "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8, importance_rank(8);
         /// Natural frequency of the rider's reference filter for a commanded roll angle.
         Tunable "rider.leanFrequency" lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 4.0;
         /// Largest roll rate of the rider's reference.
         Tunable "rider.leanRateLimit" lean_rate_limit: f64 [RAD_PER_S] { 1e-3 ..= 10.0 } = 0.8;
         /// Weight of the steering torque in the rider's quadratic cost: this torque costs as much as a lean error of 0.1 rad. Small values give firm control.
-        Tunable "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0, main(9);
+        Tunable "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0, importance_rank(9);
         /// Lean of the rider's torso as a fraction of the reference roll angle.
         Tunable "rider.bodyLeanShare" body_lean_share: f64 { -1.0 ..= 1.0 } = 0.1;
         /// Natural frequency of the rider's torso lean.
@@ -331,7 +331,7 @@ interface! {
         /// Axes of vehicle.angularVelocity, as in the washout.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Initial speed.
-        "initial.speed" initial_speed: f64 [M_PER_S] { 0.0 ..= LARGEST_SPEED } = 0.0, main(1);
+        "initial.speed" initial_speed: f64 [M_PER_S] { 0.0 ..= LARGEST_SPEED } = 0.0, importance_rank(1);
         /// Initial heading.
         "initial.heading" initial_heading: f64 [RAD] { -1e6 ..= 1e6 } = 0.0;
         /// Longest internal step; a longer communication step is divided.

@@ -68,9 +68,9 @@ interface! {
 
 interface! {
     /// Real motion of the platform and its actuators, and the motion felt by the rider.
-    pub struct Output: Output, Continuous, starts_from(&[]) {
+    pub struct Output: Output, Continuous, start_depends_on(&[]) {
         /// Position of the platform frame's origin in the base frame.
-        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["rig.neutralHeight"]);
+        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(&["rig.neutralHeight"]);
         /// Velocity of the platform frame's origin in the base frame.
         "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Acceleration of the platform frame's origin in the base frame.
@@ -82,19 +82,19 @@ interface! {
         /// Angular acceleration of the platform in the base frame.
         "platform.angularAcceleration.@" angular_acceleration: Vector3<f64> [RAD_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
         /// Length of the actuator, from base joint to platform joint; with cranks, the distance from axle to platform joint.
-        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], starts_from(&["rig."]);
+        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6], start_depends_on(&["rig."]);
         /// Rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
         /// Acceleration of the actuator's length.
         "actuator[#].acceleration" leg_acceleration: [f64; 6] [M_PER_S2] = [0.0; 6];
         /// Force of the actuator's drive along the actuator, positive where it pushes; with cranks, of the arm's end along its circle, positive upward. Within actuator.forceLimit.
-        "actuator[#].force" force: [f64; 6] [N] = [0.0; 6], starts_from(&["gravity", "payload.", "platform.", "rider.", "rig."]);
+        "actuator[#].force" force: [f64; 6] [N] = [0.0; 6], start_depends_on(&["gravity", "payload.", "platform.", "rider.", "rig."]);
         /// Force of the stop at an end of the actuator's stroke, positive where it pushes; in an impact its mean over an internal step.
         "actuator[#].stopForce" stop_force: [f64; 6] [N] = [0.0; 6];
         /// Total mechanical power of the actuators.
         "actuator.totalPower" total_power: f64 [W] = 0.0;
         /// Specific force at the rider's head on the real motion, in head axes.
-        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), starts_from(&["gravity", "rider.lean"]);
+        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(&["gravity", "rider.lean"]);
         /// Angular velocity of the rider's head on the real motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// True if a commanded length was outside the stroke during the last communication step; the previous command is then kept.
@@ -106,9 +106,9 @@ interface! {
         /// True if a stop at an end of the stroke held an actuator during the last communication step.
         "status.atStop" at_stop: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
-        "status.strokeMargin" stroke_margin: f64 [M] = 0.0, starts_from(&["actuator.", "rig."]);
+        "status.strokeMargin" stroke_margin: f64 [M] = 0.0, start_depends_on(&["actuator.", "rig."]);
         /// Angle of the crank's arm above its heading; 0 with legs.
-        "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], starts_from(&["crank.", "rig."]);
+        "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], start_depends_on(&["crank.", "rig."]);
         /// Angular velocity of the crank's arm; 0 with legs.
         "actuator[#].angularVelocity" angular_rate: [f64; 6] [RAD_PER_S] = [0.0; 6];
     }
@@ -118,13 +118,13 @@ interface! {
     /// Response of the actuators; their limits of stroke, speed and acceleration are the rig's.
     pub struct Actuators: Parameter, Tunable {
         /// Undamped natural frequency of an actuator's response to its command; at the default damping the response is -3 dB there.
-        "actuator.bandwidth" bandwidth: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 1e3 } = 62.831_853_071_795_86, main(4);
+        "actuator.bandwidth" bandwidth: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 1e3 } = 62.831_853_071_795_86, importance_rank(4);
         /// Damping ratio of an actuator's response.
-        "actuator.damping" damping: f64 { 0.05 ..= 10.0 } = std::f64::consts::FRAC_1_SQRT_2, main(5);
+        "actuator.damping" damping: f64 { 0.05 ..= 10.0 } = std::f64::consts::FRAC_1_SQRT_2, importance_rank(5);
         /// Dead time between a command and the drive's response.
-        "actuator.deadTime" dead_time: f64 [S] { 0.0 ..= 10.0 } = 0.004, main(6);
+        "actuator.deadTime" dead_time: f64 [S] { 0.0 ..= 10.0 } = 0.004, importance_rank(6);
         /// Largest force of an actuator's drive, in both directions; with cranks, the torque divided by crank.arm.
-        "actuator.forceLimit" force_limit: f64 [N] { 1e-3 ..= 1e9 } = 4000.0, main(7);
+        "actuator.forceLimit" force_limit: f64 [N] { 1e-3 ..= 1e9 } = 4000.0, importance_rank(7);
     }
 }
 
@@ -133,19 +133,19 @@ interface! {
     /// actuators are massless.
     pub struct Masses: Parameter, Tunable {
         /// Mass of the platform with the motorcycle's mock-up.
-        "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0, main(1);
+        "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0, importance_rank(1);
         /// Centre of mass of the platform with the mock-up, in the platform frame.
         "platform.centreOfMass.@" platform_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.26);
         /// Matrix of inertia of the platform with the mock-up about its centre of mass.
         "platform.inertia.@" platform_inertia: Inertia [KG_M2] { -1e8 ..= 1e8 } = Inertia::diagonal(49.0, 89.0, 89.0);
         /// Mass of the rider; 0 without a rider.
-        "rider.mass" rider_mass: f64 [KG] { 0.0 ..= 1e6 } = 80.0, main(2);
+        "rider.mass" rider_mass: f64 [KG] { 0.0 ..= 1e6 } = 80.0, importance_rank(2);
         /// Centre of mass of the upright rider, in the platform frame.
         "rider.centreOfMass.@" rider_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.70);
         /// Matrix of inertia of the upright rider about the rider's centre of mass.
         "rider.inertia.@" rider_inertia: Inertia [KG_M2] { -1e8 ..= 1e8 } = Inertia::diagonal(6.0, 7.0, 3.0);
         /// Mass of a payload, as a point mass; 0 without one.
-        "payload.mass" payload_mass: f64 [KG] { 0.0 ..= 1e6 } = 0.0, main(3);
+        "payload.mass" payload_mass: f64 [KG] { 0.0 ..= 1e6 } = 0.0, importance_rank(3);
         /// Position of the payload in the platform frame.
         "payload.centreOfMass.@" payload_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.0);
     }
@@ -157,7 +157,7 @@ interface! {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Height of the rider's head above the platform.
-        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2, main(10);
+        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2, importance_rank(10);
         /// Length of the torso from the seat, its lean axis, to the head.
         "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// Longest internal step; a longer communication step is divided.

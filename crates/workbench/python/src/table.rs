@@ -67,7 +67,7 @@ fn group_variables<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Va
             };
             let (name, causality) = (variables.names[slot].clone(), row.causality.name());
             let (kind, unit, items) = row_kind(row);
-            let (of, usual, group) = (row.array_name(), row.usual, row.group);
+            let (of, usual, group) = (row.array_name(), row.usual, row.tuning_group);
             rows.push((name, causality, kind, unit, least, greatest, start, items, row.text(), of, usual, group));
         }
     }

@@ -49,7 +49,7 @@ interface! {
     /// Fixed parameters.
     pub struct Fixed: Parameter, Fixed {
         /// Number.
-        "many" many: i32 { 1 ..= 9 } = 3, main(1);
+        "many" many: i32 { 1 ..= 9 } = 3, importance_rank(1);
         /// True if it is stiff.
         "stiff" stiff: bool = false;
     }

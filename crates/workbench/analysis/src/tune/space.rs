@@ -40,7 +40,7 @@ struct Tuned {
 
 impl Tuned {
     fn is_in(&self, group: TuningGroup) -> bool {
-        self.row.group == Some(group.name())
+        self.row.tuning_group == Some(group.name())
     }
 
     /// True for a frequency of one channel.
