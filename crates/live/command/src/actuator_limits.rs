@@ -59,7 +59,7 @@ pub struct FrameLimiter {
 
 #[derive(Clone, Copy, Debug)]
 struct Glide {
-    from: Beginning,
+    from: GlideStart,
     /// Its largest speed \[m/s\].
     speed: f64,
     /// The part of the way that is left, behind two equal lags.
@@ -69,18 +69,18 @@ struct Glide {
 
 /// The beginning of a glide.
 #[derive(Clone, Copy, Debug)]
-enum Beginning {
+enum GlideStart {
     /// Actuators that move, so far from the commands.
-    Beside([f64; GLIDED_NUMBERS]),
+    Moving([f64; GLIDED_NUMBERS]),
     /// Actuators that stand.
-    Rest([f64; GLIDED_NUMBERS]),
+    Standing([f64; GLIDED_NUMBERS]),
 }
 
 impl Glide {
     fn difference(&self, commands: &[f64; GLIDED_NUMBERS]) -> [f64; GLIDED_NUMBERS] {
         match self.from {
-            Beginning::Beside(difference) => difference,
-            Beginning::Rest(rest) => std::array::from_fn(|k| rest[k] - commands[k]),
+            GlideStart::Moving(difference) => difference,
+            GlideStart::Standing(rest) => std::array::from_fn(|k| rest[k] - commands[k]),
         }
     }
 
@@ -112,9 +112,9 @@ impl FrameLimiter {
         FrameLimiter { interval, actuators, last: None, change: [0.0; GLIDED_NUMBERS], glide: None, is_lost: false }
     }
 
-    /// The actuators are where the next frame has them, as a person or the controller says: it has
-    /// nothing to do with the last one.
-    pub fn begin_anew(&mut self) {
+    /// Forgets the last frame. The operator or the controller has confirmed where the actuators
+    /// are, so the next frame need not be continuous with the last one.
+    pub fn forget_last_frame(&mut self) {
         *self = FrameLimiter::new(self.interval, self.actuators);
     }
 
@@ -165,13 +165,16 @@ impl FrameLimiter {
             if was_lost || gap > standstill {
                 let speed = GLIDE_SPEED * self.actuators.speed;
                 let is_slow = was_lost || gap > STANDSTILL_INTERVALS;
-                self.begin(Beginning::Rest(numbers(&last)), if is_slow { speed.min(LOST_SPEED) } else { speed });
+                self.begin(GlideStart::Standing(numbers(&last)), if is_slow { speed.min(LOST_SPEED) } else { speed });
                 time = 0.0;
             }
             values = self.with_glide(&last, commanded, time);
             let change = (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
             if change > GLIDE_SPEED_FACTOR * self.actuators.speed * self.interval {
-                self.begin(Beginning::Beside(self.beside(&last, commanded)), GLIDE_SPEED * self.actuators.speed);
+                self.begin(
+                    GlideStart::Moving(self.difference_in_motion(&last, commanded)),
+                    GLIDE_SPEED * self.actuators.speed,
+                );
                 values = self.with_glide(&last, commanded, 0.0);
             }
             let [before, now] = [&last, &values].map(numbers);
@@ -181,12 +184,12 @@ impl FrameLimiter {
         values
     }
 
-    fn begin(&mut self, from: Beginning, speed: f64) {
+    fn begin(&mut self, from: GlideStart, speed: f64) {
         self.glide = Some(Glide { from, speed, lag: 1.0, left: 1.0 });
     }
 
     /// The difference to the commands of actuators that go on from the last frame at their speed.
-    fn beside(&self, last: &Values, commanded: &Values) -> [f64; GLIDED_NUMBERS] {
+    fn difference_in_motion(&self, last: &Values, commanded: &Values) -> [f64; GLIDED_NUMBERS] {
         let fastest = self.actuators.speed;
         let mut from = *last;
         for (length, velocity) in from.length.iter_mut().zip(commanded.velocity) {
@@ -213,7 +216,7 @@ impl FrameLimiter {
         let mut values = *commanded;
         set(&mut values, &std::array::from_fn(|k| commands[k] + left * difference[k]));
         // A mean of two places in the stroke brakes before its end if both do.
-        if let Beginning::Beside(difference) = &mut glide.from {
+        if let GlideStart::Moving(difference) = &mut glide.from {
             for k in 0..6 {
                 let length = self.actuators.braked(self.interval, last.length[k], values.length[k]);
                 if length != values.length[k] {

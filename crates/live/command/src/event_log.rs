@@ -4,10 +4,10 @@ use std::io;
 use std::time::Duration;
 
 use moris_live::log::Entry;
-use moris_live::session::Objection;
+use moris_live::session::TelemetryFault;
 use moris_live::signs::{Check, Verdict};
-use moris_live::sizes::Mismatch;
 use moris_live::source::{DropReason, Health};
+use moris_live::table_check::TableFault;
 use moris_live::{Legs, Refusal, State};
 use rtrb::Consumer;
 
@@ -31,7 +31,7 @@ pub enum Note {
     /// A check of the signs has decided.
     Sign(f64, Check, Verdict),
     /// The telemetry does not fit its table.
-    Mismatch(f64, Mismatch),
+    Table(f64, TableFault),
     /// Of so many samples so many were dropped, the last one for this reason.
     SamplesDropped(f64, [u64; 2], DropReason),
     /// Samples, and those of them that repeat the one before.
@@ -69,10 +69,10 @@ fn line(note: &Note) -> Option<String> {
         Note::Source(time, health, _) => format!("{time:9.3} s  telemetry: {}", health.name()),
         Note::Refused(time, refusal) => format!("{time:9.3} s  refused: {refusal}"),
         Note::Sign(time, check, Verdict::Contradicts) => {
-            format!("{time:9.3} s  {}", Objection::Sign(*check))
+            format!("{time:9.3} s  {}", TelemetryFault::Sign(*check))
         }
         Note::Sign(time, check, _) => format!("{time:9.3} s  sign agrees: {}", check.text()),
-        Note::Mismatch(time, mismatch) => format!("{time:9.3} s  {}", Objection::Size(*mismatch)),
+        Note::Table(time, fault) => format!("{time:9.3} s  {}", TelemetryFault::Table(*fault)),
         Note::SamplesDropped(time, [received, dropped], reason) => {
             format!("{time:9.3} s  {dropped} of {received} samples dropped: {reason}")
         }
@@ -107,7 +107,11 @@ fn line(note: &Note) -> Option<String> {
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep(mut notes: Consumer<Note>, mut record: Option<Recorder>, page: Option<&ControlBroker>) -> io::Result<()> {
+pub fn write_notes(
+    mut notes: Consumer<Note>,
+    mut record: Option<Recorder>,
+    page: Option<&ControlBroker>,
+) -> io::Result<()> {
     let mut recorded = Ok(());
     loop {
         let ended = notes.is_abandoned();

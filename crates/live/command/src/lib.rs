@@ -373,7 +373,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             sender.run()
         });
         let printer =
-            scope.spawn(move || watch(&shared.failed, Part::Journal, || event_log::keep(journal, record, page)));
+            scope.spawn(move || watch(&shared.failed, Part::Journal, || event_log::write_notes(journal, record, page)));
         if let Some(server) = &server {
             scope.spawn(|| watch(&shared.failed, Part::Page, || server.run(shared)));
             scope.spawn(|| watch(&shared.failed, Part::Page, || broker.show(showing, refusals, shared)));
@@ -447,7 +447,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         && session.washout().parameters().automatic_scale.automatic == AutomaticScale::On
     {
         let text = format!("automaticScale.start = {:.3}\n", session.washout().output().scale_factor);
-        learned_road::keep("scale", file, &text)?;
+        learned_road::write_learned("scale", file, &text)?;
     }
     if let Some(loss) = summary.loss {
         bail!("the session was in a fault: {loss}");
@@ -461,7 +461,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 fn with_learned_scale(options: &Options) -> Result<SetupOptions> {
     let mut setup = options.setup.clone();
     if let Some(file) = &options.learn_scale {
-        learned_road::check_can_keep("scale", file)?;
+        learned_road::check_is_writable("scale", file)?;
         if file.try_exists().with_context(|| file.display().to_string())? {
             setup.parameters.push(file.to_str().context("--learn-scale: the file's name is no UTF-8")?.to_owned());
         }
@@ -516,7 +516,7 @@ fn prepare_loop(options: &Options) {
     if !options.no_priority {
         console::line(&priority::claim());
     }
-    if let Some(Err(error)) = options.core.map(priority::keep_on) {
+    if let Some(Err(error)) = options.core.map(priority::pin_to_core) {
         console::line(&format!("the loop is on no core of its own: {error}"));
     }
 }

@@ -78,7 +78,7 @@ pub fn check_core(_: usize) -> Result<()> {
 /// # Errors
 /// The system does not permit it.
 #[cfg(target_os = "linux")]
-pub fn keep_on(core: usize) -> Result<()> {
+pub fn pin_to_core(core: usize) -> Result<()> {
     use rustix::thread::{CpuSet, sched_setaffinity};
     let mut cores = CpuSet::new();
     cores.set(core);
@@ -87,7 +87,7 @@ pub fn keep_on(core: usize) -> Result<()> {
 
 /// As above, where a thread cannot choose: [`check_core`] has refused before.
 #[cfg(not(target_os = "linux"))]
-pub fn keep_on(_: usize) -> Result<()> {
+pub fn pin_to_core(_: usize) -> Result<()> {
     Ok(())
 }
 
@@ -119,7 +119,7 @@ mod tests {
         let last = (0..CpuSet::MAX_CPU).rfind(|core| usable.is_set(*core)).unwrap();
         check_core(last).unwrap();
         let on = std::thread::spawn(move || {
-            keep_on(last).unwrap();
+            pin_to_core(last).unwrap();
             std::thread::yield_now();
             sched_getcpu()
         });

@@ -429,7 +429,7 @@ mod tests {
             let mut left = None;
             while let Ok(Sending { message, values, .. }) = self.sent.pop() {
                 if message == Message::Begin {
-                    self.limiter.begin_anew();
+                    self.limiter.forget_last_frame();
                 }
                 left = Some(self.limiter.pass(Duration::from_millis(self.summary.steps), &values).length);
             }

@@ -1,7 +1,7 @@
 //! Lines about the telemetry while it comes: signs, sizes, samples that are dropped, and its delay.
 
 use moris_live::Session;
-use moris_live::session::Objection;
+use moris_live::session::TelemetryFault;
 use moris_live::signs::{Check, Verdict};
 
 use super::event_log::Note;
@@ -10,7 +10,7 @@ use super::event_log::Note;
 #[derive(Clone, Copy, Debug)]
 pub struct TelemetryWatch {
     signs: [Verdict; Check::ALL.len()],
-    objection: Option<Objection>,
+    fault: Option<TelemetryFault>,
     /// Samples, and dropped ones of them, at the last line, and its time \[s\].
     counts: [u64; 2],
     dropped_at: f64,
@@ -25,7 +25,7 @@ impl Default for TelemetryWatch {
     fn default() -> Self {
         TelemetryWatch {
             signs: [Verdict::Unknown; Check::ALL.len()],
-            objection: None,
+            fault: None,
             counts: [0; 2],
             dropped_at: f64::NEG_INFINITY,
             looked: [0; 2],
@@ -49,13 +49,13 @@ impl TelemetryWatch {
                 note(Note::Sign(now, check, verdict));
             }
         }
-        let objection = session.objection();
-        if let Some(Objection::Size(mismatch)) = objection
-            && !self.objection.is_some_and(|known| is_of_kind(&known, &Objection::Size(mismatch)))
+        let fault = session.telemetry_fault();
+        if let Some(TelemetryFault::Table(fault)) = fault
+            && !self.fault.is_some_and(|known| is_of_kind(&known, &TelemetryFault::Table(fault)))
         {
-            note(Note::Mismatch(now, mismatch));
+            note(Note::Table(now, fault));
         }
-        self.objection = objection;
+        self.fault = fault;
         self.check_dropped(session, now, &mut note);
         self.check_repeated(session, now, &mut note);
         let delay = session.delay();
@@ -109,11 +109,13 @@ impl TelemetryWatch {
     }
 }
 
-/// True for two objections of one kind, whatever their numbers.
-fn is_of_kind(one: &Objection, other: &Objection) -> bool {
+/// True for two faults of one kind, whatever their numbers.
+fn is_of_kind(one: &TelemetryFault, other: &TelemetryFault) -> bool {
     match (one, other) {
-        (Objection::Size(one), Objection::Size(other)) => std::mem::discriminant(one) == std::mem::discriminant(other),
-        (Objection::Sign(one), Objection::Sign(other)) => one == other,
+        (TelemetryFault::Table(one), TelemetryFault::Table(other)) => {
+            std::mem::discriminant(one) == std::mem::discriminant(other)
+        }
+        (TelemetryFault::Sign(one), TelemetryFault::Sign(other)) => one == other,
         _ => false,
     }
 }
@@ -199,8 +201,8 @@ mod tests {
             sample.motion.0[2] = 1.0 + 0.1 * (3.0 * t).sin();
             sample
         });
-        let found: Vec<&Note> = notes.iter().filter(|note| matches!(note, Note::Mismatch(..))).collect();
-        assert!(matches!(found[..], [Note::Mismatch(time, _)] if *time <= 3.0), "{notes:?}");
+        let found: Vec<&Note> = notes.iter().filter(|note| matches!(note, Note::Table(..))).collect();
+        assert!(matches!(found[..], [Note::Table(time, _)] if *time <= 3.0), "{notes:?}");
     }
 
     #[test]

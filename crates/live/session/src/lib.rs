@@ -17,12 +17,12 @@
 //! | [`gaps`] | times between samples, from which the delay follows |
 //! | [`resampler`] | linear interpolation of irregular samples, with a delay |
 //! | [`road`] | the road as it is learned, and the preview by it |
-//! | [`gate`] | change of the washout's source without a jump |
+//! | [`gliding_source`] | change of the washout's source without a jump |
 //! | [`legs`] | where the legs are before they follow commands |
 //! | [`travel`] | the way between the settled pose and neutral |
 //! | [`tuning`] | parameters that are chosen in motion |
 //! | [`signs`] | test of the telemetry's signs |
-//! | [`sizes`] | test of its units, axes and gravity |
+//! | [`table_check`] | test of its units, axes and gravity |
 //! | [`relation`] | how two signals go together |
 //! | [`format`](mod@format) | packets of telemetry, described by tables |
 //! | [`moog`] | the motion base MOOG 6DOF2000E |
@@ -56,7 +56,7 @@ pub mod clock_pace;
 pub mod format;
 pub mod frame;
 pub mod gaps;
-pub mod gate;
+pub mod gliding_source;
 pub mod legs;
 pub mod log;
 pub mod moog;
@@ -66,15 +66,15 @@ pub mod resampler;
 pub mod road;
 pub mod session;
 pub mod signs;
-pub mod sizes;
 pub mod source;
 pub mod spikes;
 pub mod standing;
+pub mod table_check;
 pub mod transitions;
 pub mod travel;
 pub mod tuning;
 
 pub use legs::Legs;
 pub use motion::{Motion, Sample};
-pub use session::{Commands, Objection, Refusal, STEP, Session, Settings};
+pub use session::{Commands, Refusal, STEP, Session, Settings, TelemetryFault};
 pub use transitions::{Event, State};

@@ -3,7 +3,7 @@
 use moris_laps::{Laps, Preview, Sample};
 use moris_washout::Washout;
 
-use crate::gate::Gate;
+use crate::gliding_source::GlidingSource;
 use crate::resampler::Stamped;
 
 /// The road that a vehicle drives.
@@ -62,11 +62,11 @@ impl Road {
         });
     }
 
-    /// Gives the washout the preview as of the last sample, with what the gate will still add.
-    pub fn give(&mut self, washout: &mut Washout, gate: &Gate) {
+    /// Gives the washout the preview as of the last sample, with what its glide will still add.
+    pub fn give(&mut self, washout: &mut Washout, source: &GlidingSource) {
         let mut preview = self.laps.preview();
         for k in 0..preview.count.unsigned_abs() as usize {
-            let ahead = gate.difference((k + 1) as f64 * preview.step);
+            let ahead = source.difference((k + 1) as f64 * preview.step);
             preview.surge[k] += ahead[0];
             preview.sway[k] += ahead[1];
         }

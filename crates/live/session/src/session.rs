@@ -8,14 +8,14 @@ use moris_washout::platform::{Geometry, Pose, forward_kinematics};
 use moris_washout::{ParameterError, Parameters, Washout};
 use serde::{Deserialize, Serialize};
 
-use crate::gate::{Change, Gate};
+use crate::gliding_source::{Change, GlidingSource};
 use crate::legs::{Legs, lengths_within, lowest};
 use crate::motion::{Channels, Motion, Sample};
 use crate::resampler::{At, Resampler};
 use crate::road::Road;
 use crate::signs::{Check, Signs};
-use crate::sizes::{Mismatch, Sizes};
 use crate::source::{Health, Source};
+use crate::table_check::{TableCheck, TableFault};
 use crate::transitions::{Event, State};
 use crate::travel::Travel;
 use crate::tuning::{self, Tuning};
@@ -61,13 +61,13 @@ impl Default for Settings {
 
 /// Reason for which telemetry is not cued.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Objection {
+pub enum TelemetryFault {
     /// The signs contradict each other.
     #[error("WRONG SIGN: {}. Not engaging until then, except with --ignore-signs", .0.remedy())]
     Sign(Check),
     /// A unit, an axis or the gravity of the table does not fit.
     #[error("WRONG TABLE: {0}. Not engaging until then, except with --ignore-signs")]
-    Size(Mismatch),
+    Table(TableFault),
 }
 
 /// Reason for which an event of a person is refused.
@@ -81,7 +81,7 @@ pub enum Refusal {
     Source(Health),
     /// The telemetry contradicts itself or its table.
     #[error("{0}")]
-    Telemetry(Objection),
+    Telemetry(TelemetryFault),
     /// The place of the legs is unknown.
     #[error(
         "{} needs the legs' place, which is unknown: let the controller report it, confirm that the platform is \
@@ -193,14 +193,14 @@ pub struct Session {
     source: Source,
     resampler: Resampler,
     signs: Signs,
-    sizes: Sizes,
+    table_check: TableCheck,
     /// Delay of the telemetry \[s\].
     delay: f64,
     /// Time from which on the last step's telemetry was held \[s\].
     held_from: Option<f64>,
     /// The source's motion and slope at the last step.
     last: Option<(Motion, Channels)>,
-    gate: Gate,
+    gliding_source: GlidingSource,
     /// None if no road is learned.
     road: Option<Road>,
     /// The source has changed since the last step.
@@ -261,11 +261,11 @@ impl Session {
             source: Source::new(settings.is_inside),
             resampler: Resampler::default(),
             signs: Signs::default(),
-            sizes: Sizes::default(),
+            table_check: TableCheck::default(),
             delay: settings.delay.unwrap_or_default(),
             held_from: None,
             last: None,
-            gate: Gate::default(),
+            gliding_source: GlidingSource::default(),
             road: None,
             changed: false,
             slipped: 0.0,
@@ -331,17 +331,17 @@ impl Session {
     }
 
     /// The reason for which the telemetry is not cued, whether or not the settings ignore it.
-    pub fn objection(&self) -> Option<Objection> {
-        let pace = self.source.wrong_pace().map(Mismatch::Time);
-        let size = pace.or_else(|| self.sizes.mismatch()).map(Objection::Size);
-        size.or_else(|| self.signs.contradiction().map(Objection::Sign))
+    pub fn telemetry_fault(&self) -> Option<TelemetryFault> {
+        let pace = self.source.wrong_pace().map(TableFault::Time);
+        let table = pace.or_else(|| self.table_check.fault()).map(TelemetryFault::Table);
+        table.or_else(|| self.signs.contradiction().map(TelemetryFault::Sign))
     }
 
     /// The reason for which the telemetry lets nobody engage now.
     pub fn telemetry_refusal(&self) -> Option<Refusal> {
-        let objection = self.objection().filter(|_| !self.settings.ignore_signs).map(Refusal::Telemetry);
+        let fault = self.telemetry_fault().filter(|_| !self.settings.ignore_signs).map(Refusal::Telemetry);
         let health = self.source.health();
-        objection.or_else(|| (health != Health::Running).then_some(Refusal::Source(health)))
+        fault.or_else(|| (health != Health::Running).then_some(Refusal::Source(health)))
     }
 
     /// The parameters in force, or those to which they glide.
@@ -361,7 +361,7 @@ impl Session {
 
     /// The vehicle's motion that the washout has received last.
     pub fn passed(&self) -> &Motion {
-        self.gate.output()
+        self.gliding_source.output()
     }
 
     /// Learns the road from here on. These laps of it are known.
@@ -528,7 +528,7 @@ impl Session {
                 } else {
                     self.resampler.push(arrival, *time, sample.motion, sample.position);
                     self.signs.take(*time, sample);
-                    self.sizes.take(*time, sample);
+                    self.table_check.take(*time, sample);
                 }
             }
         }
@@ -558,14 +558,14 @@ impl Session {
         if let Some(event) = self.source.listen(now) {
             self.follow(event);
         }
-        if !self.settings.ignore_signs && self.state.is_engaged() && self.objection().is_some() {
+        if !self.settings.ignore_signs && self.state.is_engaged() && self.telemetry_fault().is_some() {
             self.follow(Event::Disengage);
         }
         self.adjust_delay();
         self.tuning.apply(&mut self.washout, self.steps);
         self.learn_road(now - STEP - self.delay);
         let (at, change) = self.input(now);
-        let [start, end] = self.gate.advance(&at.motion, &at.slope, change, STEP);
+        let [start, end] = self.gliding_source.advance(&at.motion, &at.slope, change, STEP);
         let engaged = self.state.is_engaged();
         self.washout.step_between(&start.input(engaged), &end.input(engaged), STEP);
         let output = self.washout.output();
@@ -599,7 +599,7 @@ impl Session {
         if !self.state.follows_telemetry() {
             road.take_back(&mut self.washout);
         } else if is_new {
-            road.give(&mut self.washout, &self.gate);
+            road.give(&mut self.washout, &self.gliding_source);
         }
     }
 
@@ -673,7 +673,7 @@ impl Session {
             State::Homing => at_neutral && self.travel.is_up(),
             State::Engaging => {
                 let lasts = (self.steps - self.since) as f64 * STEP >= LEAST_ENGAGING;
-                lasts && self.washout.engagement() == 1.0 && self.gate.is_open()
+                lasts && self.washout.engagement() == 1.0 && self.gliding_source.is_settled()
             }
             State::Disengaging => self.washout.engagement() == 0.0 && at_neutral,
             State::Parking => !self.goes_up && self.travel.is_down(),

@@ -54,7 +54,7 @@ impl<'a> Kept<'a> {
 pub fn load(file: &Path) -> Result<Laps> {
     // Largest file [bytes]. A full memory has less than 4 MB.
     const MAX_FILE_SIZE: u64 = 16_000_000;
-    check_can_keep("road", file)?;
+    check_is_writable("road", file)?;
     match moris_fmu_host::files::text(file, MAX_FILE_SIZE) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(Laps::new()),
         text => {
@@ -69,7 +69,7 @@ pub fn load(file: &Path) -> Result<Laps> {
 ///
 /// # Errors
 /// It is not, or takes none. `learned` names what is to be kept.
-pub fn check_can_keep(learned: &str, file: &Path) -> Result<()> {
+pub fn check_is_writable(learned: &str, file: &Path) -> Result<()> {
     if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
     }
@@ -82,14 +82,14 @@ pub fn check_can_keep(learned: &str, file: &Path) -> Result<()> {
 /// # Errors
 /// As [`keep`].
 pub fn save(file: &Path, laps: &Laps) -> Result<()> {
-    keep("road", file, &laps.text())
+    write_learned("road", file, &laps.text())
 }
 
 /// Writes a text with what was learned to the file, whole or not at all.
 ///
 /// # Errors
 /// It cannot be written. The file is as before then.
-pub fn keep(learned: &str, file: &Path, text: &str) -> Result<()> {
+pub fn write_learned(learned: &str, file: &Path, text: &str) -> Result<()> {
     // What a link points to is replaced, not the link.
     let target = file.canonicalize();
     let file = target.as_deref().unwrap_or(file);

@@ -205,7 +205,7 @@ fn a_controller_that_was_lost_is_followed_from_where_it_was() {
     }
     assert_eq!(last, 1.6);
     // Somebody knows where the platform is.
-    limiter.begin_anew();
+    limiter.forget_last_frame();
     assert_eq!(limiter.pass(Duration::from_secs(50), &commanded(50.0)).length, commanded(50.0).length);
 }
 

@@ -172,7 +172,7 @@ impl<'a> Sender<'a> {
             self.sink.reopen();
         }
         if message == Message::Begin {
-            self.limiter.begin_anew();
+            self.limiter.forget_last_frame();
         }
         if self.connection.is_lost() && message != Message::Stop {
             // What comes back without a person who clears it would jump.

@@ -14,7 +14,7 @@ use moris_washout::{ParameterError, Parameters, Washout};
 use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
-use super::refusal::{Refusal, Status};
+use super::http_error::{HttpError, Status};
 use super::snapshot::{self, ROW_NAMES, Snapshot};
 use crate::controls::Controls;
 use crate::frames::Loss;
@@ -249,9 +249,9 @@ impl ControlBroker {
     }
 
     /// Passes a stop or a park on, from whichever page it comes.
-    fn ask_at_once(&self, event: Event) -> Result<(), Refusal> {
+    fn ask_at_once(&self, event: Event) -> Result<(), HttpError> {
         let mut urgent = self.urgent.lock().unwrap_or_else(PoisonError::into_inner);
-        let refused = |_| Refusal::new(Status::Unavailable, "the loop has not taken the last orders yet");
+        let refused = |_| HttpError::new(Status::Unavailable, "the loop has not taken the last orders yet");
         urgent.push(Order::Event(event)).map_err(refused)
     }
 
@@ -259,9 +259,9 @@ impl ControlBroker {
     ///
     /// # Errors
     /// The status of the refusal, and its reason.
-    pub fn ask(&self, body: &[u8]) -> Result<(), Refusal> {
+    pub fn ask(&self, body: &[u8]) -> Result<(), HttpError> {
         let asked: Asked =
-            serde_json::from_slice(body).map_err(|error| Refusal::new(Status::BadRequest, error.to_string()))?;
+            serde_json::from_slice(body).map_err(|error| HttpError::new(Status::BadRequest, error.to_string()))?;
         if let Ask::Event(name) = &asked.ask
             && let Some(event @ (Event::Stop | Event::Park)) = Event::of_person(name)
         {
@@ -274,41 +274,42 @@ impl ControlBroker {
         let drives = matches!(asked.ask, Ask::Drive(_) | Ask::BeginAgain);
         let holds = inner.controller.as_ref().is_some_and(|holder| holder.client == asked.client);
         if (drives || !self.shared_control) && !holds {
-            return Err(Refusal::new(Status::Forbidden, "another page controls; Stop and Park work here, too"));
+            return Err(HttpError::new(Status::Forbidden, "another page controls; Stop and Park work here, too"));
         }
         match asked.ask {
             Ask::Drive(command) => self.drive(|controls| controls.hold(&command, loop_clock::now())),
             Ask::BeginAgain => self.drive(Controls::begin_again),
             Ask::Event(name) => {
                 let event = Event::of_person(&name)
-                    .ok_or_else(|| Refusal::unprocessable(format!("there is no command {name}")))?;
+                    .ok_or_else(|| HttpError::unprocessable(format!("there is no command {name}")))?;
                 inner.send(&[Order::Event(event)])
             }
             Ask::Legs(name) => {
                 let legs = Legs::of_person(&name)
-                    .ok_or_else(|| Refusal::unprocessable(format!("{name} is no place of the legs")))?;
+                    .ok_or_else(|| HttpError::unprocessable(format!("{name} is no place of the legs")))?;
                 inner.send(&[Order::Legs(legs)])
             }
             Ask::Set(values) => {
                 let values: Option<Vec<_>> =
                     values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
-                let values = values.ok_or_else(|| Refusal::unprocessable("there is no such parameter"))?;
+                let values = values.ok_or_else(|| HttpError::unprocessable("there is no such parameter"))?;
                 inner.choose(&values)
             }
         }
     }
 
-    fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), Refusal> {
-        let controls = self.controls.as_ref().ok_or_else(|| Refusal::unprocessable("this vehicle has no controls"))?;
-        act(controls).map_err(Refusal::unprocessable)
+    fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), HttpError> {
+        let controls =
+            self.controls.as_ref().ok_or_else(|| HttpError::unprocessable("this vehicle has no controls"))?;
+        act(controls).map_err(HttpError::unprocessable)
     }
 }
 
 impl Inner {
     /// Passes orders on: all or none, because a part of a set may not fit together.
-    fn send(&mut self, orders: &[Order]) -> Result<(), Refusal> {
+    fn send(&mut self, orders: &[Order]) -> Result<(), HttpError> {
         let Ok(place) = self.orders.write_chunk_uninit(orders.len()) else {
-            return Err(Refusal::new(Status::Unavailable, "the loop has not taken the last orders yet"));
+            return Err(HttpError::new(Status::Unavailable, "the loop has not taken the last orders yet"));
         };
         place.fill_from_iter(orders.iter().copied());
         Ok(())
@@ -326,16 +327,16 @@ impl Inner {
     }
 
     /// Puts values of slots in force if they can be used now.
-    fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), Refusal> {
+    fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), HttpError> {
         for (slot, value) in values {
-            log::check_value(*slot, *value).map_err(|error| Refusal::unprocessable(error.to_string()))?;
+            log::check_value(*slot, *value).map_err(|error| HttpError::unprocessable(error.to_string()))?;
         }
         let mut slots = slots_of(self.trial.parameters());
         values.iter().for_each(|(slot, value)| slots[*slot] = *value);
         let mut tried = self.trial.clone();
         let parameters = Parameters::read(&mut Reader::new(&slots));
         retune(&mut tried, &parameters, self.state)
-            .map_err(|error| Refusal::unprocessable(self.reason(&parameters, &error)))?;
+            .map_err(|error| HttpError::unprocessable(self.reason(&parameters, &error)))?;
         let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
         self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
         self.trial = tried;
@@ -480,7 +481,7 @@ mod tests {
             for (change, name) in
                 [("{\"strategy\":2}", "strategy"), ("{\"scale.specificForce.x\":-1}", "scale.specificForce.x")]
             {
-                let Refusal { status, reason: why } = set(change).unwrap_err();
+                let HttpError { status, reason: why } = set(change).unwrap_err();
                 assert_eq!(status, Status::Unprocessable);
                 assert!(why.starts_with("Park first: ") && why.contains(name), "{why}");
             }

@@ -4,15 +4,15 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::{IpAddr, TcpStream};
 use std::time::{Duration, Instant};
 
-use super::refusal::{Refusal, Status};
+use super::http_error::{HttpError, Status};
 
 /// Most bytes of a request's head, and of its body.
 const MAX_PART_SIZE: usize = 16_384;
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 
-fn refused<T>(status: Status, reason: &str) -> Result<T, Refusal> {
-    Err(Refusal::new(status, reason))
+fn refused<T>(status: Status, reason: &str) -> Result<T, HttpError> {
+    Err(HttpError::new(status, reason))
 }
 
 /// A request of a browser, read and bounded.
@@ -47,7 +47,7 @@ impl Incoming {
 
     /// Takes what has come. The request, once it is whole; its refusal, if it is none,
     /// too large, or too slow.
-    pub fn request(&mut self) -> Option<Result<Request, Refusal>> {
+    pub fn request(&mut self) -> Option<Result<Request, HttpError>> {
         // Time in which a request must be complete.
         const REQUEST_TIMEOUT: Duration = Duration::from_secs(1);
         let mut part = [0; 4096];
@@ -74,7 +74,7 @@ impl Incoming {
 }
 
 /// A request without its body, the length of its head and of its body; none if the head goes on.
-fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Refusal> {
+fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, HttpError> {
     let mut headers = [httparse::EMPTY_HEADER; 64];
     let mut parsed = httparse::Request::new(&mut headers);
     let head = match parsed.parse(bytes) {
@@ -120,7 +120,7 @@ impl Access {
     ///
     /// # Errors
     /// It has no token, or comes from another page.
-    pub fn check(&self, request: &Request) -> Result<(), Refusal> {
+    pub fn check(&self, request: &Request) -> Result<(), HttpError> {
         // A name would let another page's server point its own name here.
         let (host, port) = request.host.rsplit_once(':').unwrap_or((&request.host, "80"));
         let address = host.trim_start_matches('[').trim_end_matches(']');

@@ -12,7 +12,7 @@
 
 mod control_broker;
 mod http;
-mod refusal;
+mod http_error;
 mod server;
 mod snapshot;
 mod track;

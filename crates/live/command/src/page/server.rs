@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use super::control_broker::ControlBroker;
 use super::http::{self, Access, Incoming, Request};
-use super::refusal::{Refusal, Status};
+use super::http_error::{HttpError, Status};
 use super::track::Track;
 use crate::Shared;
 use crate::controls::Handling;
@@ -157,13 +157,13 @@ impl Server {
 struct ConnectionSlot<'a>(&'a AtomicUsize);
 
 impl<'a> ConnectionSlot<'a> {
-    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, Refusal> {
+    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, HttpError> {
         let place = ConnectionSlot(places);
         let taken = places.fetch_add(1, Ordering::Relaxed);
         if taken < most {
             Ok(place)
         } else {
-            Err(Refusal::new(Status::Unavailable, "too many pages or requests at once"))
+            Err(HttpError::new(Status::Unavailable, "too many pages or requests at once"))
         }
     }
 }
@@ -175,18 +175,18 @@ impl Drop for ConnectionSlot<'_> {
 }
 
 impl Site {
-    fn serve(&self, mut stream: TcpStream, request: Result<Request, Refusal>) {
+    fn serve(&self, mut stream: TcpStream, request: Result<Request, HttpError>) {
         let is_ready = stream.set_nonblocking(false).is_ok()
             && stream.set_nodelay(true).is_ok()
             && stream.set_write_timeout(Some(http::WRITE_TIME)).is_ok();
-        let request = if is_ready { request } else { Err(Refusal::new(Status::Internal, "")) };
+        let request = if is_ready { request } else { Err(HttpError::new(Status::Internal, "")) };
         let answered = request.and_then(|request| self.answer(&request, &mut stream));
         if let Err(refusal) = answered {
             http::answer(&mut stream, refusal.number(), "text/plain", &refusal.reason);
         }
     }
 
-    fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), Refusal> {
+    fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), HttpError> {
         // Most pages, and most of their other requests at once.
         const MOST_PAGES: usize = 12;
         const MOST_REQUESTS: usize = 24;
@@ -201,13 +201,13 @@ impl Site {
                 self.broker.ask(&request.body)?;
                 http::answer(stream, 200, "text/plain", "");
             }
-            _ => return Err(Refusal::new(Status::NotFound, "there is nothing here")),
+            _ => return Err(HttpError::new(Status::NotFound, "there is nothing here")),
         }
         Ok(())
     }
 
-    fn send_events(&self, stream: &mut TcpStream) -> Result<(), Refusal> {
-        let client = secret().map_err(|error| Refusal::new(Status::Internal, error.to_string()))?;
+    fn send_events(&self, stream: &mut TcpStream) -> Result<(), HttpError> {
+        let client = secret().map_err(|error| HttpError::new(Status::Internal, error.to_string()))?;
         let welcome = serde_json::to_string(&self.broker.enter(&client)).unwrap_or_default();
         if http::begin_events(stream) && http::send_event(stream, "welcome", &welcome) {
             let mut number = 0;

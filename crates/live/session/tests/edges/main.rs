@@ -3,6 +3,6 @@
 mod feed;
 mod legs;
 mod signs;
-mod sizes;
+mod table_check;
 mod times;
 mod tuning;

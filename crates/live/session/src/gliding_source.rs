@@ -1,4 +1,4 @@
-//! The gate in front of the washout: its source changes without a jump.
+//! The washout's source of motion, which changes without a jump.
 //!
 //! While a source is followed, its motion passes as it is. When the source changes or jumps, the
 //! difference to what has passed so far is added, and goes to zero: a glide. Value and slope of
@@ -17,9 +17,9 @@ pub enum Change {
     Gap(f64),
 }
 
-/// The gate.
+/// The source, with what a glide adds to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gate {
+pub struct GlidingSource {
     output: Motion,
     slope: Channels,
     glide: Option<Glide>,
@@ -52,14 +52,14 @@ impl Glide {
     }
 }
 
-impl Gate {
+impl GlidingSource {
     /// The motion that has passed last.
     pub fn output(&self) -> &Motion {
         &self.output
     }
 
     /// True if the source passes as it is.
-    pub fn is_open(&self) -> bool {
+    pub fn is_settled(&self) -> bool {
         self.glide.is_none()
     }
 
@@ -138,23 +138,23 @@ mod tests {
 
     #[test]
     fn a_source_passes_as_it_is() {
-        let mut gate = Gate::default();
+        let mut source_glide = GlidingSource::default();
         for k in 1..1000 {
             let (source, slope) = sine(f64::from(k) * STEP);
-            assert_eq!(gate.advance(&source, &slope, Change::None, STEP)[1], source);
+            assert_eq!(source_glide.advance(&source, &slope, Change::None, STEP)[1], source);
         }
     }
 
     #[test]
     fn changes_at_any_time_are_continuous_in_value_and_slope() {
-        let mut gate = Gate::default();
+        let mut source_glide = GlidingSource::default();
         let mut passed = Vec::new();
         for k in 0..40_000 {
             let rests = k / 1_300 % 2 == 0;
             let change = if k % 1_300 == 0 { Change::Source } else { Change::None };
             let (source, slope) = sine(f64::from(k) * STEP);
             let (source, slope) = if rests { (Motion::at_rest(), Channels::zeros()) } else { (source, slope) };
-            passed.push(gate.advance(&source, &slope, change, STEP)[1].0[0]);
+            passed.push(source_glide.advance(&source, &slope, change, STEP)[1].0[0]);
         }
         let slopes: Vec<f64> = passed.windows(2).map(|pair| (pair[1] - pair[0]) / STEP).collect();
         assert!(slopes.iter().all(|slope| slope.abs() < 12.0));
@@ -167,17 +167,17 @@ mod tests {
     #[test]
     fn a_glide_ends_after_one_to_five_seconds() {
         for (size, expected) in [(0.5, 1.0), (6.0, 3.0), (50.0, 5.0)] {
-            let mut gate = Gate::default();
+            let mut source_glide = GlidingSource::default();
             let zero = Channels::zeros();
-            gate.advance(&surge(0.0), &zero, Change::None, STEP);
-            gate.advance(&surge(size), &zero, Change::Source, STEP);
+            source_glide.advance(&surge(0.0), &zero, Change::None, STEP);
+            source_glide.advance(&surge(size), &zero, Change::Source, STEP);
             let mut time = STEP;
-            while !gate.is_open() {
-                gate.advance(&surge(size), &zero, Change::None, STEP);
+            while !source_glide.is_settled() {
+                source_glide.advance(&surge(size), &zero, Change::None, STEP);
                 time += STEP;
             }
             assert!((time - expected).abs() < 2.0 * STEP, "{size}: {time} s");
-            assert_eq!(gate.output().0[0], size);
+            assert_eq!(source_glide.output().0[0], size);
         }
     }
 
@@ -188,16 +188,16 @@ mod tests {
             motion.0[8] = yaw;
             motion
         };
-        let mut gate = Gate::default();
+        let mut source_glide = GlidingSource::default();
         let zero = Channels::zeros();
         for _ in 0..100 {
-            gate.advance(&turned(3.0), &zero, Change::None, STEP);
+            source_glide.advance(&turned(3.0), &zero, Change::None, STEP);
         }
-        let [mut start, mut end] = gate.advance(&turned(-3.0), &zero, Change::Source, STEP);
+        let [mut start, mut end] = source_glide.advance(&turned(-3.0), &zero, Change::Source, STEP);
         for _ in 0..2000 {
             assert!((end.0[8] - start.0[8]).abs() < 1e-3);
             assert!((-3.29..-2.99).contains(&end.0[8]), "{}", end.0[8]);
-            [start, end] = gate.advance(&turned(-3.0), &zero, Change::None, STEP);
+            [start, end] = source_glide.advance(&turned(-3.0), &zero, Change::None, STEP);
         }
     }
 }

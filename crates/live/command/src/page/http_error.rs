@@ -18,20 +18,20 @@ pub enum Status {
 
 /// Answer to a request that is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refusal {
+pub struct HttpError {
     pub status: Status,
     pub reason: String,
 }
 
-impl Refusal {
+impl HttpError {
     /// A refusal with this status, for this reason.
     pub fn new(status: Status, reason: impl Into<String>) -> Self {
-        Refusal { status, reason: reason.into() }
+        HttpError { status, reason: reason.into() }
     }
 
     /// A refusal of a request that is understood, but cannot be carried out.
     pub fn unprocessable(reason: impl Into<String>) -> Self {
-        Refusal::new(Status::Unprocessable, reason)
+        HttpError::new(Status::Unprocessable, reason)
     }
 
     /// HTTP's number of the status.

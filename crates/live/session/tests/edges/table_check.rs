@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use moris_live::signs::{Check, Signs, Verdict};
-use moris_live::sizes::Sizes;
+use moris_live::table_check::TableCheck;
 use moris_live::{Event, Motion, Refusal, Sample, Session, Settings, State};
 use moris_washout::Parameters;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY as G};
@@ -42,13 +42,13 @@ fn motorcycle(t: f64) -> Sample {
     Sample { time: Some(t), motion, has_angles: true, ..Sample::default() }
 }
 
-/// The first mismatch within a minute at 100 Hz, and its time.
+/// The first fault within a minute at 100 Hz, and its time.
 fn found(ride: impl Fn(f64) -> Sample) -> Option<(f64, String)> {
-    let mut sizes = Sizes::default();
+    let mut check = TableCheck::default();
     let mut times = (0..6000).map(|k| f64::from(k) * 0.01);
     times.find_map(|t| {
-        sizes.take(t, &ride(t));
-        Some((t, sizes.mismatch()?.to_string()))
+        check.take(t, &ride(t));
+        Some((t, check.fault()?.to_string()))
     })
 }
 

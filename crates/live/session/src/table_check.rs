@@ -1,8 +1,9 @@
-//! Test of the telemetry's sizes over the first minute: units, axes and gravity.
+//! Compares the telemetry with its table over the first minute: units, axes and gravity.
 //!
-//! Recordings are tested by the same facts. Rates are the derivatives of angles, the force along x
-//! changes the speed, the force along y is that of bends, and gravity is along z. What a unit, an
-//! exchanged axis or the gravity of the table explains is a [`Mismatch`], with the line to change.
+//! Recordings are tested by the same facts. Rates are the derivatives of angles, the force
+//! along x changes the speed, the force along y is that of bends, and gravity is along z.
+//! What a unit, an exchanged axis or the gravity of the table explains is a [`TableFault`],
+//! with the line to change.
 
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
@@ -45,7 +46,7 @@ const GRAVITY_HELD: f64 = 1.5;
 
 /// A table that contradicts its telemetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mismatch {
+pub enum TableFault {
     /// The clock advances by so many seconds in a second.
     Time(f64),
     /// Rates so many times the derivatives of the angles, or those of bends.
@@ -102,12 +103,12 @@ pub enum GravityFault {
     Large,
 }
 
-impl Display for Mismatch {
+impl Display for TableFault {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         const RATE_NAMES: [&str; 3] = ["wx", "wy", "wz"];
         const ANGLE_NAMES: [&str; 3] = ["roll", "pitch", "yaw"];
         match *self {
-            Mismatch::Time(pace) => {
+            TableFault::Time(pace) => {
                 write!(f, "the packets' clock advances by {pace:.3} s in a second: in the line of time set ")?;
                 match pace {
                     300.0..3000.0 => write!(f, "unit = \"ms\""),
@@ -115,27 +116,27 @@ impl Display for Mismatch {
                     _ => write!(f, "scale = {:.1e}, or leave it out", 1.0 / pace),
                 }
             }
-            Mismatch::Rates(ratio) if ratio > 1.0 => write!(
+            TableFault::Rates(ratio) if ratio > 1.0 => write!(
                 f,
                 "wx, wy and wz are {ratio:.0} times as large as angles, or bends, say: in their lines set unit = \
                  \"deg/s\" (or unit = \"rad\" in those of roll, pitch and yaw)"
             ),
-            Mismatch::Rates(ratio) => write!(
+            TableFault::Rates(ratio) => write!(
                 f,
                 "wx, wy and wz are {:.0} times as small as the angles say: in their lines set unit = \"rad/s\"",
                 1.0 / ratio
             ),
-            Mismatch::FastRates => write!(
+            TableFault::FastRates => write!(
                 f,
                 "wx, wy and wz are beyond {FASTEST_RATE:.0} rad/s for much of the time: in their lines set unit = \"deg/s\""
             ),
-            Mismatch::Angles(angle) => {
+            TableFault::Angles(angle) => {
                 write!(
                     f,
                     "roll, pitch or yaw reach {angle:.0} rad: in the lines of roll, pitch and yaw set unit = \"deg\""
                 )
             }
-            Mismatch::Gravity(fault, force) => {
+            TableFault::Gravity(fault, force) => {
                 write!(f, "the vertical force is {force:.1} m/s2 in the mean and not 9.8: ")?;
                 match fault {
                     GravityFault::InG => write!(f, "in the lines of ax, ay and az set unit = \"g\""),
@@ -156,7 +157,7 @@ impl Display for Mismatch {
                     }
                 }
             }
-            Mismatch::Force(axis, ratio) => {
+            TableFault::Force(axis, ratio) => {
                 let (name, of) = match axis {
                     Horizontal::Forward => ("ax", "the change of speed"),
                     Horizontal::Left => ("ay", "speed times wz"),
@@ -167,23 +168,23 @@ impl Display for Mismatch {
                     None => write!(f, "check the units of ax, ay and speed"),
                 }
             }
-            Mismatch::Exchanged(rate, angle) => write!(
+            TableFault::Exchanged(rate, angle) => write!(
                 f,
                 "{} is the rate of {}, and {} is not: exchange `at` of {} and {}",
                 RATE_NAMES[rate], ANGLE_NAMES[angle], RATE_NAMES[angle], RATE_NAMES[rate], RATE_NAMES[angle]
             ),
-            Mismatch::Bends(part) => write!(
+            TableFault::Bends(part) => write!(
                 f,
                 "the lateral force of bends is missing: ay is {part:.2} times speed times wz. In the line of ay name the \
                  accelerometer's column, not the change of a velocity in the vehicle's axes"
             ),
-            Mismatch::ExchangedForces => {
+            TableFault::ExchangedForces => {
                 write!(f, "the force along y changes the speed, not that along x: exchange `at` of ax and ay")
             }
-            Mismatch::WorldForces => {
+            TableFault::WorldForces => {
                 write!(f, "the speed follows the forces along fixed axes: set force-axes = \"world\"")
             }
-            Mismatch::Attitude(axis) => {
+            TableFault::Attitude(axis) => {
                 let (angle, rate) = (ANGLE_NAMES[axis], RATE_NAMES[axis]);
                 write!(
                     f,
@@ -191,15 +192,15 @@ impl Display for Mismatch {
                      their signs agree"
                 )
             }
-            Mismatch::UpsideDown => write!(
+            TableFault::UpsideDown => write!(
                 f,
                 "roll and pitch turn the vehicle upside down, as those of axes that point down: leave roll, pitch and \
                  yaw out, or send them without the half turn"
             ),
-            Mismatch::MissingForce => {
+            TableFault::MissingForce => {
                 write!(f, "ax is nothing while the speed changes: in its line name the column of the force")
             }
-            Mismatch::MissingRate(axis) => {
+            TableFault::MissingRate(axis) => {
                 let (angle, rate) = (ANGLE_NAMES[axis], RATE_NAMES[axis]);
                 write!(f, "{rate} is nothing while {angle} changes: in its line name the column of the rate")
             }
@@ -224,9 +225,9 @@ fn unit_of_force(ratio: f64) -> Option<&'static str> {
     UNITS.into_iter().find(|(unit, _)| is_near(*unit)).map(|(_, remedy)| remedy)
 }
 
-/// The comparison of sizes.
+/// The comparison so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sizes {
+pub struct TableCheck {
     last: Option<(f64, Sample)>,
     window: Window,
     time: f64,
@@ -262,7 +263,7 @@ pub struct Sizes {
     sways: [Sums; 3],
     yaw_surge: Sums,
     gravity: MeanForce,
-    found: Option<Mismatch>,
+    found: Option<TableFault>,
 }
 
 /// Integrals over a window.
@@ -273,7 +274,7 @@ struct Window {
     begin: Channels,
 }
 
-impl Sizes {
+impl TableCheck {
     /// Takes a sample of this time \[s\].
     pub fn take(&mut self, time: f64, sample: &Sample) {
         // Time for which samples are compared [s].
@@ -368,12 +369,12 @@ impl Sizes {
         }
     }
 
-    /// The first mismatch so far.
-    pub fn mismatch(&self) -> Option<Mismatch> {
+    /// The first fault so far.
+    pub fn fault(&self) -> Option<TableFault> {
         self.found.or_else(|| self.gravity.fault())
     }
 
-    fn judge(&self) -> Option<Mismatch> {
+    fn judge(&self) -> Option<TableFault> {
         self.units_of_rates()
             .or_else(|| self.gravity.fault())
             .or_else(|| self.attitude())
@@ -386,14 +387,14 @@ impl Sizes {
     }
 
     /// An attitude that gravity contradicts: upside down, or of the opposite sign.
-    fn attitude(&self) -> Option<Mismatch> {
+    fn attitude(&self) -> Option<TableFault> {
         // Least force that an attitude of the wrong sign leaves, as a root mean square [m/s2].
         const LEAST_WRONG_FORCE: f64 = 0.1;
         // Part of speed times yaw rate below which gravity's part may be another scale of the speed: a
         // car rolls a little in bends.
         const LEANING_PART: f64 = 0.67;
         if self.windows >= ENOUGH_WINDOWS && self.upside_down_windows == self.windows {
-            return Some(Mismatch::UpsideDown);
+            return Some(TableFault::UpsideDown);
         }
         let is_wrong = |[right, level, opposite]: [&Sums; 3]| {
             let [right, level, opposite] = [right, level, opposite].map(|sums| sums.relation());
@@ -405,12 +406,12 @@ impl Sizes {
         let may_be_scale = leaning.correlation.abs() > SAME_CORRELATION && leaning.ratio < LEANING_PART;
         let [level, opposite] = &self.slopes;
         if is_wrong([&self.surge, level, opposite]) {
-            return Some(Mismatch::Attitude(1));
+            return Some(TableFault::Attitude(1));
         }
-        (!may_be_scale && is_wrong(self.banks.each_ref())).then_some(Mismatch::Attitude(0))
+        (!may_be_scale && is_wrong(self.banks.each_ref())).then_some(TableFault::Attitude(0))
     }
 
-    fn world_forces(&self) -> Option<Mismatch> {
+    fn world_forces(&self) -> Option<TableFault> {
         // Another axis of the vehicle, of either sign, may explain it as well.
         let own =
             [&self.surge, &self.crossed, &self.slopes[0]].map(|sums| sums.relation().of_either_sign().difference());
@@ -420,10 +421,10 @@ impl Sizes {
             let is_large = relation.count >= CLEAR_WINDOWS && relation.sizes[0] >= LEAST_FORCE;
             is_large && relation.difference() < CLEAR_PART * others.min(relation.sizes[0])
         };
-        self.world.iter().any(is_clear).then_some(Mismatch::WorldForces)
+        self.world.iter().any(is_clear).then_some(TableFault::WorldForces)
     }
 
-    fn exchanged_forces(&self) -> Option<Mismatch> {
+    fn exchanged_forces(&self) -> Option<TableFault> {
         let [surge, crossed] = [self.surge, self.crossed].map(|sums| sums.relation().of_either_sign());
         let is_other = surge.correlation < OTHER_CORRELATION || crossed.difference() < CLEAR_PART * surge.difference();
         let by_speed = crossed.count >= ENOUGH_WINDOWS
@@ -431,7 +432,7 @@ impl Sizes {
             && crossed.is_near(1.0, UNIT_FACTOR, SAME_CORRELATION)
             && is_other;
         let by_bends = self.is_speed_of_bends(&self.yaw_surge) && self.has_other_bends(2);
-        (by_speed || by_bends).then_some(Mismatch::ExchangedForces)
+        (by_speed || by_bends).then_some(TableFault::ExchangedForces)
     }
 
     /// True for a rate and a force whose ratio is the speed of bends, where the source has none.
@@ -451,7 +452,7 @@ impl Sizes {
     }
 
     /// A force or rate that is nothing beside what it changes. Tables may have no rates at all.
-    fn missing_channel(&self) -> Option<Mismatch> {
+    fn missing_channel(&self) -> Option<TableFault> {
         // Least change of speed and of angles that shows it, as root mean squares [m/s2, rad/s], the
         // part of it below which a channel is nothing, and rates of a table that has them [rad/s].
         const LEAST_CHANGES: [f64; 2] = [0.7, 0.02];
@@ -462,15 +463,15 @@ impl Sizes {
             is_known && relation.sizes[1] < NOTHING_PART * relation.sizes[0]
         };
         if self.has_attitude && is_nothing(&self.surge.relation(), LEAST_CHANGES[0]) {
-            return Some(Mismatch::MissingForce);
+            return Some(TableFault::MissingForce);
         }
         let rates = [0, 1, 2].map(|axis| self.rates[axis][axis].relation());
         let has_rates = rates.iter().any(|relation| relation.sizes[1] >= LEAST_OTHER_RATE);
         let missing = (0..3).find(|&axis| has_rates && is_nothing(&rates[axis], LEAST_CHANGES[1]));
-        missing.map(Mismatch::MissingRate)
+        missing.map(TableFault::MissingRate)
     }
 
-    fn units_of_rates(&self) -> Option<Mismatch> {
+    fn units_of_rates(&self) -> Option<TableFault> {
         // Least rates that say something, as root mean squares [rad/s].
         const LEAST_RATE: f64 = 0.005;
         // Radius below which no vehicle turns [m].
@@ -494,9 +495,9 @@ impl Sizes {
             let is_angle = self.largest_angle > LARGEST_ANGLE || axis == 2 && self.largest_yaw > WHOLE_TURN;
             let is_large = relation.sizes[usize::from(is_angle)] >= LEAST_RATE;
             if is_large && is_near(DEGREE) && is_angle {
-                Some(Mismatch::Angles(self.largest_angle.max(self.largest_yaw)))
+                Some(TableFault::Angles(self.largest_angle.max(self.largest_yaw)))
             } else {
-                (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then_some(Mismatch::Rates(relation.ratio))
+                (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then_some(TableFault::Rates(relation.ratio))
             }
         });
         let is_lateral = |relation: &Relation| is_enough(relation, DEGREE) && relation.sizes[1] >= LEAST_FORCE;
@@ -504,19 +505,19 @@ impl Sizes {
             // Angles in degrees as well leave no level bends.
             let mut all = [self.bends[2], self.turns].into_iter().map(|sums| sums.relation()).filter(is_lateral);
             let bends = all.find(|bends| bends.is_near(DEGREE, UNIT_FACTOR, SAME_CORRELATION))?;
-            Some(Mismatch::Rates(1.0 / bends.ratio))
+            Some(TableFault::Rates(1.0 / bends.ratio))
         };
         let by_radius = || {
             let yaw = Some(self.sways[2].relation()).filter(is_lateral)?;
             let is_tight = yaw.correlation > SAME_CORRELATION && yaw.ratio < TIGHTEST_RADIUS * yaw.sizes[0];
-            (self.fastest < NO_SPEED && is_tight).then_some(Mismatch::Rates(1.0 / DEGREE))
+            (self.fastest < NO_SPEED && is_tight).then_some(TableFault::Rates(1.0 / DEGREE))
         };
         let is_fast = self.windows >= ENOUGH_WINDOWS && self.fast_windows > FAST_PART * self.windows;
-        by_angles.or_else(by_bends).or_else(by_radius).or_else(|| is_fast.then_some(Mismatch::FastRates))
+        by_angles.or_else(by_bends).or_else(by_radius).or_else(|| is_fast.then_some(TableFault::FastRates))
     }
 
     /// A rate that is that of another angle, or of bends, while the right one is neither.
-    fn exchanged_rates(&self) -> Option<Mismatch> {
+    fn exchanged_rates(&self) -> Option<TableFault> {
         // Least rates that say something, as root mean squares [rad/s].
         const LEAST_EXCHANGED_RATE: f64 = 0.01;
         // Factor between two channels beyond which they are not the same quantity.
@@ -543,20 +544,20 @@ impl Sizes {
         let by_sways = |rate: usize| self.is_speed_of_bends(&self.sways[rate]) && self.has_other_bends(2);
         let by_bends =
             || (0..2).find(|&rate| is_bend(rate) && is_other(&bends[2]) || by_sways(rate)).map(|rate| (rate, 2));
-        by_angles.or_else(by_bends).map(|(rate, angle)| Mismatch::Exchanged(rate, angle))
+        by_angles.or_else(by_bends).map(|(rate, angle)| TableFault::Exchanged(rate, angle))
     }
 
-    fn units_of_forces(&self) -> Option<Mismatch> {
+    fn units_of_forces(&self) -> Option<TableFault> {
         let all = [(Horizontal::Forward, self.surge), (Horizontal::Left, self.bends[2])];
         all.into_iter().map(|(axis, sums)| (axis, sums.relation())).find_map(|(axis, relation)| {
             let is_known = relation.count >= ENOUGH_WINDOWS
                 && relation.sizes[0].max(relation.sizes[1]) >= LEAST_FORCE
                 && relation.correlation > STRICT_CORRELATION;
-            (is_known && unit_of_force(relation.ratio).is_some()).then_some(Mismatch::Force(axis, relation.ratio))
+            (is_known && unit_of_force(relation.ratio).is_some()).then_some(TableFault::Force(axis, relation.ratio))
         })
     }
 
-    fn missing_bends(&self) -> Option<Mismatch> {
+    fn missing_bends(&self) -> Option<TableFault> {
         // Least lateral force of bends, by speed and yaw rate, beside which a force is missing
         // [m/s2], and the part of it below which it is.
         const LEAST_BENDS: f64 = 0.7;
@@ -567,7 +568,7 @@ impl Sizes {
             && relation.count >= CLEAR_WINDOWS
             && relation.sizes[0] >= LEAST_BENDS
             && relation.sizes[1] < MISSING_PART * relation.sizes[0];
-        is_missing.then_some(Mismatch::Bends(relation.ratio))
+        is_missing.then_some(TableFault::Bends(relation.ratio))
     }
 }
 
@@ -604,9 +605,9 @@ impl MeanForce {
         self.agrees = self.held >= GRAVITY_HELD && (self.force.z - STANDARD_GRAVITY).abs() < GRAVITY_TOLERANCE;
     }
 
-    fn fault(&self) -> Option<Mismatch> {
+    fn fault(&self) -> Option<TableFault> {
         let fault = self.kind.filter(|_| self.held >= GRAVITY_HELD)?;
-        Some(Mismatch::Gravity(fault, self.force.z))
+        Some(TableFault::Gravity(fault, self.force.z))
     }
 }
 
