@@ -7,7 +7,7 @@
 
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use crate::motion::Sample;
+use crate::motion::{Motion, Sample};
 use crate::relation::{Relation, Sums};
 use crate::transitions::named;
 
@@ -118,19 +118,21 @@ impl Signs {
         }
         self.time += interval;
         let (now, then) = (&sample.motion, &before.motion);
-        let mean = 0.5 * (now.0 + then.0);
-        let slope = (now.0 - then.0) / interval;
+        let mean = Motion(0.5 * (now.0 + then.0));
+        let slope = Motion((now.0 - then.0) / interval);
+        let (force, rates, angles) = (mean.force(), mean.rates(), mean.angles());
+        let angle_slopes = slope.angles();
         self.has_sign |= now.speed() < -MIN_SIGNED_SPEED;
-        let is_slow = !self.has_sign && mean[9].abs() < MAX_REVERSING_SPEED;
+        let is_slow = !self.has_sign && mean.speed().abs() < MAX_REVERSING_SPEED;
         // Columns of zeros are no attitude.
-        let has_attitude = sample.has_angles && (mean[6] != 0.0 || mean[7] != 0.0);
+        let has_attitude = sample.has_angles && (angles.roll != 0.0 || angles.pitch != 0.0);
         let gravity = if has_attitude { STANDARD_GRAVITY } else { 0.0 };
         let window = &mut self.window;
         window.has_attitude = has_attitude && (window.time == 0.0 || window.has_attitude);
         window.time += interval;
-        window.surge += mean[0] * interval;
+        window.surge += force.x * interval;
         // Nose up, gravity's reaction is forward.
-        window.gravity -= gravity * libm::sin(mean[7]) * interval;
+        window.gravity -= gravity * libm::sin(angles.pitch) * interval;
         window.gained += now.speed() - then.speed();
         if window.time >= SPEED_CHANGE_WINDOW {
             let Window { time, surge, gravity, gained, has_attitude } = std::mem::take(window);
@@ -138,21 +140,22 @@ impl Signs {
                 if has_attitude { [MAX_SLOPE_FORCES[1], gravity] } else { [MAX_SLOPE_FORCES[0], 0.0] };
             self.add(Check::Braking, surge / time, (gained + gravity) / time, most, is_slow);
         }
-        let turn = mean[9] * mean[5];
+        let turn = mean.speed() * rates.z;
         // A motorcycle leans until nothing pushes; what is left says nothing of the turn.
-        let leans = sample.has_angles && STANDARD_GRAVITY * libm::sin(mean[6]).abs() > LEANING_FRACTION * turn.abs();
+        let leans =
+            sample.has_angles && STANDARD_GRAVITY * libm::sin(angles.roll).abs() > LEANING_FRACTION * turn.abs();
         if !leans {
-            let banked = gravity * libm::sin(mean[6]) * libm::cos(mean[7]);
+            let banked = gravity * libm::sin(angles.roll) * libm::cos(angles.pitch);
             let most = if has_attitude { MAX_SLOPE_FORCES[1] } else { MAX_SLOPE_FORCES[0] };
-            self.add(Check::LeftTurn, mean[1], turn + banked, most, is_slow);
+            self.add(Check::LeftTurn, force.y, turn + banked, most, is_slow);
         }
-        let level = mean[6].abs() < MAX_LEVEL_ANGLE && mean[7].abs() < MAX_LEVEL_ANGLE;
+        let level = angles.roll.abs() < MAX_LEVEL_ANGLE && angles.pitch.abs() < MAX_LEVEL_ANGLE;
         if sample.has_angles && level {
-            self.add(Check::Roll, mean[3], slope[6], 0.0, false);
-            self.add(Check::Pitch, mean[4], slope[7], 0.0, false);
+            self.add(Check::Roll, rates.x, angle_slopes.roll, 0.0, false);
+            self.add(Check::Pitch, rates.y, angle_slopes.pitch, 0.0, false);
             // At half a turn the yaw jumps.
-            if slope[8].abs() * interval < 1.0 {
-                self.add(Check::Yaw, mean[5], slope[8], 0.0, false);
+            if angle_slopes.yaw.abs() * interval < 1.0 {
+                self.add(Check::Yaw, rates.z, angle_slopes.yaw, 0.0, false);
             }
         }
         for &check in Check::ALL {
@@ -224,7 +227,6 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::motion::Motion;
 
     /// A car that brakes, accelerates and turns for a minute, level but for small angles.
     fn drive(t: f64) -> Sample {

@@ -12,7 +12,7 @@ use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;
 use nalgebra::Vector3;
 
-use crate::motion::{Channels, Sample};
+use crate::motion::{Channels, Motion, Sample};
 use crate::relation::{Relation, Sums};
 
 /// Windows with which two channels are judged.
@@ -303,13 +303,13 @@ impl TableCheck {
         window.sum += 0.5 * interval * (before.motion.0 + sample.motion.0);
         if window.time >= WINDOW_TIME {
             let Window { time, sum, begin } = std::mem::take(window);
-            self.compare(&(sum / time), &((sample.motion.0 - begin) / time), time, sample);
+            self.compare(&Motion(sum / time), &Motion((sample.motion.0 - begin) / time), time, sample);
             self.found = self.judge();
         }
     }
 
     /// Compares the means and slopes of a window.
-    fn compare(&mut self, mean: &Channels, slope: &Channels, time: f64, sample: &Sample) {
+    fn compare(&mut self, mean: &Motion, slope: &Motion, time: f64, sample: &Sample) {
         // The level angle where degrees are read as radians.
         const LEVEL_IN_DEGREES: f64 = LEVEL_ANGLE * 180.0 / PI;
         // A change of an angle within a window that may be a whole turn [rad].
@@ -321,9 +321,11 @@ impl TableCheck {
         const MANOEUVRING_SPEED: f64 = 1.5;
         // Cosine of the angle to the vertical below which a vehicle is upside down.
         const UPSIDE_DOWN: f64 = -0.5;
-        let [roll, pitch, speed] = [mean[6], mean[7], mean[9]];
+        let (force, rates, speed) = (mean.force(), mean.rates(), mean.speed());
+        let RollPitchYaw { roll, pitch, yaw } = mean.angles();
+        let (angle_slopes, speed_slope) = (slope.angles().to_vector(), slope.speed());
         self.windows += 1.0;
-        self.fast_windows += f64::from((3..6).any(|k| mean[k].abs() > FASTEST_RATE));
+        self.fast_windows += f64::from(rates.iter().any(|rate| rate.abs() > FASTEST_RATE));
         self.fastest = self.fastest.max(speed.abs());
         self.upside_down_windows += f64::from(libm::cos(roll) * libm::cos(pitch) < UPSIDE_DOWN);
         // Columns of zeros are no attitude.
@@ -332,40 +334,40 @@ impl TableCheck {
         let is_level = |most: f64| roll.abs() < most && pitch.abs() < most;
         if has_attitude && is_level(LEVEL_IN_DEGREES) {
             self.largest_angle = self.largest_angle.max(roll.abs()).max(pitch.abs());
-            self.largest_yaw = self.largest_yaw.max(mean[8].abs());
-            for angle in (0..3).filter(|angle| (slope[6 + angle] * time).abs() < WHOLE_TURN_CHANGE) {
-                (0..3).for_each(|rate| self.rates[rate][angle].add(slope[6 + angle], mean[3 + rate]));
+            self.largest_yaw = self.largest_yaw.max(yaw.abs());
+            for angle in (0..3).filter(|&angle| (angle_slopes[angle] * time).abs() < WHOLE_TURN_CHANGE) {
+                (0..3).for_each(|rate| self.rates[rate][angle].add(angle_slopes[angle], rates[rate]));
             }
         }
         let gravity = if has_attitude && is_level(LARGEST_ANGLE) { STANDARD_GRAVITY } else { 0.0 };
-        (0..3).for_each(|rate| self.sways[rate].add(mean[3 + rate], mean[1]));
-        self.yaw_surge.add(mean[5], mean[0]);
+        (0..3).for_each(|rate| self.sways[rate].add(rates[rate], force.y));
+        self.yaw_surge.add(rates.z, force.x);
         if speed.abs() < MANOEUVRING_SPEED {
             return;
         }
         // Nose up, gravity's reaction is forward; with the left side up, to the left.
         let uphill = -gravity * libm::sin(pitch);
-        self.surge.add(slope[9] + uphill, mean[0]);
-        self.crossed.add(slope[9] + uphill, mean[1]);
+        self.surge.add(speed_slope + uphill, force.x);
+        self.crossed.add(speed_slope + uphill, force.y);
         let banked = gravity * libm::sin(roll) * libm::cos(pitch);
-        let turn = speed * mean[5];
-        self.turns.add(turn, mean[1]);
+        let turn = speed * rates.z;
+        self.turns.add(turn, force.y);
         if gravity > 0.0 {
             [0.0, -1.0]
                 .iter()
                 .zip(&mut self.slopes)
-                .for_each(|(part, sums)| sums.add(slope[9] + part * uphill, mean[0]));
+                .for_each(|(part, sums)| sums.add(speed_slope + part * uphill, force.x));
             let parts = [1.0, 0.0, -1.0];
-            parts.iter().zip(&mut self.banks).for_each(|(part, sums)| sums.add(turn + part * banked, mean[1]));
+            parts.iter().zip(&mut self.banks).for_each(|(part, sums)| sums.add(turn + part * banked, force.y));
             self.leaning.add(turn, banked);
-            let to_vehicle = Orientation::new(RollPitchYaw::new(roll, pitch, mean[8])).rotation.transpose();
-            let [force, up] = [Vector3::new(mean[0], mean[1], mean[2]), to_vehicle * Vector3::z() * gravity];
-            self.world[0].add(slope[9] + uphill, (to_vehicle * force).x);
+            let to_vehicle = Orientation::new(RollPitchYaw::new(roll, pitch, yaw)).rotation.transpose();
+            let up = to_vehicle * Vector3::z() * gravity;
+            self.world[0].add(speed_slope + uphill, (to_vehicle * force).x);
             // Live has put gravity back along the vehicle's axes.
-            self.world[1].add(slope[9], (to_vehicle * (force - up)).x);
+            self.world[1].add(speed_slope, (to_vehicle * (force - up)).x);
         }
-        if banked.abs() <= MAX_LEAN_FRACTION * turn.abs().max(speed * mean[3].abs()) {
-            (0..3).for_each(|rate| self.bends[rate].add(speed * mean[3 + rate], mean[1] - banked));
+        if banked.abs() <= MAX_LEAN_FRACTION * turn.abs().max(speed * rates.x.abs()) {
+            (0..3).for_each(|rate| self.bends[rate].add(speed * rates[rate], force.y - banked));
         }
     }
 
