@@ -168,7 +168,7 @@ fn the_player_in_a_list_of_cars() {
     let relative: Format = format!(
         "{head}layout = \"binary\"\nlengths = [10, 12]\nplayer = {{ at = 0, first = 2, stride = 4 }}\n[fields]\n\
          ax = {{ at = 0, type = \"u16\", of-player = true }}\nay = {{ at = 2, type = \"u16\", of-player = true }}\n\
-         [[of-lengths]]\nlengths = [12]\nplayer = {{ at = 1, first = 4, stride = 4 }}\nfields = {{}}"
+         [[variants]]\nlengths = [12]\nplayer = {{ at = 1, first = 4, stride = 4 }}\nfields = {{}}"
     )
     .parse()
     .unwrap();

@@ -129,12 +129,12 @@ impl Format {
 
     fn sample_of(&self, record: &Record, length: usize) -> Result<Sample, Dropped> {
         let mut values = [None; QUANTITY_COUNT];
-        let further = self.of_lengths.iter().filter(|of| of.lengths.contains(&length));
-        let player = match further.clone().find_map(|of| of.player.as_ref()).or(self.player.as_ref()) {
+        let further = self.variants.iter().filter(|variant| variant.lengths.contains(&length));
+        let player = match further.clone().find_map(|variant| variant.player.as_ref()).or(self.player.as_ref()) {
             Some(player) => Some((player, self.player_of(player, record).ok_or(Dropped::Player)?)),
             None => None,
         };
-        for (quantity, field) in self.fields.iter().chain(further.flat_map(|of| &of.fields)) {
+        for (quantity, field) in self.fields.iter().chain(further.flat_map(|variant| &variant.fields)) {
             // Without these a packet of text says nothing.
             let is_needed = matches!(quantity, Quantity::Ax | Quantity::Ay);
             let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed;

@@ -76,14 +76,14 @@ pub struct Format {
     /// The fields.
     pub fields: BTreeMap<Quantity, Field>,
     /// Further fields of packets with some lengths.
-    #[serde(default)]
-    pub of_lengths: Vec<OfLengths>,
+    #[serde(default, alias = "of-lengths")]
+    pub variants: Vec<Variant>,
 }
 
 /// Fields of packets with some lengths alone.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct OfLengths {
+pub struct Variant {
     /// The lengths \[bytes\].
     pub lengths: Vec<usize>,
     /// The player's place, if it is another one.
@@ -338,7 +338,7 @@ impl FromStr for Format {
         // Most fields of a table, and largest offset.
         const MAX_FIELDS: usize = 4096;
         let format: Format = toml::from_str(text)?;
-        let further = format.of_lengths.iter().flat_map(|of| &of.fields);
+        let further = format.variants.iter().flat_map(|variant| &variant.fields);
         for (quantity, field) in format.fields.iter().chain(further) {
             let refuse = |reason| Err(FormatError::Field(*quantity, reason));
             match (&field.at, format.layout) {
@@ -364,7 +364,7 @@ impl FromStr for Format {
         if QUATERNION_QUANTITIES.into_iter().any(has) && !QUATERNION_QUANTITIES.into_iter().all(has) {
             return Err(FormatError::Whole("a quaternion needs qw, qx, qy and qz"));
         }
-        for player in format.of_lengths.iter().filter_map(|of| of.player.as_ref()).chain(&format.player) {
+        for player in format.variants.iter().filter_map(|variant| variant.player.as_ref()).chain(&format.player) {
             let Player { at: FieldAddress::Index(at), first, stride, .. } = player else { continue };
             if (*at).max(*first) >= MAX_FIELDS || !(1..MAX_FIELDS).contains(stride) || format.layout == Layout::Json {
                 let reason = "player needs `at`, `first` and `stride` below 4096; in JSON `at` is a key";
@@ -409,7 +409,7 @@ pub fn shipped(name: &str) -> Option<&'static str> {
 impl Format {
     /// True if some of its packets have the vehicle's place.
     pub fn has_position(&self) -> bool {
-        let further = self.of_lengths.iter().map(|of| &of.fields);
+        let further = self.variants.iter().map(|variant| &variant.fields);
         further
             .chain([&self.fields])
             .any(|fields| [Quantity::X, Quantity::Y].iter().all(|axis| fields.contains_key(axis)))
