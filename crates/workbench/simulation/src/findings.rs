@@ -189,7 +189,7 @@ fn comfort_findings(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
 /// Sign, time, proportion and size of the felt force of surge and sway.
 fn shape_finding(outcome: &Evaluated) -> Option<Finding> {
     let shape = &outcome.measures.shape;
-    let (most, inverted) = shape.most_inverted()?;
+    let (most, inverted) = shape.most_inverted_axis()?;
     let of_axes = |value: &dyn Fn(&AxisShape) -> String| {
         let named = |(axis, name): (&Option<AxisShape>, &str)| {
             Some(format!("{} in {}", value(axis.as_ref()?), name.to_lowercase()))

@@ -37,7 +37,7 @@ impl Default for Aims {
 impl Aims {
     /// Distance from the aims; at most 1 where both are reached.
     pub fn distance(&self, shape: &Shape) -> f64 {
-        let inverted = shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
+        let inverted = shape.most_inverted_axis().map_or(0.0, |(_, inverted)| inverted);
         let least = shape.least_shape().unwrap_or(1.0);
         let shape_distance = (1.0 - least) / (1.0 - self.shape).max(f64::EPSILON);
         (shape.error.unwrap_or(0.0) / self.error).max(inverted / self.inverted).max(shape_distance)
@@ -364,7 +364,7 @@ mod tests {
             let factors = search.fit(&parameters).unwrap().best.factors;
             parameters.automatic_scale.automatic = AutomaticScale::On;
             let shape = search.shape(&factors.applied(&parameters)).unwrap();
-            let (least, (_, inverted)) = (shape.least_shape().unwrap(), shape.most_inverted().unwrap());
+            let (least, (_, inverted)) = (shape.least_shape().unwrap(), shape.most_inverted_axis().unwrap());
             assert!(least >= 0.8 && inverted <= 0.03, "{name}: shape {least}, inverted {inverted}");
         }
     }

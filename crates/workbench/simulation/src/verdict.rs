@@ -35,7 +35,7 @@ impl Evaluated<'_> {
         let measures = self.measures;
         let limited = self.limited();
         let [shake, jolt] = [0, 1].map(|which| self.roughest(which).map_or(0.0, |(_, value)| value));
-        let inverted = measures.shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
+        let inverted = measures.shape.most_inverted_axis().map_or(0.0, |(_, inverted)| inverted);
         let least_shape = measures.shape.least_shape().unwrap_or(1.0);
         let mut worse: Vec<_> =
             channels(self).iter().map(|channel| (Fault::WorseThanRest(channel.axis), channel.severity())).collect();
@@ -131,7 +131,7 @@ impl Evaluated<'_> {
         match fault {
             Fault::Limits if fits_the_rig(self.measures) => "no limit stops the platform".to_owned(),
             Fault::Limits => format!("its limits stop the platform for {}", percent(self.limited())),
-            Fault::Inverted => percent(shape.most_inverted().map_or(0.0, |(_, inverted)| inverted)),
+            Fault::Inverted => percent(shape.most_inverted_axis().map_or(0.0, |(_, inverted)| inverted)),
             Fault::Rough => self.roughness(self.shakes()),
             Fault::WorseThanRest(axis) => {
                 let channels = channels(self);

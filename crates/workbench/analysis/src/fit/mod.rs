@@ -139,13 +139,13 @@ fn worse_axis(one: AxisShape, other: AxisShape) -> AxisShape {
 
 /// Means over all channels of a strategy.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Means {
+pub struct FitMeans {
     /// Mean correlation of felt and desired force.
     pub shape: f64,
     /// Mean fraction of inverted time.
     pub mean_inverted: f64,
     /// Largest fraction of inverted time.
-    pub most_inverted: f64,
+    pub max_inverted: f64,
     /// Geometric mean of the sizes.
     pub size: f64,
     /// Geometric mean of the scales.
@@ -155,14 +155,14 @@ pub struct Means {
 }
 
 /// Means of some fits.
-pub fn means<'a>(fits: impl Iterator<Item = &'a Fit> + Clone) -> Means {
+pub fn fit_means<'a>(fits: impl Iterator<Item = &'a Fit> + Clone) -> FitMeans {
     let axes: Vec<_> = fits.clone().flat_map(|fit| fit.best.shape.axes).flatten().collect();
     let count = axes.len().max(1) as f64;
     let scales: Vec<f64> = fits.clone().map(|fit| fit.best.factors.scale.ln()).collect();
-    Means {
+    FitMeans {
         shape: axes.iter().map(|axis| axis.shape).sum::<f64>() / count,
         mean_inverted: axes.iter().map(|axis| axis.inverted).sum::<f64>() / count,
-        most_inverted: axes.iter().map(|axis| axis.inverted).fold(0.0, f64::max),
+        max_inverted: axes.iter().map(|axis| axis.inverted).fold(0.0, f64::max),
         size: (axes.iter().map(|axis| axis.size.ln()).sum::<f64>() / count).exp(),
         scale: (scales.iter().sum::<f64>() / scales.len().max(1) as f64).exp(),
         misfits: fits.filter(|fit| !fit.fits).count(),

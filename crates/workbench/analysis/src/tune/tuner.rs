@@ -194,7 +194,7 @@ pub fn full_costs(objectives: &[&Objective], setup: &Setup) -> Result<Vec<Cost>,
 /// The largest ratio of a recording's error to the error before. More than [`WORST_RATIO`] where
 /// surge or sway is inverted for longer than `fit` and the verdict permit, and than before.
 pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
-    let inverted = |cost: &Cost| cost.shape.most_inverted().map_or(0.0, |most| most.1);
+    let inverted = |cost: &Cost| cost.shape.most_inverted_axis().map_or(0.0, |most| most.1);
     let ratio = |(before, after): (&Cost, &Cost)| {
         let inversion = inverted(after) / inverted(before).max(Aims::default().inverted);
         (after.error / before.error).max(if inversion > 1.0 { WORST_RATIO * inversion } else { 0.0 })

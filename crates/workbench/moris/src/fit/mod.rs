@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use moris_analysis::fit::{Common, Fitted, Strategy, common, fitted, means};
+use moris_analysis::fit::{Common, Fitted, Strategy, common, fit_means, fitted};
 use moris_analysis::outcome::{counted, listed};
 use moris_setup::Setup;
 use moris_simulation::fit::{Aims, Candidate, Fit};
@@ -189,13 +189,13 @@ fn fit_text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy],
     }
     let mut text = format!("{table}\n");
     for (index, strategy) in strategies.iter().enumerate() {
-        let means = means(fitted.iter().map(|one| &one.fits[index]));
+        let means = fit_means(fitted.iter().map(|one| &one.fits[index]));
         text += &format!(
             "{}: shape {:.2} in the mean, inverted {:.1} % in the mean and {:.1} % at worst, size {:.2}, scale {:.2}{}\n",
             strategy.name,
             means.shape,
             100.0 * means.mean_inverted,
-            100.0 * means.most_inverted,
+            100.0 * means.max_inverted,
             means.size,
             means.scale,
             match means.misfits {
@@ -234,7 +234,8 @@ fn fit_text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy],
 /// Scale, shape, inverted time and size in a cell; in brackets where no scale fits.
 fn fit_cell(fit: &Fit) -> String {
     let shape = &fit.best.shape;
-    let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
+    let (Some(least), Some((_, inverted)), Some(size)) =
+        (shape.least_shape(), shape.most_inverted_axis(), shape.size())
     else {
         return "nothing asked".to_owned();
     };
@@ -248,7 +249,8 @@ fn candidate_words(best: &Candidate) -> String {
         if factors.breaks != 1.0 { format!(", break frequencies times {:.2}", factors.breaks) } else { String::new() };
     let heave = if factors.heave < 1.0 { format!(", heave times {:.2}", factors.heave) } else { String::new() };
     let shape = &best.shape;
-    let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
+    let (Some(least), Some((_, inverted)), Some(size)) =
+        (shape.least_shape(), shape.most_inverted_axis(), shape.size())
     else {
         return format!("scale {:.2}: nearly no surge or sway is desired{heave}", factors.scale);
     };

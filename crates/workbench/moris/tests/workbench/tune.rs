@@ -110,7 +110,7 @@ fn sign_and_time_count_before_size() {
     };
     let [small, small_sensed] = errors(0.2, 0);
     let [late, late_sensed] = errors(0.8, 60);
-    assert!(late.shape.most_inverted().unwrap().1 > 0.15 && small.shape.least_shape().unwrap() > 0.999);
+    assert!(late.shape.most_inverted_axis().unwrap().1 > 0.15 && small.shape.least_shape().unwrap() > 0.999);
     assert!(late_sensed.error < small_sensed.error, "{} {}", late_sensed.error, small_sensed.error);
     assert!(small.error < 0.9 * late.error, "{} {}", small.error, late.error);
 }

@@ -51,7 +51,7 @@ pub fn derivatives(values: &[f64], step: f64) -> Vec<[f64; 2]> {
 
 /// Velocity and acceleration by central differences over three samples. They are means over the
 /// neighbouring steps, and exceed no limit that the motion itself keeps.
-pub fn means(values: &[f64], step: f64) -> Vec<[f64; 2]> {
+pub fn mean_derivatives(values: &[f64], step: f64) -> Vec<[f64; 2]> {
     let last = values.len() - 2;
     let at = |k: usize| {
         let middle = k.clamp(1, last);
@@ -120,7 +120,9 @@ mod tests {
             velocity += step * acceleration;
             values.push(position);
         }
-        assert!(means(&values, step).iter().all(|[_, acceleration]| acceleration.abs() <= limit * (1.0 + 1e-9)));
+        assert!(
+            mean_derivatives(&values, step).iter().all(|[_, acceleration]| acceleration.abs() <= limit * (1.0 + 1e-9))
+        );
         let sharp = derivatives(&values, step).iter().map(|found| found[1].abs()).fold(0.0, f64::max);
         assert!(sharp > limit, "{sharp}");
     }

@@ -2,7 +2,7 @@
 
 use moris_washout::{Output, Rig};
 
-use super::differences::means;
+use super::differences::mean_derivatives;
 
 /// The greatest excess of one of the actuators' limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
     let mut worst: Vec<(f64, Excess)> = Vec::new();
     for leg in 0..6 {
         let lengths: Vec<f64> = legs.iter().map(|lengths| lengths[leg]).collect();
-        let rates = means(&lengths, step);
+        let rates = mean_derivatives(&lengths, step);
         for (k, (&length, rates)) in lengths.iter().zip(rates).enumerate() {
             let [speed, acceleration] = rates.map(f64::abs);
             let beyond = [

@@ -25,7 +25,7 @@ pub struct AxisShape {
     pub size: f64,
     /// Fraction of the time in which the felt force is above the threshold and has the opposite
     /// sign of the desired one. Verdict, findings and `fit` take the larger of surge's and sway's
-    /// ([`Shape::most_inverted`]); `tune` and the bench take the mean.
+    /// ([`Shape::most_inverted_axis`]); `tune` and the bench take the mean.
     pub inverted: f64,
 }
 
@@ -44,7 +44,7 @@ pub struct Shape {
 
 impl Shape {
     /// The largest fraction of inverted time of an axis, with its index; none where none counts.
-    pub fn most_inverted(&self) -> Option<(usize, f64)> {
+    pub fn most_inverted_axis(&self) -> Option<(usize, f64)> {
         let inverted = |axis: usize| Some((axis, self.axes[axis]?.inverted));
         (0..2).filter_map(inverted).reduce(|most, next| if next.1 > most.1 { next } else { most })
     }
@@ -213,7 +213,7 @@ mod tests {
                 assert_near(found.size, size, 1e-9);
                 assert_near(found.inverted, inverted as f64 / count as f64, 1e-12);
             }
-            assert_eq!(shape.most_inverted().unwrap().0, 1);
+            assert_eq!(shape.most_inverted_axis().unwrap().0, 1);
         }
     }
 
