@@ -5,9 +5,9 @@
 //! | base | 1.00 m | -8, 8, 112, 128, 232, 248 deg |
 //! | platform | 0.85 m | -52, 52, 68, 172, 188, 292 deg |
 //!
-//! The paper publishes no joint coordinates. These are free of singularities over the whole box of
-//! leg lengths. They are written out, and not computed from the angles, so that every platform's
-//! binary starts from the same bits.
+//! The paper publishes no joint coordinates. The joints here are free of singularities over the
+//! whole box of leg lengths. Coordinates are written out, and not computed from the angles, so that
+//! every platform's binary starts from the same bits.
 
 use nalgebra::Vector3;
 

@@ -6,7 +6,8 @@ use crate::interface::Input;
 use crate::motion::interpolation::between;
 
 impl Input {
-    /// The input at a `fraction` of the way to `end`, from 0 to 1. It is engaged if this one is.
+    /// The input at a `fraction` of the way to `end`, from 0 to 1. The result is
+    /// engaged if this one is.
     ///
     /// The orientation goes the short way between the two rotations, whatever angles describe
     /// them: a roll from 3.1 to -3.1 rad goes over pi.

@@ -5,7 +5,7 @@
 //! Ferrazzin, Avizzano, Bergamasco: *Washout Filter Design for a Motorcycle Simulator*. Equations
 //! are cited by its numbers.
 //!
-//! Data flows one way. It passes the blocks of the paper's Fig. 4, which are the files of
+//! Data flows one way. Signals pass the blocks of the paper's Fig. 4, which are the files of
 //! `src/cueing`, and then the [`platform`]'s kinematics and actuator guard.
 //!
 //! [`Washout`] is the whole filter. [`interface`] has its inputs, outputs and parameters,

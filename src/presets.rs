@@ -25,7 +25,7 @@ use crate::washout::Washout;
 /// - Inputs: held.
 /// - Soft limits: off.
 ///
-/// It is made for smooth rides. Where rates vibrate, the platform turns with them and
+/// The set is made for smooth rides. Where rates vibrate, the platform turns with them and
 /// shakes the rider's head.
 pub const PAPER: &str = include_str!("../presets/paper.toml");
 

@@ -168,7 +168,7 @@ impl Changed {
 
 /// Vertical specific forces that a vehicle on its wheels may have as the first one \[g\].
 const PLAUSIBLE_GRAVITY: RangeInclusive<f64> = 0.3..=1.8;
-/// Those in units of g, and those with gravity although none is to be removed.
+/// Forces in units of g, and those with gravity although none is to be removed.
 const ABOUT_ONE: RangeInclusive<f64> = 0.9..=1.1;
 /// Steepest attitude of a vehicle at the beginning: beyond it an angle may be in degrees \[rad\].
 const MAX_FIRST_ANGLE: f64 = 1.6;

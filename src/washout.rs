@@ -85,7 +85,7 @@ pub enum InputCourse<'a> {
     Held(&'a Input),
     /// Linear from the last step's to this one, which engages or disengages from the start on.
     Ramp(&'a Input),
-    /// Linear from one to the other (first-order hold). It is engaged if the first is.
+    /// Linear from one to the other (first-order hold). The result is engaged if the first is.
     Between(&'a Input, &'a Input),
 }
 
@@ -138,7 +138,7 @@ const FADE_SLOPE: f64 = 0.5;
 const SOFT_LIMITS_REST_TIME: f64 = 30.0;
 
 /// Fraction of their pace at which gentler soft limits must be able to stop the platform before
-/// they come into force. It may come to rest anywhere below the speed \[m/s\].
+/// they come into force. The platform may come to rest anywhere below the speed \[m/s\].
 const GENTLER_PACE_FRACTION: f64 = 0.8;
 const GENTLE_SPEED: f64 = 0.01;
 
@@ -180,8 +180,8 @@ impl Washout {
         })
     }
 
-    /// The washout at rest at neutral before its first step, with this input. It is disengaged if
-    /// the input is, and the head is where the rider's lean puts it.
+    /// The washout at rest at neutral before its first step, with this input. The washout is
+    /// disengaged if the input is, and the head is where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
         self.last = self.cued(input.sanitized());
         self.engaging = f64::from(input.engaged);
@@ -192,7 +192,7 @@ impl Washout {
 
     /// Sets the specific force that is to come, as of the next step's start. Element k is the force
     /// that the input will have k times [`Preview::step`] later, k from 1. Only the predictive
-    /// strategy uses it. It holds until the next preview, and ends with its last element.
+    /// strategy uses it. A preview holds until the next one, and ends with its last element.
     ///
     /// Any preview is safe. A wrong one reduces fidelity until its errors show, but breaks no
     /// limit.
@@ -627,9 +627,9 @@ impl Washout {
 
     /// The time derivative of the output now; the flags in it have no meaning.
     ///
-    /// It is exact where the output holds the derivative of another part of it. The derivatives of
-    /// angular velocities, of the platform's acceleration and of what the rider feels are means
-    /// over the last internal step. They are zero before the first.
+    /// The derivative is exact where the output holds the derivative of another part of it. The
+    /// derivatives of angular velocities, of the platform's acceleration and of what the rider
+    /// feels are means over the last internal step. Before the first step the means are zero.
     pub fn output_derivative(&self) -> Output {
         let PlatformState { motion, legs, .. } = self.guard.commanded();
         let accelerations = self.guard.leg_accelerations();

@@ -3,14 +3,14 @@
 
     python3 tests/prose.py [--list] [--check] [--wrap] [FILE ...]
 
-- Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
-  counts once. At most 0.2 % of them.
+- Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether, How or a pronoun such as Its or Those. A doc
+  comment is a run of such lines; each counts once. At most 0.2 % of them.
 - Fragments: doc comments of at most three words, such as "Its name.", which say nothing alone. At most 5.5 % of them.
 - Sentences: their length in words, in the pages, in the documentation packed into the FMUs, in doc comments and in Python's
   docstrings. Code, tables and headings do not count. A list's item ends a sentence; a link counts as its
   text, a piece of code as one word. A mean of at most 16 words a page (not of docstrings), none above 30.
-- Wording of the pages: no sentence begins with a pronoun in place of its subject, and none has a word of BETTER_WORDS, which
-  has a better one for each. PERMITTED_OPENINGS has the exceptions.
+- Wording: no sentence of the pages and of doc comments begins with a pronoun in place of its subject. None of the pages has a word
+  of BETTER_WORDS, which has a better one for each. PERMITTED_OPENINGS has the exceptions.
 - Lines: at most 100 columns of prose, in the pages and in doc comments. Tables, code, pictures,
   addresses and descriptions of variables may be wider.
 
@@ -39,7 +39,7 @@ UNBREAKABLE = 60  # columns of one piece, an address or code, beyond which its l
 DOC_COMMENT = re.compile(r"^\s*//[/!] ?(?P<text>.*)$")
 # A row of a table of variables: the comment above it is the variable's description, one line.
 VARIABLE = re.compile(r'\s*(?:Tunable |Fixed )?"[\w.@#\[\]]+" \w+:')
-OPENING = re.compile(r"(What|Whether|How)\b")
+OPENING = re.compile(r"(What|Whether|How|It|Its|They|Their|This|These|That|Those|Who|Whoever)\b")
 # "This page has" names its subject; "This has" does not.
 PRONOUN_OPENING = re.compile(
     r"[*(]*(It|They|Them|He|She|Who|Whoever|(This|These|Those|That)(?= "
@@ -254,7 +254,7 @@ def wrap(file):
 
 
 def openings(files):
-    """Doc comments that begin with What, Whether or How, and how many doc comments there are."""
+    """Doc comments that begin with What, Whether, How or a pronoun, and how many doc comments there are."""
     found, count = [], 0
     for file in files:
         for begin, run in doc_comments(file):
@@ -281,13 +281,14 @@ def lengths(pages):
     return found, all_counts
 
 
-def wording(pages):
-    """Sentences of the pages that begin with a pronoun or have a banned word."""
+def wording(files):
+    """Sentences that begin with a pronoun, and those of pages that have a banned word."""
     found = []
-    for page in pages:
+    for page in files:
         for begin, paragraph in paragraphs(page):
             for sentence in sentences(paragraph):
-                pronoun, banned = PRONOUN_OPENING.match(sentence), BANNED_WORD.search(sentence)
+                pronoun = PRONOUN_OPENING.match(sentence)
+                banned = page.suffix == ".md" and BANNED_WORD.search(sentence)
                 if sentence.startswith(tuple(PERMITTED_OPENINGS)) or not (pronoun or banned):
                     continue
                 better = "name the subject"
@@ -338,7 +339,7 @@ def main():
     for file in [*sources, *pages] if arguments.wrap else []:
         wrap(file)
     (opening, comments), (long, counts), columns = openings(sources), lengths([*pages, *packed, *sources, *scripts]), wide(sources, pages)
-    worded = wording(pages)
+    worded = wording([*pages, *sources])
     mean = sum(counts) / max(len(counts), 1)
     fraction = len(opening) / max(comments, 1)
     short = fragments(sources)
@@ -346,10 +347,10 @@ def main():
     if arguments.list:
         for finding in [*opening, *(short if fraction_short > FRAGMENTS else []), *long, *worded, *columns]:
             print(finding)
-    print(f"{len(opening)} of {comments} doc comments begin with What, Whether or How: {fraction:.1%} (at most {OPENINGS:.1%})")
+    print(f"{len(opening)} of {comments} doc comments begin with What, Whether, How or a pronoun: {fraction:.1%} (at most {OPENINGS:.1%})")
     print(f"{len(short)} doc comments have at most {FRAGMENT} words: {fraction_short:.1%} (at most {FRAGMENTS:.1%})")
     print(f"{len(counts)} sentences of {mean:.1f} words in the mean: {len(long)} above {LONGEST}, or pages above {MEAN:.0f} (none)")
-    print(f"{len(worded)} sentences of the pages begin with a pronoun or have a banned word (none)")
+    print(f"{len(worded)} sentences begin with a pronoun or have a banned word (none)")
     print(f"{len(columns)} lines of prose above {COLUMNS} columns (none)")
     met = fraction <= OPENINGS and fraction_short <= FRAGMENTS and not long and not worded and not columns
     return 1 if arguments.check and not met else 0

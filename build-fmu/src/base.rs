@@ -23,7 +23,7 @@ const MODEL_DESCRIPTION: &str = "modelDescription.xml";
 pub struct Unpacked {
     /// The archive.
     pub bytes: Vec<u8>,
-    /// Its files, by their paths.
+    /// The files, by their paths.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 

@@ -18,7 +18,7 @@ pub struct Plan {
 /// The linker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Linker {
-    /// This machine's own.
+    /// The machine that compiles.
     Host,
     /// The one that comes with Rust, for macOS on other systems.
     Lld,

@@ -42,7 +42,7 @@ impl Platform {
         matches!(self, Platform::Darwin64 | Platform::Aarch64Darwin)
     }
 
-    /// Its directory under `binaries/`.
+    /// The directory under `binaries/`.
     pub fn directory(self, fmi: FmiVersion) -> &'static str {
         match self {
             Platform::Linux64 => fmi.choose("linux64", "x86_64-linux"),

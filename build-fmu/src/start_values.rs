@@ -9,7 +9,7 @@ use crate::{Error, FmuModel};
 /// The start values of a model's FMU.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Those that stand in place of the model's own, by slot, in the order of the slots.
+    /// Start values that stand in place of the model's own, by slot, in the order of the slots.
     overrides: Overrides,
     /// Start values of all slots.
     slots: Vec<f64>,
@@ -21,7 +21,7 @@ impl Start {
         Start { overrides: Vec::new(), slots: (model.functions.start)(&[]) }
     }
 
-    /// Those that a library of the model holds in place of the model's own.
+    /// The start values that a library of the model holds in place of the model's own.
     pub fn of_library(model: &FmuModel, overrides: Overrides) -> Self {
         Start { slots: (model.functions.start)(&overrides), overrides }
     }

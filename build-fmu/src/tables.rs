@@ -15,7 +15,7 @@ use crate::{FmuModel, Start};
 pub struct Table {
     pub page: &'static str,
     pub name: &'static str,
-    /// Its lines, given its name.
+    /// The table's lines, given its name.
     text: fn(&str) -> String,
 }
 

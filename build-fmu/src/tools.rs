@@ -56,7 +56,7 @@ fn library_directory(environment: &str) -> Option<PathBuf> {
 /// The linker for Windows.
 ///
 /// # Errors
-/// It is missing.
+/// The linker is missing.
 pub fn mingw(platform: Platform) -> Result<(), Error> {
     if program_runs("x86_64-w64-mingw32-gcc", &["--version"]) {
         return Ok(());
@@ -69,7 +69,7 @@ pub fn mingw(platform: Platform) -> Result<(), Error> {
 /// on the place of this directory.
 ///
 /// # Errors
-/// It cannot be written.
+/// The script cannot be written.
 pub fn mingw_linker() -> Result<PathBuf, Error> {
     let file = workspace::target_directory().join("mingw_linker.sh");
     let write = || {
@@ -86,7 +86,7 @@ pub fn mingw_linker() -> Result<PathBuf, Error> {
 /// Rust's standard library for the platform.
 ///
 /// # Errors
-/// It is missing.
+/// The library is missing.
 pub fn standard_library(platform: Platform) -> Result<(), Error> {
     if has_standard_library(platform.target())? {
         return Ok(());

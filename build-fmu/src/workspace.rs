@@ -10,7 +10,7 @@ use crate::Error;
 /// The root of the workspace: that of the package which cargo runs or tests, or around
 /// the working directory or the program; else the working directory.
 ///
-/// It is not that of the compilation: cargo takes the program for fresh in a
+/// The present directory, not that of the compilation: cargo takes the program for fresh in a
 /// copy of the sources, too. A released program shows no directory of the machine that made it.
 pub fn root() -> &'static Path {
     // A file that only the sources of this project have, seen from their root.
@@ -41,8 +41,9 @@ pub fn target_directory() -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |directory| root().join(directory))
 }
 
-/// Directories of this machine that must not show in a library, and the names that replace them.
-/// They are the workspace, cargo's sources of the dependencies, and rustc's own sources.
+/// Directories of this machine that must not show in a library, and the names that
+/// replace them. The directories are the workspace's, those of cargo's sources of the dependencies,
+/// and rustc's own sources.
 ///
 /// # Errors
 /// rustc cannot be asked.

@@ -9,8 +9,8 @@
 //!
 //! The descriptions have the parts of the standards' schemas that these co-simulation FMUs use.
 //!
-//! Beside this crate's sources, each model has a directory of its name. It holds
-//! `modelDescription.xml` and `modelDescription.fmi3.xml`, written by `cargo describe-models`. They
+//! Beside this crate's sources, each model has a directory of its name. The directory holds
+//! `modelDescription.xml` and `modelDescription.fmi3.xml`, written by `cargo describe-models`. Both
 //! are checked in, so that every change of an interface shows in a diff.
 
 pub mod common;

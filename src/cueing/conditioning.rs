@@ -120,8 +120,8 @@ fn removed_gravity(
 }
 
 /// Vertical component of the body's z axis up to which the rates are those in body axes, and from
-/// which on they are those of the angles. It is 0 at the pole of eq. (10), a pitch of 90 degrees,
-/// and below that upside down.
+/// which on they are those of the angles. The component is 0 at the pole of eq. (10), a pitch of 90
+/// degrees, and below that upside down.
 const UPRIGHT_RANGE: [f64; 2] = [0.1, 0.4];
 
 /// Sine and cosine of an angle.
@@ -130,7 +130,7 @@ type SinCos = (f64, f64);
 /// Rates of roll, pitch and yaw. Where the vehicle is upright they are those of the angles by the
 /// inverse of eq. (10). Else they are the angular velocity in body axes; between, a mean of both.
 ///
-/// They depend on the rotation alone, not on the angles that describe it.
+/// Rates depend on the rotation alone, not on the angles that describe it.
 fn conditioned_rates(input: &Input, frame: AngularVelocityFrame, roll: SinCos, pitch: SinCos) -> Vector3<f64> {
     let yaw = match frame {
         AngularVelocityFrame::World => libm::sincos(input.orientation.yaw),

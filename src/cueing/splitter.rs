@@ -3,7 +3,7 @@
 //!
 //! The high-frequency part is in [`crate::cueing::direct_linear`], where it is also integrated.
 //! With the complementary low-pass both are the same chain, D(s) xi = u, and add up to the input
-//! exactly, eq. (6). They are kept apart because the compensation of spurious accelerations
+//! exactly, eq. (6). The two are kept apart because the compensation of spurious accelerations
 //! enters only the high-pass.
 
 use nalgebra::Vector3;

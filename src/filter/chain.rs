@@ -213,7 +213,7 @@ impl Chains {
     /// low-pass as they are.
     ///
     /// The first states make up the platform's motion and are kept. The later ones are memory only.
-    /// They are rescaled so that what the filter has already washed out stays so.
+    /// Later states are rescaled so that what the filter has already washed out stays so.
     pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
         for ((old, new), state) in self.denominators.iter().zip(&denominators).zip(&mut self.states) {
             for i in kept..new.order {

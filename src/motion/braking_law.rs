@@ -1,7 +1,7 @@
 //! The braking law: follows a target without exceeding a limit of position, velocity or
 //! acceleration, whatever the target does.
 //!
-//! One law serves the safety units, the actuator guard and the tilt tracker. It rests on one
+//! One law serves the safety units, the actuator guard and the tilt tracker. The law rests on one
 //! function, [`approach_velocity`]: the velocity from which one can still stop within a distance.
 //! The acceleration is constant over a step. Position and velocity at the steps' ends are therefore
 //! exact, and determine the motion between them.
@@ -93,7 +93,7 @@ impl Limits {
 ///
 /// `distance` is what would be left at the step's end if the velocity there were zero; a is the
 /// acceleration and h the step. The first term is the braking distance, v = sqrt(2 a x). The
-/// second is what the step itself covers. It makes the law land without overshoot in discrete
+/// second is what the step itself covers. With it the law lands without overshoot in discrete
 /// time: near the end the law demands distance/h. Along it the deceleration never exceeds a, since
 /// sqrt(v^2 + (a h)^2) - a h >= v - a h. Where the next step may be longer, h is the mean of this
 /// step and the longest.
@@ -103,9 +103,9 @@ pub fn approach_velocity(distance: f64, acceleration: f64, step: f64) -> f64 {
     magnitude.copysign(distance)
 }
 
-/// A motion that has caught up joins its target when it is at most this times a h^2 away from
-/// where its velocity takes it. Here a is the acceleration limit and h the step. That is far below
-/// what can be measured.
+/// A motion that has caught up joins its target when it is at most this times a h^2 away from where
+/// its velocity takes it. Here a is the acceleration limit and h the step. Such a distance is far
+/// below what can be measured.
 pub const REJOIN_DISTANCE: f64 = 0.01;
 /// Factor on a limit that allows for rounding.
 pub const WITH_ROUNDING: f64 = 1.0 + 1e-9;

@@ -30,8 +30,8 @@ pub fn between(start: RollPitchYaw, end: RollPitchYaw, fraction: f64) -> RollPit
     angles_of_rotation(interpolated_rotation(rotation_quaternion(from), rotation_quaternion(to), fraction))
 }
 
-/// The angles of the same rotation that are nearest to others. They are shifted by whole turns, and
-/// by half a turn of roll and yaw with the pitch on the other side of 90 degrees.
+/// The angles of the same rotation that are nearest to others. The angles are shifted by whole
+/// turns, and by half a turn of roll and yaw with the pitch on the other side of 90 degrees.
 fn nearest_angles(angles: Vector3<f64>, others: Vector3<f64>) -> Vector3<f64> {
     let flipped = Vector3::new(angles.x + PI, PI - angles.y, angles.z + PI);
     let [same, flipped] = [angles, flipped].map(|angles| {

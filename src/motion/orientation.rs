@@ -70,8 +70,8 @@ impl Orientation {
     }
 
     /// Angular velocity in the reference frame from the angles' rates, eq. (10): omega = E (roll,
-    /// pitch, yaw)'. E's columns are the axes about which the three angles turn. It is computed in
-    /// axes that turn with the heading.
+    /// pitch, yaw)'. E's columns are the axes about which the three angles turn. The product is
+    /// computed in axes that turn with the heading.
     pub fn angular_velocity(&self, rates: RollPitchYaw) -> Vector3<f64> {
         self.out_of_heading(Vector3::new(
             self.cos_pitch * rates.roll,
@@ -82,9 +82,9 @@ impl Orientation {
 
     /// Angular acceleration in the reference frame: the time derivative of eq. (10).
     ///
-    /// It is computed in axes that turn with the heading, as the sum of two parts. One is the
-    /// derivative of the components of [`Orientation::angular_velocity`] there, the other the
-    /// effect of the heading's rate.
+    /// The acceleration is computed in axes that turn with the heading, as the sum of two parts.
+    /// One is the derivative of the components of [`Orientation::angular_velocity`] there, the
+    /// other the effect of the heading's rate.
     pub fn angular_acceleration(&self, rates: RollPitchYaw, accelerations: RollPitchYaw) -> Vector3<f64> {
         let (sin, cos) = (self.sin_pitch, self.cos_pitch);
         self.out_of_heading(Vector3::new(
@@ -142,8 +142,8 @@ impl RotationalMotion {
     }
 }
 
-/// The inverse of eq. (10), from sine and cosine of yaw and of pitch. It divides by the cosine of
-/// pitch: see `away_from_zero`.
+/// The inverse of eq. (10), from sine and cosine of yaw and of pitch. The function divides by the
+/// cosine of pitch: see `away_from_zero`.
 pub fn rates_from_reference(
     omega: Vector3<f64>,
     (sin_yaw, cos_yaw): (f64, f64),

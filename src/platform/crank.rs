@@ -79,8 +79,8 @@ impl Arms {
     /// The smallest squares of distances by which the joints are clear of where arms at these
     /// lowest and highest angles, given by cosine and sine, would have them \[m2\].
     ///
-    /// An arm at the angle B with its end b has |l - b|² - s² = g - f cos B - e sin B. That is
-    /// negative for B between the arm's angle and that of the other branch.
+    /// An arm at the angle B with its end b has |l - b|² - s² = g - f cos B - e sin B. The
+    /// difference is negative for B between the arm's angle and that of the other branch.
     #[inline(always)]
     pub(crate) fn clear_of(&self, [lowest, highest]: [[f64; 2]; 2]) -> [f64; 2] {
         let [mut below, mut above] = [f64::INFINITY; 2];

@@ -67,7 +67,7 @@ fn disturbance_by_pitching(compensation: f64) -> f64 {
 }
 
 /// The largest error of the felt surge and sway on a vehicle that turns without acceleration.
-/// It pitches and rolls.
+/// The vehicle pitches and rolls.
 fn error_of_turning(compensation: f64) -> f64 {
     let slow = [
         ("splitter.x.omega1", 0.03),

@@ -1,6 +1,6 @@
-//! `cargo describe-models`: writes every model's descriptions into the files under
-//! `modelDescription`, and the tables that follow from the models into the pages in `docs/`.
-//! They are checked in. Every change of an interface then shows in a diff.
+//! `cargo describe-models` writes every model's descriptions into the files under
+//! `modelDescription`. The tables that follow from the models go into the pages in `docs/`. Git has
+//! both, so every change of an interface shows in a diff.
 
 use std::fs;
 use std::io;

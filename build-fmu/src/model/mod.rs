@@ -112,7 +112,7 @@ use example;
 
 /// Functions derived from a model. `start` has the start value of each slot.
 pub struct ModelFns {
-    /// Who it is and what its variables are.
+    /// Name, version and variables of the model.
     pub identity: Identity,
     /// The start values with overrides by slot.
     pub start: fn(overrides: &[(usize, f64)]) -> Vec<f64>,
@@ -124,11 +124,11 @@ pub struct ModelFns {
     pub guid: fn(start: &[f64]) -> String,
     /// The model description of FMI 2.0.
     pub description: fn(start: &[f64], Types) -> Element,
-    /// That of FMI 3.0.
+    /// The model description of FMI 3.0.
     pub fmi3_description: fn(start: &[f64], fmi3::Layout) -> Element,
     /// The documentation's tables of variables for FMI 2.0.
     pub variables: fn(start: &[f64], Types) -> String,
-    /// Those for FMI 3.0.
+    /// The documentation's tables for FMI 3.0.
     pub fmi3_variables: fn(start: &[f64], fmi3::Layout) -> String,
     /// The output that belongs to a reference ride's input.
     pub reference_output: fn(input: &Stimuli, start: &[f64]) -> String,
@@ -169,7 +169,8 @@ const VEHICLE_MEMBERS: &[(&str, &str)] = &[
     ("vehicle.speed", "speed"),
     ("rider.lean", "lean"),
 ];
-/// Members of a terminal of the preview. It is one of its own, because few vehicles have one.
+/// Members of a terminal of the preview. The preview has a terminal of its own, because
+/// few vehicles have one.
 const PREVIEW_MEMBERS: &[(&str, &str)] = &[
     ("vehicle.preview.count", "count"),
     ("vehicle.preview.step", "step"),

@@ -80,7 +80,7 @@ impl Sources {
         Ok(Sources { declarations: read(&directory.join(model.library(fmi)).join("module.h"))?, code })
     }
 
-    /// Those among the files of an FMU.
+    /// The sources among the files of an FMU.
     pub(crate) fn of_files(files: &Contents) -> Option<Self> {
         let text = |path: &str| Some(String::from_utf8_lossy(files.get(path)?).into_owned());
         Some(Sources { declarations: text(DECLARATIONS_PATH)?, code: text(CODE_PATH)? })

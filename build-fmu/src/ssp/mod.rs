@@ -112,7 +112,7 @@ impl System {
     /// Builds the package of this form into the directory `output`, which is created if it does not
     /// exist, and reports progress line by line.
     ///
-    /// Without platforms the FMUs are for this machine. They are of FMI 2.0, the version that SSP
+    /// Without platforms the FMUs are for this machine. All are of FMI 2.0, the version that SSP
     /// 1.0 supports.
     ///
     /// # Errors
@@ -132,7 +132,7 @@ impl System {
     }
 
     /// Builds `OwnVehicle.ssp`: a vehicle's FMU, the washout and the platform with their start
-    /// values. It has the form [`Form::Flat`].
+    /// values. The package has the form [`Form::Flat`].
     ///
     /// # Errors
     /// As of [`System::build`].

@@ -1,5 +1,5 @@
 //! The lap of MotorcycleLap.ssp: the models of its FMUs, with its start values and connections.
-//! They are stepped as by a co-simulation tool, with one step of delay for each connection.
+//! The models are stepped as by a co-simulation tool, with one step of delay for each connection.
 
 use moris_build_fmu::ssp::{COMPONENTS, Form, MOTORCYCLE_LAP};
 use moris_interface::SlotModel;
@@ -13,8 +13,8 @@ use crate::description::{connections, structure};
 const DURATION: f64 = 100.0;
 const STEP: f64 = 0.001;
 
-/// Least RMS errors of surge and sway that any controller could reach on this lap \[m/s²\]. They
-/// are those of `moris simulate` for the motorcycle's outputs.
+/// Least RMS errors of surge and sway that any controller could reach on this lap \[m/s²\]. The
+/// source is `moris simulate` for the motorcycle's outputs.
 const BOUND: [f64; 2] = [0.79, 0.00];
 
 /// A component with its values in slots.

@@ -1,8 +1,8 @@
 //! Copies and clears memory 32 bytes at a time.
 //!
 //! A washout copies many small structs. The functions of `compiler_builtins` take a word at a time,
-//! and a third of the instructions of the predictive strategy. These are weak: a C library's go
-//! before them.
+//! and a third of the instructions of the predictive strategy. The functions here are weak: a C
+//! library's go before them.
 
 use core::arch::global_asm;
 

@@ -7,7 +7,7 @@ use crate::{InstanceState, Mode, Tables};
 
 /// An instance of a model.
 ///
-/// Its methods are in the modules named for what they do: `access` (get and set), `initialization`,
+/// Methods are in the modules named for what they do: `access` (get and set), `initialization`,
 /// `step` and `serialisation`.
 pub struct Instance<M> {
     pub(crate) tables: Tables,

@@ -2,8 +2,8 @@
 //! the library's file, and the library reads them when it makes its first instance.
 //!
 //! The place is one piece of constant data: the mark, then numbers of eight bytes in
-//! little-endian order. They are the format, the number of slots, a checksum of the rest, and the
-//! start value of each slot.
+//! little-endian order. The numbers are the format, the number of slots, a checksum of the rest,
+//! and the start value of each slot.
 
 use std::ptr;
 
@@ -42,7 +42,7 @@ impl<const N: usize> StartSection<N> {
     /// The values in place of the model's own, as they are in the library's file.
     ///
     /// # Errors
-    /// They are damaged.
+    /// The values are damaged.
     pub(crate) fn read(&self) -> Result<Overrides, CallError> {
         // SAFETY: a reference is valid for reads. The read is volatile, because the compiler must not take the
         // values for those with which it compiled the library.

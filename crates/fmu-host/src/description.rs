@@ -42,7 +42,7 @@ pub enum Causality {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Declaration {
     pub causality: Causality,
-    /// Its unit, or that of its type.
+    /// The unit, or that of the variable's type.
     pub unit: Option<String>,
     /// The element that declares it, such as Real or Float64.
     pub element: String,
@@ -61,7 +61,7 @@ impl Declaration {
 /// An element of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Element {
-    /// Its place in the array, row by row.
+    /// Place in the array, row by row.
     pub index: usize,
     /// Length of the array.
     pub length: usize,

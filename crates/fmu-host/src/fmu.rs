@@ -43,8 +43,8 @@ impl Fmu {
         Self::load(&library, &description.guid, Some(resources), description.variables, Some(directory))
     }
 
-    /// Opens an FMU's shared library alone. It has no variables by name, see
-    /// [`Fmu::with_variables`].
+    /// Opens an FMU's shared library alone. An FMU without its description has no variables by
+    /// name, see [`Fmu::with_variables`].
     ///
     /// # Errors
     /// The library cannot be loaded, or lacks a function of FMI 2.0.

@@ -1,6 +1,6 @@
-//! A host for FMUs for co-simulation of FMI 2.0, and with [`Running`] of FMI 3.0. It opens them,
-//! sets and gets variables, and steps them, as a simulation tool does. It is independent of the
-//! crates that make the FMUs.
+//! A host for FMUs for co-simulation of FMI 2.0, and with [`Running`] of FMI 3.0. The host opens
+//! them, sets and gets variables, and steps them, as a simulation tool does. Nothing of it depends
+//! on the crates that make the FMUs.
 //!
 //! [`files`] reads what others wrote, FMUs and texts, up to a bound.
 //!

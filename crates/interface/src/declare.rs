@@ -8,7 +8,7 @@
 /// - the FMI name, a template, see [`Row`](crate::Row);
 /// - the Rust name and type;
 /// - the unit in brackets, for reals only;
-/// - the range in braces. It includes both ends, and all checks use it;
+/// - the range in braces, which includes both ends and which all checks use;
 /// - the start value, a constant expression. The compiler evaluates it, so that no machine's
 ///   arithmetic changes it;
 /// - the tail, separated by commas: methods of [`Row`](crate::Row) such as `usual` and `used_if`,

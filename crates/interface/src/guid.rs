@@ -11,10 +11,10 @@ pub fn guid<M: Model>() -> String {
 
 /// The GUID of a model with these start values, one for each slot.
 ///
-/// It is a hash of the model's name, version, variables and the start values that a host can set. A
-/// binary refuses a model description if its own interface differs in any of these.
+/// The GUID is a hash of the model's name, version, variables and the start values that a host can
+/// set. A binary refuses a model description if its own interface differs in any of these.
 ///
-/// The outputs' start values are not part of it. They are computed, and depend on the host's
+/// The outputs' start values are not part of it. Such values are computed, and depend on the host's
 /// rounding mode and flushing of small numbers.
 pub fn guid_of<M: Model>(start: &[f64]) -> String {
     let identity = M::IDENTITY;

@@ -7,7 +7,7 @@ use serde::{Serialize, de::DeserializeOwned};
 use crate::units::S;
 use crate::{Causality, Group, Row, Slot, interface, slot_of};
 
-/// Who a model is and what its variables are.
+/// Name, version and variables of a model.
 #[derive(Clone, Copy, Debug)]
 pub struct Identity {
     /// The name, also a legal C identifier: FMI's modelName and modelIdentifier.

@@ -12,7 +12,7 @@ use core::ops::RangeInclusive;
 use crate::shown::{Shown, shown};
 use crate::{Field, ParameterError, Unit};
 
-/// Who sets a variable (FMI 2.0, 2.2.7).
+/// The side that sets a variable (FMI 2.0, 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Causality {
     Independent,
@@ -22,7 +22,7 @@ pub enum Causality {
 }
 
 impl Causality {
-    /// Its name in a model description.
+    /// The name in a model description.
     pub const fn name(self) -> &'static str {
         match self {
             Causality::Independent => "independent",
@@ -43,7 +43,7 @@ pub enum Variability {
 }
 
 impl Variability {
-    /// Its name in a model description.
+    /// The name in a model description.
     pub const fn name(self) -> &'static str {
         match self {
             Variability::Continuous => "continuous",
@@ -91,7 +91,7 @@ pub struct Item {
 /// One line of the interface.
 ///
 /// In `name`, `#` stands for the 1-based index of an array and `@` for the component. For example,
-/// `rig.base[#].@` with `count` 6 and components x, y, z is eighteen variables. They are
+/// `rig.base[#].@` with `count` 6 and components x, y, z is eighteen variables,
 /// `rig.base[1].x` to `rig.base[6].z`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
@@ -250,8 +250,8 @@ impl Row {
         self.conditions.iter().flatten().filter(move |condition| condition.components.contains(&component))
     }
 
-    /// The smallest and the largest value; those of the type where the row has no range. They never
-    /// admit NaN and the infinities.
+    /// The smallest and the largest value; those of the type where the row has no range. NaN and
+    /// the infinities are never within them.
     pub const fn bounds(&self) -> (f64, f64) {
         match (self.range, self.kind) {
             (Some(range), _) => range,

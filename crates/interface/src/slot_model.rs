@@ -6,9 +6,9 @@ use crate::{Group, Model, ParameterError, Reader, Time, Writer, slot_count};
 
 /// A [`Model`] whose inputs, outputs and parameters lie in slots.
 ///
-/// The host keeps the values. It gives the model the slots when parameters matter and at every
-/// step, and the model writes its outputs back. The slots are those of time, inputs, outputs and
-/// parameters, in this order.
+/// The host keeps the values. The host gives the model the slots when parameters matter and at
+/// every step, and the model writes its outputs back. The slots are those of time, inputs, outputs
+/// and parameters, in this order.
 pub trait SlotModel: Model {
     /// Writes the start value of every slot; the outputs are those of the model
     /// with the other values.

@@ -20,7 +20,7 @@ pub struct Setup {
     pub parameters_name: String,
     /// All parameters, the rig's among them.
     pub parameters: Parameters,
-    /// Those of the rig with default parameters.
+    /// Parameters of the rig with all others at their default.
     pub rig_alone: Parameters,
     /// Diameter of the rig's legs, where its file gives it \[m\].
     pub actuator_diameter: Option<f64>,
@@ -54,9 +54,9 @@ impl Setup {
         }
     }
 
-    /// The text of a parameter file with these parameters. It has what differs from the rig with
-    /// default parameters, and always the strategy and the scales: over another set it runs as
-    /// here. It has nothing of the rig.
+    /// The text of a parameter file with these parameters. The text has what differs from the rig
+    /// with default parameters, and always the strategy and the scales: over another set it runs as
+    /// here. Nothing of the rig is in it.
     pub fn parameter_file(&self, heading: &str) -> String {
         let is_kept = |name: &str| name == "strategy" || name.starts_with("scale.");
         let written = all(&self.parameters).into_iter().filter(|(name, _)| is_kept(name));

@@ -9,7 +9,7 @@ use moris_fmu_host::Fmu;
 /// Builds the FMU as `cargo build-fmu` does, with progress on standard error, and opens it.
 ///
 /// # Errors
-/// It cannot be built or opened.
+/// The FMU cannot be built or opened.
 pub fn built() -> Result<Fmu> {
     let (model, output) = (&model::WASHOUT, workspace::default_output());
     let report = |line: &str| eprintln!("{line}");

@@ -1,6 +1,6 @@
 //! Origin of an FMU, the same in every description.
 
-/// Who has made it.
+/// Maker of the file.
 pub const AUTHOR: &str = "MORIS washout contributors";
 pub const COPYRIGHT: &str = "Copyright (c) MORIS washout contributors";
 pub const LICENSE: &str = "MIT OR Apache-2.0";

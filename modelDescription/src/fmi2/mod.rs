@@ -1,6 +1,6 @@
 //! The description of a model by FMI 2.0.
 //!
-//! Its variables have their own types, or all of them are reals: see [`Types`].
+//! Variables have their own types, or all of them are reals: see [`Types`].
 
 mod describe;
 mod variables_html;

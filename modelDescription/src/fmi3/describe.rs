@@ -96,7 +96,8 @@ fn variable_places(identity: &Identity, layout: Layout) -> Vec<Place> {
     }
 }
 
-/// A variable; the element's name is its type. It has a start value for each element, row by row.
+/// A variable; the element's name is its type. An array has a start value for
+/// each element, row by row.
 fn variable_element(place: &Place, start: &[f64]) -> Element {
     let Place { row, name, first_slot, dimensions } = place;
     let convert = |value: f64| match row.kind {

@@ -1,5 +1,5 @@
-//! Requirements of FMI 2.0 on a model description, and errors that no validator reports. They are
-//! checked on the text of the file with an independent XML reader.
+//! Requirements of FMI 2.0 on a model description, and errors that no validator reports. The rules
+//! are checked on the text of the file with an independent XML reader.
 
 use std::collections::{BTreeSet, HashMap};
 

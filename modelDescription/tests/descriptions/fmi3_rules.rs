@@ -1,5 +1,6 @@
-//! Requirements of FMI 3.0 on a model description. They are checked on the text of the file with an
-//! independent XML reader, and against the description for FMI 2.0, which has its own tests.
+//! Requirements of FMI 3.0 on a model description. The rules are checked on the text of
+//! the file with an independent XML reader, and against the description for FMI 2.0,
+//! which has its own tests.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;

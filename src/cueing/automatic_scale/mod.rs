@@ -29,7 +29,7 @@ use crate::motion::min_max::{max, min};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FittingScale {
     factor: f64,
-    /// Its relative rate of change \[1/s\], until the bank's next sample.
+    /// Relative rate of change of the factor \[1/s\], until the bank's next sample.
     rate: f64,
     /// None while the scale is not automatic.
     bank: Option<Bank>,

@@ -53,7 +53,7 @@ impl Platform {
     }
 }
 
-/// Travel after a step with this velocity demanded at its end. It stops at its limit, and may
+/// Travel after a step with this velocity demanded at its end. Travel stops at its limit, and may
 /// accelerate at will otherwise.
 fn within_reach(travel: &Motion, demanded: f64, model: &AxisModel, step: f64) -> Motion {
     let Motion { position, velocity, .. } = *travel;

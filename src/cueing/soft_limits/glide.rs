@@ -37,7 +37,7 @@ impl SoftLimitGlide {
         self.soft_limit == parameters.soft_limit && self.position_limit == parameters.safety.position_limit
     }
 
-    /// These parameters with what is in force of the soft limits'.
+    /// The parameters with what is in force of the soft limits'.
     pub fn in_force(&self, parameters: &Parameters) -> Parameters {
         let safety = SafetyParameters { position_limit: self.position_limit, ..parameters.safety };
         Parameters { soft_limit: self.soft_limit, safety, ..*parameters }

@@ -8,10 +8,10 @@
 //!     q''  <=  psi(p (hi - m - q) - q') - p q'
 //! ```
 //!
-//! with the pace p and the margin m, and likewise towards lo. This is a control barrier function of
-//! relative degree two. p (hi - m - q) is the largest velocity, and psi the acceleration towards
-//! it. The acceleration ends gently, because psi grows with the pace at first, and then like a root
-//! (`GentleSlope`).
+//! with the pace p and the margin m, and likewise towards lo. The bound is a control barrier
+//! function of relative degree two. p (hi - m - q) is the largest velocity, and psi the
+//! acceleration towards it. The acceleration ends gently, because psi grows with the pace at first,
+//! and then like a root (`GentleSlope`).
 //!
 //! A leg's acceleration is affine in the platform's. Where a demand leaves these ranges, it is
 //! replaced by the nearest accelerations of all six coordinates. The ranges change continuously

@@ -49,8 +49,8 @@ impl Relaxation {
         self.acting > 0.0
     }
 
-    /// The relaxation with its acceleration in this step. This surge and sway make up for
-    /// the tilt's acceleration.
+    /// The relaxation with its acceleration in this step. `tilt_compensation` is the surge and sway
+    /// that compensate the tilt's acceleration.
     pub fn accelerated(&self, tilt_compensation: &Vector3<f64>) -> Self {
         let Motion { position, velocity, .. } = self.travel;
         let acceleration =

@@ -46,7 +46,7 @@ struct Adaptation {
     tilt: [f64; 2],
 }
 
-/// Bound on the sensitivities. They are of no use long before they reach it.
+/// Bound on the sensitivities. Sensitivities are of no use long before they reach it.
 const LARGEST_SENSITIVITY: f64 = 1e3;
 /// The fraction of its nominal value below which no gain falls. Without a gain, the
 /// tilt would never return.
@@ -113,8 +113,8 @@ impl Adaptive {
         (self.models, self.parameters) = (*models, *parameters);
     }
 
-    /// Decision for a step of `step` seconds. It begins in these states and has these references at
-    /// its end. The actuators' clearance is `scaled_clearance` \[m\].
+    /// Decision for a step of `step` seconds. The step begins in these states and has these
+    /// references at its end. The actuators' clearance is `scaled_clearance` \[m\].
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],

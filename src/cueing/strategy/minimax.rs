@@ -1,8 +1,9 @@
 //! The regulator that is least for the worst reference.
 //!
-//! It has the states, inputs and cost of the linear-quadratic [`regulator`](super::regulator),
-//! which is least in the mean for a reference whose slow and fast part decay. Here a disturbance w
-//! of bounded energy drives both parts, and the regulator is least for the worst one:
+//! The regulator has the states, inputs and cost of the linear-quadratic
+//! [`regulator`](super::regulator), which is least in the mean for a reference whose slow and fast
+//! part decay. Here a disturbance w of bounded energy drives both parts, and the regulator is
+//! least for the worst one:
 //!
 //! ```text
 //!     x' = A x + B u + D w,    integral of the cost <= gamma^2 integral of w'w

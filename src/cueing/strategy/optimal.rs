@@ -67,7 +67,7 @@ const WEIGHED_TRAVEL: [f64; 2] = [0.45, 0.3];
 ///
 /// A long travel is used up before the tilt, whose rate is the same on every rig, can give it
 /// back. Beyond D, the first of [`WEIGHED_TRAVEL`], the weights of the travel L therefore grow: L
-/// counts as D^2/L. They do not grow without end: a platform that keeps too near to its middle
+/// counts as D^2/L. Their growth has an end: a platform that keeps too near to its middle
 /// gives less.
 pub(in crate::cueing) fn weighed(model: &AxisModel) -> AxisModel {
     let [most, least] = WEIGHED_TRAVEL;

@@ -1,8 +1,8 @@
 //! The robust strategy: the regulator that is least for the worst reference, one for each axis.
 //!
-//! The paper names robust washout last. Its references (Idan and Sahar 1996) give no weights. This
-//! is the [`optimal`](super::optimal) strategy with the gains of the [`minimax`](super::minimax)
-//! regulator.
+//! The paper names robust washout last. Its references (Idan and Sahar 1996) give no weights. The
+//! strategy here is the [`optimal`](super::optimal) one with the gains of the
+//! [`minimax`](super::minimax) regulator.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,10 +1,10 @@
 //! The certificate: proof that a transition, and a stop plan after it, keep every
 //! limit at every instant.
 //!
-//! A transition goes from position q0 and velocity u0 to q1 and u1 in a step h. It stands
-//! for a trajectory with the steady acceleration c = (u1 - u0)/h, and a gap d = q1 - q0 -
-//! (u0 + u1) h/2 at its end. The gap counts as an acceleration of 2 |d|/h². Limits that hold
-//! on the trajectory with this added also hold for the differences of the positions and
+//! A transition goes from position q0 and velocity u0 to q1 and u1 in a step h. The transition
+//! stands for a trajectory with the steady acceleration c = (u1 - u0)/h, and a gap d = q1 -
+//! q0 - (u0 + u1) h/2 at its end. The gap counts as an acceleration of 2 |d|/h². Limits that
+//! hold on the trajectory with this added also hold for the differences of the positions and
 //! velocities at the steps' ends.
 
 use nalgebra::Vector3;

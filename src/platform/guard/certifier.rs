@@ -104,8 +104,8 @@ impl Home {
 
 /// The margin of a stroke at either end for what happens between the ends of a step \[m\].
 ///
-/// It is what a leg can move beyond both ends of a transition: A h²/8 for the longest step h, or V
-/// h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
+/// The margin is what a leg can move beyond both ends of a transition: A h²/8 for the longest step
+/// h, or V h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
 pub fn step_margin(rig: &Rig, max_step: f64) -> f64 {
     (0.125 * rig.acceleration_limit * max_step * max_step).min(0.5 * rig.velocity_limit * max_step)
 }

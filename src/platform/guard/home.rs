@@ -8,8 +8,8 @@
 //! (L²)'' <= 2 c with c = D² + L W² r, and L'' >= -W² r.
 //!
 //! Take two points of the way, a and b. A function whose second derivative is at most 2 c is no
-//! more than c (s - a)(b - s) below the line between its ends. It stays above zero if its values at
-//! the ends add up to c (b - a)² or more.
+//! more than c (s - a)(b - s) below the line between its ends. The function stays above zero if its
+//! values at the ends add up to c (b - a)² or more.
 //!
 //! The way is certified if every leg is inside its stroke by at least s times a margin. From any
 //! point of a certified way the rest of it is certified as well.

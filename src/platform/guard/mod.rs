@@ -5,9 +5,9 @@
 //! certified stop plan**, a trajectory to rest on which every limit holds at every instant. A step
 //! does one of two things:
 //!
-//! 1. It accepts a candidate state. Both the transition to it and a stop plan from it are
+//! 1. The guard accepts a candidate state. Both the transition to it and a stop plan from it are
 //!    certified; that plan is stored. So is the straight way to neutral from the plan's end.
-//! 2. It follows the stored plan, which needs no check.
+//! 2. The guard follows the stored plan, which needs no check.
 //!
 //! The first candidate is the demand itself; others lie between the plan's next state and a
 //! pursuit of the demand.
@@ -40,7 +40,8 @@ pub struct ActuatorGuard {
     /// The limits within which each leg pursues its demand.
     pursuit: Limits,
     commanded: PlatformState,
-    /// The certified way to rest. It starts at the present state, unless the last step followed it.
+    /// The certified way to rest. The plan starts at the present state, unless the
+    /// last step followed it.
     plan: StopPlan,
     deviation: Option<Deviation>,
 }
@@ -131,9 +132,10 @@ impl ActuatorGuard {
         });
     }
 
-    /// Time for which the input has been at rest, `step` seconds later. Once that is longer than
-    /// [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home, and the
-    /// fraction of its speed is given. It goes on until it joins its demand or the input moves.
+    /// Time for which the input has been at rest, `step` seconds later. Once that is longer
+    /// than [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home,
+    /// and the fraction of its speed is given. The way ends where the platform joins its
+    /// demand or the input moves.
     fn rest_time(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
         let Some(Deviation { resting: before, homing_fraction, .. }) = self.deviation.filter(|_| resting) else {
             return (0.0, None);

@@ -10,7 +10,7 @@ use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits};
 use crate::platform::stop_plan::StopPlan;
 use crate::platform::{Legs, PlatformCoordinates, PlatformState, jacobian};
 
-/// Number of bisections between the plan and the pursuit. They find the farthest certified
+/// Number of bisections between the plan and the pursuit. Bisection finds the farthest certified
 /// candidate to a part in 2^6.
 const BISECTION_STEPS: usize = 6;
 
@@ -53,7 +53,7 @@ impl ActuatorGuard {
     }
 
     /// The state that the platform reaches if each leg pursues its target under its own limits, and
-    /// surge, sway and heave keep theirs. It need not be certified.
+    /// surge, sway and heave keep theirs. The state need not be certified.
     fn pursued(
         &self,
         now: &PlatformCoordinates,

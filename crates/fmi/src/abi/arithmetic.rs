@@ -37,7 +37,7 @@ mod control_word {
     pub type ControlWord = u32;
     /// All traps masked, round to nearest, neither FTZ nor DAZ.
     pub const DEFAULT: ControlWord = 0x1f80;
-    /// Exception flags raised since the host last cleared them. They are not part of the setting.
+    /// Exception flags raised since the host last cleared them. The setting does not include them.
     pub const FLAGS: ControlWord = 0x3f;
 
     #[inline(always)]

@@ -7,7 +7,8 @@ use moris_interface::{Identity, Model};
 use super::{Function, with_default_arithmetic};
 use crate::{CallError, Instance, Mode, Severity, panics};
 
-/// The host of an instance in one version of FMI. It receives messages and the status of each call.
+/// The host of an instance in one version of FMI. The host receives messages and
+/// the status of each call.
 pub trait Host {
     /// Status of a call.
     type Status;

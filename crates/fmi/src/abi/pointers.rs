@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 
 use crate::CallError;
 
-/// A pointer that does not lead to as many values as the host says. It becomes an error out of the
+/// A pointer that does not lead to as many values as the host says. The error is made out of the
 /// way of the calls that have nothing to complain about.
 #[derive(Debug)]
 pub struct NotAnArray {

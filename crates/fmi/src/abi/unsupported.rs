@@ -16,7 +16,7 @@ pub fn not_provided<M: Model, H: Host>(_: &mut Component<M, H>, capability: &str
     Err(CallError::error(format!("not provided, as {capability} in modelDescription.xml says")))
 }
 
-/// A get or set function of a type that no variable has. It succeeds for no variables.
+/// A get or set function of a type that no variable has. A call for no variables succeeds.
 pub fn none_of_this_type<M: Model, H: Host>(_: &mut Component<M, H>, count: usize) -> Result<(), CallError> {
     match count {
         0 => Ok(()),

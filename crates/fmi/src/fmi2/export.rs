@@ -8,7 +8,7 @@
 /// ```
 ///
 /// A packing program can replace the model's start values in the compiled library: see
-/// [`embed`](crate::embed). It has to make sure that the model can start with them.
+/// [`embed`](crate::embed). Such a program has to make sure that the model can start with them.
 #[macro_export]
 macro_rules! export_fmi2 {
     ($model:ty) => {

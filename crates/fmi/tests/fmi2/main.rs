@@ -1,5 +1,5 @@
-//! Tests of the C functions of FMI 2.0 from a host's side. They load the shared library of a small
-//! model with a closed-form solution.
+//! Tests of the C functions of FMI 2.0 from a host's side. The tests load the shared library of a
+//! small model with a closed-form solution.
 
 mod calling_sequence;
 mod creation;

@@ -1,5 +1,5 @@
-//! Tests of the C functions of FMI 3.0 from a host's side. They load the shared library of a small
-//! model with vectors and a closed-form solution.
+//! Tests of the C functions of FMI 3.0 from a host's side. The tests load the shared library of a
+//! small model with vectors and a closed-form solution.
 //!
 //! The parts common to all versions are tested through the functions of FMI 2.0, in `tests/fmi2`.
 

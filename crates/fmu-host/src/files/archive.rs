@@ -20,7 +20,7 @@ pub enum ArchiveError {
     /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] io::Error),
-    /// It is no archive, or a damaged one.
+    /// The file is no archive, or a damaged one.
     #[error(transparent)]
     Zip(#[from] ZipError),
     /// Small files can unpack to more than a disk holds.
@@ -47,7 +47,7 @@ pub fn open_archive(file: &Path, largest: u64) -> Result<ZipArchive<File>, Archi
 /// sizes that it declares are checked first, then the true ones, which can differ.
 ///
 /// # Errors
-/// It unpacks to more, or is damaged.
+/// The archive unpacks to more, or is damaged.
 pub fn check_unpacked<R: Read + Seek>(archive: &mut ZipArchive<R>, largest: u64) -> Result<(), ArchiveError> {
     if archive.len() > MOST_FILES {
         return Err(ArchiveError::TooMany(archive.len()));

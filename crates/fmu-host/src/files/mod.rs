@@ -1,7 +1,7 @@
 //! Files and archives that others made, read up to a bound.
 //!
 //! Some files would fill the memory or the disk: devices without an end, sparse files, and small
-//! archives that unpack to many gigabytes. They are refused with the reason.
+//! archives that unpack to many gigabytes. Such files are refused with the reason.
 
 mod archive;
 mod read;

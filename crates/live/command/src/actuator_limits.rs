@@ -60,7 +60,7 @@ pub struct FrameLimiter {
 #[derive(Clone, Copy, Debug)]
 struct Glide {
     from: GlideStart,
-    /// Its largest speed \[m/s\].
+    /// Largest speed of the glide \[m/s\].
     speed: f64,
     /// The part of the way that is left, behind two equal lags.
     lag: f64,

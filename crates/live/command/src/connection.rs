@@ -29,7 +29,7 @@ impl Connection {
         (self.failures, self.is_lost) = (0, false);
     }
 
-    /// It has been without frames for so long that it may be anywhere.
+    /// Forgets where the platform is, after so long without frames that it may be anywhere.
     pub fn lose(&mut self) {
         self.is_lost = true;
     }

@@ -11,7 +11,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Handling {
-    /// Those of a rider who can be helped, and who begins again after a fall.
+    /// The controls of a rider who can be helped, and who begins again after a fall.
     Rider,
     /// Some of throttle, brake and stick.
     Inputs,

@@ -17,7 +17,7 @@ pub struct LegPosition {
     is_own: bool,
     /// The place that a person has given for the next start.
     given: Option<Legs>,
-    /// It was given before this session.
+    /// True if the position was given before this session.
     is_given_before: bool,
     /// Time at which a person was asked to look again \[s\].
     doubted: Option<f64>,

@@ -1,4 +1,4 @@
-//! The loop: a step a millisecond. It allocates nothing, and waits for nobody.
+//! The loop: a step a millisecond. A step allocates nothing, and waits for nobody.
 
 use std::fmt::{self, Display, Formatter};
 use std::sync::atomic::Ordering;

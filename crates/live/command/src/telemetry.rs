@@ -49,9 +49,9 @@ fn logger(name: &str) -> Result<Logger> {
 /// Properties of a source that are known before it runs.
 #[derive(Clone, Debug, Default)]
 pub struct Features {
-    /// It runs inside this program: its samples come before their time.
+    /// True for a vehicle inside this program: its samples come before their time.
     pub is_inside: bool,
-    /// It sends the vehicle's position, or may do so.
+    /// True if the source sends the vehicle's position, or may do so.
     pub has_position: bool,
     /// Kind of the vehicle's controls; none if it drives by itself.
     pub handling: Option<Handling>,

@@ -14,8 +14,8 @@
 //! preview is given the debt grows by less than D, since with D more the needed proof has doubled.
 //! Losses of forecasts that were made before the end come in the 2 s after it. The debt is never
 //! less than the net loss of any stretch up to now. So no input, whatever it does, makes the
-//! preview lose more than D (1 + log2(T / P)), and what 2 s can lose. That is 49 s of the mean
-//! squared force in an hour: 1.4 % of it.
+//! preview lose more than D (1 + log2(T / P)), and what 2 s can lose. In an hour this amounts to 49
+//! s of the mean squared force: 1.4 % of it.
 
 use serde::{Deserialize, Serialize};
 

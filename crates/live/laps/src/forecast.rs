@@ -129,8 +129,8 @@ pub struct Record {
     /// Mean squared error of the forecasts, and of the passes at present \[(m/s2)^2\].
     error: f64,
     error_now: f64,
-    /// Those without memory, at each of the compared times: of the present force held, of no force,
-    /// of a trend, and of a wave.
+    /// Errors of the forecasts without memory, at each of the compared times: of the present force
+    /// held, of no force, of a trend, and of a wave.
     plain: [[f64; MEMORYLESS_FORECASTS]; COMPARED_ELEMENTS.len()],
     waves: [Wave; COMPARED_ELEMENTS.len()],
     /// Of the forecasts whose times have come with the latest tick.

@@ -29,7 +29,7 @@ pub struct Tick {
     pub force: [f64; 2],
 }
 
-/// The samples as ticks. They are linear between samples.
+/// The samples as ticks. Between samples the ticks are linear.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ticks {
     last: Option<Sample>,

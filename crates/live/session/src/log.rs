@@ -201,7 +201,7 @@ pub enum ReplayError {
 /// Result of a repeated session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replayed {
-    /// Its steps.
+    /// Number of the session's steps.
     pub steps: u64,
     /// The digest of its commands.
     pub digest: u64,

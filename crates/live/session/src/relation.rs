@@ -16,7 +16,7 @@ pub struct Relation {
     pub ratio: f64,
     /// Correlation about zero, from -1 to 1; 0 where one of them is nothing.
     pub correlation: f64,
-    /// Their root mean squares.
+    /// Root mean squares of the two.
     pub sizes: [f64; 2],
     /// Pairs of values.
     pub count: f64,

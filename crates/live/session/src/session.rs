@@ -99,7 +99,7 @@ pub enum Refusal {
     Position {
         /// The actuator, from 0.
         leg: usize,
-        /// Its reported length, or the angle of its arm.
+        /// The reported length, or the angle of the arm.
         position: f64,
         /// The shortest length, or the lowest angle.
         least: f64,
@@ -119,11 +119,11 @@ pub struct Commands {
     pub time: f64,
     /// Lengths of the actuators, or arcs of the cranks' arms above level \[m\].
     pub length: [f64; 6],
-    /// Their rates \[m/s\].
+    /// Rates of the lengths \[m/s\].
     pub velocity: [f64; 6],
     /// Pose of the platform.
     pub pose: Pose,
-    /// Its height above neutral \[m\].
+    /// Height of the pose above neutral \[m\].
     pub heave: f64,
     /// All outputs of the washout. Lengths and pose there leave out the way between the lowest pose
     /// and neutral.
@@ -155,8 +155,8 @@ pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> R
     })
 }
 
-/// The pose with these lengths of the legs, at this part of the way to the washout's pose. It is
-/// that pose if no other is found from there or from the one before.
+/// The pose with these lengths of the legs, at this part of the way to the washout's pose. The
+/// result is that pose if no other is found from there or from the one before.
 fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64, before: Option<&Pose>) -> Pose {
     // Part of the way to neutral that is too short to change a pose.
     const NO_WAY: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! Test of the telemetry's signs over the first minute of motion.
 //!
 //! Each check compares two quantities that must have the same sign: what the vehicle does, by two
-//! different channels. It decides by their correlation, once there is motion enough. What gravity
+//! different channels. Their correlation decides, once there is motion enough. What gravity
 //! has in a force follows from the attitude. Without one, a contradiction must exceed what a slope
 //! explains. A slow vehicle whose speed has no sign may be reversing.
 
@@ -64,9 +64,9 @@ impl Check {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Signs {
     all: [Sums; 5],
-    /// Those in which the two differ by more than a slope explains.
+    /// Sums of samples in which the two differ by more than a slope explains.
     apart: [Sums; 5],
-    /// Those of a speed that may be a reversing vehicle's.
+    /// Sums of samples with a speed that may be a reversing vehicle's.
     slow: [Sums; 5],
     agrees: [bool; 5],
     last: Option<(f64, Sample)>,

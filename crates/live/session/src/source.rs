@@ -72,7 +72,7 @@ pub enum DropReason {
 /// Effect of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accepted {
-    /// Its time \[s\]; none if it is not to be used.
+    /// Time of the sample \[s\]; none if it is not to be used.
     pub time: Option<f64>,
     /// True if it takes the place of the sample before it.
     pub instead: bool,
@@ -87,7 +87,8 @@ pub struct Accepted {
 /// The source of telemetry.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Source {
-    /// It runs inside the program: it neither pauses without saying so nor sends random bytes.
+    /// True for a source inside the program: it neither pauses without saying so
+    /// nor sends random bytes.
     is_inside: bool,
     clock: Clock,
     pace: ClockPace,

@@ -50,7 +50,7 @@ pub struct Spikes {
 /// Judgement of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judgement {
-    /// It is used, after the doubtful one before it if there is one that it confirms.
+    /// The sample is used, after the doubtful one before it if there is one that it confirms.
     Used(Option<(f64, Sample)>),
     /// The sample waits for the next one.
     Doubtful,

@@ -89,17 +89,17 @@ pub enum Horizontal {
 /// A vertical force that is not gravity's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GravityFault {
-    /// It is one of g.
+    /// The force is in units of g.
     InG,
     /// There is none.
     Missing,
-    /// It is there twice.
+    /// Gravity is there twice.
     Twice,
-    /// It points down.
+    /// Gravity points down.
     Down,
-    /// It is along x, 0, or y, 1.
+    /// Gravity is along x, 0, or y, 1.
     Along(usize),
-    /// It is much larger.
+    /// The force is much larger.
     Large,
 }
 

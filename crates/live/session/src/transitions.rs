@@ -10,12 +10,12 @@ macro_rules! named {
             /// All of them, in the order of the table.
             pub const ALL: &'static [Self] = &[$( $type::$item ),+];
 
-            /// Its name.
+            /// The name of the item.
             pub fn name(self) -> &'static str {
                 match self { $( $type::$item => $name, )+ }
             }
 
-            /// Its description.
+            /// The description of the item.
             pub fn text(self) -> &'static str {
                 match self { $( $type::$item => concat!($($text),+).trim_ascii(), )+ }
             }

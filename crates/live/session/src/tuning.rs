@@ -23,7 +23,7 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// These values of all slots, which are in force.
+    /// Tuning from these values of all slots, which are in force.
     pub fn new(slots: &[f64]) -> Tuning {
         Tuning { target: slots.to_vec(), waits: false }
     }

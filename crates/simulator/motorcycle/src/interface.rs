@@ -126,7 +126,7 @@ interface! {
         "status.gripLimited" grip_limited: bool = false;
         /// True once the motorcycle has left the path by more than path.halfWidth; the rider then brakes to a stop.
         "status.offPath" off_path: bool = false;
-        /// True once the motorcycle has fallen: too much roll or slip. It then slides to a stop.
+        /// True once the motorcycle has fallen, by too much roll or slip, and slides to a stop.
         "status.fallen" fallen: bool = false;
         /// Number of elements of vehicle.preview.specificForce in use; 0 without a path.
         "vehicle.preview.count" preview_count: i32 { 0 ..= 20 } = 0;

@@ -4,8 +4,8 @@
 //! The bodies are those of [`crate::whipple`], in its axes: x forward, y to the RIGHT, z DOWN from
 //! the rear contact. All angles are positive to the right. The equations are derived from the same
 //! kinetic and potential energy, without the constraint that the wheels do not slip sideways. With
-//! infinitely stiff tyres they are Whipple's. They are linear in the state and their coefficients
-//! linear in the speed, so that a model is two matrices.
+//! infinitely stiff tyres they are Whipple's. The equations are linear in the state and their
+//! coefficients linear in the speed, so that a model is two matrices.
 //!
 //! The lean of these linear equations is the TANGENT of the roll angle. In a steady turn, speed
 //! times yaw rate equals gravity times lean. With the tangent, such a turn is balanced at any roll
@@ -166,7 +166,7 @@ impl Lateral {
         Some(lateral)
     }
 
-    /// Adds a tyre's force F on the motorcycle. It follows the slip velocity s by
+    /// Adds a tyre's force F on the motorcycle. The force follows the slip velocity s by
     /// sigma F' = v (C_camber camber - F) - C s.
     fn add_tyre(&mut self, contact: &Contact, inverse: &Matrix4<f64>) {
         let Contact { force, arms, steer_slip, steer_camber, tyre } = contact;
@@ -217,8 +217,8 @@ impl Lateral {
 struct Contact {
     /// Index of its force in the state.
     force: usize,
-    /// Lateral displacement of the contact per coordinate of q. This is also the generalised force
-    /// of a unit lateral force.
+    /// Lateral displacement of the contact per coordinate of q. The same numbers are the
+    /// generalised force of a unit lateral force.
     arms: Vector4<f64>,
     /// Fraction of the steer angle that turns the wheel in the road's plane, and fraction that
     /// cambers it.

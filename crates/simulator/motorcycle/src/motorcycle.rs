@@ -106,7 +106,7 @@ impl Model for Motorcycle {
     /// bars do not jump; accelerations may.
     ///
     /// The rider's gains are designed again if `rider.torqueWeight` changes or the top speed
-    /// exceeds their range. This takes some milliseconds.
+    /// exceeds their range. The design takes some milliseconds.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
@@ -179,7 +179,7 @@ impl Model for Motorcycle {
 }
 
 impl Motorcycle {
-    /// This motorcycle with a rider who obeys the commands on the path, too. The path has no effect
+    /// The motorcycle with a rider who obeys the commands on the path, too. The path has no effect
     /// but on the place beside it, the friction across the road and the end of the ride. There is
     /// no preview, because the commands to come are not known.
     pub fn commanded(self) -> Self {

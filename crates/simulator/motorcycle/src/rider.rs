@@ -6,7 +6,7 @@
 //! - minus a gain times the deviation of the lateral state from that turn's;
 //! - minus a gain times the accumulated error of the lean.
 //!
-//! The gains minimise a quadratic cost (LQR). They are computed at the beginning for speeds from
+//! The gains minimise a quadratic cost (LQR). Gains are computed at the beginning for speeds from
 //! walking pace to the top speed, and interpolated. Below walking pace feet and hands replace them,
 //! see [`crate::lateral::foot_support`].
 
@@ -195,7 +195,8 @@ impl Rider {
     /// Second derivative of the reference roll angle on a path, for the second derivative `control`
     /// of its tangent.
     ///
-    /// It reduces rates beyond the rider's limit, and slows down in time before the largest lean.
+    /// The law reduces rates beyond the rider's limit, and slows down in time
+    /// before the largest lean.
     pub fn lean_acceleration(&self, state: &State, gains: &GainSet, feet: f64, control: f64) -> f64 {
         // Rates [1/s] at which a reference lean on a path approaches its limit, and its rate the
         // largest rate.

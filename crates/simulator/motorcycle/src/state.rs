@@ -57,7 +57,7 @@ pub enum Stage {
 }
 
 impl State {
-    /// This state and `factor` times a derivative.
+    /// The state plus `factor` times a derivative.
     pub fn plus(&self, derivative: &State, factor: f64) -> State {
         let mut sum = *self;
         sum.position += derivative.position * factor;

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// The matrix of inertia of a body about its centre of mass, as its six
 /// different elements \[kg m2\].
 ///
-/// They are the elements of the matrix: off the diagonal xy is minus the integral of x y dm.
+/// The fields are the elements of the matrix: off the diagonal xy is minus the integral of x y dm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Inertia {
     pub xx: f64,
@@ -176,8 +176,8 @@ interface_tree! {
 }
 
 /// Lengths of the default rig's legs at neutral \[m\]: [`neutral_lengths`] as round-to-nearest
-/// gives them. They are written out, because a start value must not depend on how a host has set
-/// the processor to round.
+/// gives them. The lengths are written out, because a start value must not depend on how a host has
+/// set the processor to round.
 const DEFAULT_NEUTRAL_LENGTHS: [f64; 6] = [
     1.299_962_822_323_889_7,
     1.299_962_822_323_889_7,

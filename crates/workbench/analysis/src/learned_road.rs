@@ -68,7 +68,7 @@ pub fn load(file: &Path) -> Result<Laps> {
 /// of a ride.
 ///
 /// # Errors
-/// It is not, or takes none. `learned` names what is to be kept.
+/// The folder is missing, or takes no file. `learned` names what is to be kept.
 pub fn check_is_writable(learned: &str, file: &Path) -> Result<()> {
     if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
@@ -77,10 +77,10 @@ pub fn check_is_writable(learned: &str, file: &Path) -> Result<()> {
     write_whole(&part, b"").and_then(|()| remove_file(&part)).about(|| cannot_keep(learned, file))
 }
 
-/// Writes the road to the file, as [`keep`].
+/// Writes the road to the file, as [`write_learned`].
 ///
 /// # Errors
-/// As [`keep`].
+/// As [`write_learned`].
 pub fn save(file: &Path, laps: &Laps) -> Result<()> {
     write_learned("road", file, &laps.text())
 }
@@ -88,7 +88,7 @@ pub fn save(file: &Path, laps: &Laps) -> Result<()> {
 /// Writes a text with what was learned to the file, whole or not at all.
 ///
 /// # Errors
-/// It cannot be written. The file is as before then.
+/// The text cannot be written. The file is as before then.
 pub fn write_learned(learned: &str, file: &Path, text: &str) -> Result<()> {
     // What a link points to is replaced, not the link.
     let target = file.canonicalize();

@@ -20,7 +20,7 @@ enum Line {
 
 static LINES: OnceLock<SyncSender<Line>> = OnceLock::new();
 
-/// Prints a line. It neither waits nor fails.
+/// Prints a line. The call neither waits nor fails.
 pub fn line(text: &str) {
     let lines = LINES.get_or_init(|| start_writer(stderr()));
     let _ = lines.try_send(Line::Text(format!("{text}\n")));

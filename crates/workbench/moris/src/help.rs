@@ -28,7 +28,7 @@ pub struct ManOptions {
 /// Prints the completions of a command line.
 ///
 /// # Errors
-/// They cannot be written.
+/// The completions cannot be written.
 pub fn completions(options: &CompletionOptions, mut command: Command, out: &mut dyn Write) -> Result<ExitCode> {
     // The generator panics where it cannot write; a string always can.
     let mut text = Vec::new();

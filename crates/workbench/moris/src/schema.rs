@@ -42,7 +42,7 @@ pub enum FileKind {
 /// Prints the schema.
 ///
 /// # Errors
-/// It cannot be written.
+/// The schema cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     writeln!(out, "{:#}", schema(options.kind)?)?;
     Ok(ExitCode::SUCCESS)

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::report::shared;
 use crate::ride::page::MOTION_STYLE;
 
-/// The whole page as HTML, with the data of its start. It asks its own server alone.
+/// The whole page as HTML, with the data of its start. The page asks its own server alone.
 ///
 /// # Panics
 /// Never: plain data always serialise.

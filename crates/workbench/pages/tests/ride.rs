@@ -79,7 +79,7 @@ fn a_lap_with_help_stays_on_the_road_and_has_ratings() {
     }
 }
 
-/// Who holds the throttle and does nothing else stays on the road with help, and leaves it without.
+/// A rider who only holds the throttle stays on the road with help, and leaves it without.
 #[test]
 fn a_held_throttle_with_help_stays_on_the_road() {
     for is_helped in [true, false] {

@@ -27,8 +27,9 @@ use crate::{error, setup};
 ///   rig.
 /// - parameters: name of a preset, path of a parameter file, dict of values by the names of the
 ///   FMU's variables, or a list of these. In a list, later ones override earlier ones.
-/// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". It sets the parameter
-///   `strategy` and no other. None is the parameters' strategy, by default the predictive one.
+/// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". The argument
+///   sets the parameter `strategy` and no other. None is the parameters' strategy, by
+///   default the predictive one.
 ///
 /// Raises ParameterError for a name or a value that cannot be used. Doubtful ones, also in `retune`
 /// and in the first input, are a UserWarning.
@@ -66,7 +67,7 @@ impl PyWashout {
     /// - engaged: False returns the platform to neutral.
     /// - preview: (K, 2), the future x and y of specific_force [m/s2], with K at most 20. Element k
     ///   is that at k + 1 times preview_step after the step's start. Only the strategy "predictive"
-    ///   uses it. It ends before the first element that is NaN.
+    ///   uses it. The preview ends before the first element that is NaN.
     /// - preview_step: time between the elements of the preview, from 0.01 to 10 [s], by default
     ///   0.2.
     ///

@@ -126,7 +126,7 @@ pub struct Alternative {
     pub changes: Changes,
     /// All parameters.
     pub parameters: Parameters,
-    /// Its preview \[s\].
+    /// Preview of the alternative \[s\].
     pub preview: f64,
     /// The severity of each fault.
     severities: Vec<(Fault, f64)>,
@@ -174,8 +174,8 @@ impl Advice {
         Advice { fault, found: ranked }
     }
 
-    /// Those without any fault first, then those without this one, each by shape, then by size;
-    /// then those with less of it.
+    /// Alternatives without any fault first, then those without this one, each by shape, then by
+    /// size; then those with less of it.
     fn best(fault: Fault, found: &[Alternative]) -> Option<usize> {
         let rank = |k: usize| found[k].rank(fault);
         let least = (0..found.len()).map(rank).reduce(f64::min)?;

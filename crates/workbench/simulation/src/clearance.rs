@@ -4,8 +4,9 @@
 //! pose. The poses are those of a grid of leg lengths, and from the closest of them a pattern
 //! search goes on to a smallest distance.
 //!
-//! Two legs may share a joint. They meet there, so that their closest approach is taken beyond a
-//! few diameters from it: legs at a wide angle pass, and legs that fold onto each other touch.
+//! Two legs may share a joint, where such legs meet. Their closest approach is therefore
+//! taken beyond a few diameters from it: legs at a wide angle pass, and legs that fold
+//! onto each other touch.
 
 use std::array;
 use std::fmt;

@@ -249,10 +249,10 @@ fn bound_limits(tilt: &TiltParameters, axis: Axis) -> String {
 }
 
 impl ChannelFigures {
-    /// How much worse than a platform at rest: 1 is where that begins. It is by the error, where it
-    /// is also sensed as false cues. Where hardly any motion is desired, it is by the false cues
-    /// alone. The rotation of tilt coordination is not counted where it is slower than the
-    /// threshold of perception: it turns the rider by design.
+    /// How much worse than a platform at rest: 1 is where that begins. The severity is by the
+    /// error, where that is also sensed as false cues. Where hardly any motion is desired, the
+    /// false cues alone count. The rotation of tilt coordination is not counted where it is slower
+    /// than the threshold of perception: it turns the rider by design.
     pub(crate) fn severity(&self) -> f64 {
         let error = self.without_tilt.unwrap_or(self.felt.rms_error);
         let false_cues = self.cues.false_cues / FALSE_CUES;

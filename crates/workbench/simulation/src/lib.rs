@@ -12,8 +12,8 @@
 //! - [`channels`] are the figures of each channel.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
-//! - [`mod@measures`] are those of motion-cue quality, and a bound of what a rig permits. They
-//!   are made of series alone, and know no replay.
+//! - [`mod@measures`] are those of motion-cue quality, and a bound of what a rig permits. Series
+//!   alone make them, without a replay.
 //! - [`Evaluated`] has the measures and the sentences about them.
 
 #![forbid(unsafe_code)]

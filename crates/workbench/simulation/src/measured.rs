@@ -9,7 +9,7 @@ use crate::Simulation;
 /// Measures a simulation.
 ///
 /// # Errors
-/// It is too short to be measured.
+/// The simulation is too short to be measured.
 pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
     measures_with(simulation, None)
 }

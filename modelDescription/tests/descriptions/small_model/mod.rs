@@ -65,7 +65,7 @@ interface_tree! {
 
 variables!(Entry, Exit, Parameters);
 
-/// It does nothing; it is only described.
+/// A model that does nothing: it is only described.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Small;
 

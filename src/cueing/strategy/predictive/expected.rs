@@ -13,7 +13,7 @@ pub const DECAY_RATES: [f64; 2] = [0.1, 3.0];
 pub struct Forecast {
     /// Mean of the reference over each block \[m/s2\].
     pub means: SVector<f64, BLOCKS>,
-    /// Its slow and its fast part at the horizon's end \[m/s2\].
+    /// The slow and the fast part at the horizon's end \[m/s2\].
     pub end: [f64; 2],
 }
 

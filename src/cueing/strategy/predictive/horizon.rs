@@ -56,8 +56,8 @@ const FULL_MARGIN_TIME: f64 = 0.2;
 
 /// The fraction of a margin that a plan keeps after `time` seconds.
 ///
-/// It grows from none: what the plan before did not see takes some of the margin. To give that
-/// back at once would jolt.
+/// The fraction grows from 0: disturbances that the plan before did not see use up part of the
+/// margin, and restoring it at once would jolt.
 pub fn margin_ramp(time: f64) -> f64 {
     min(time / FULL_MARGIN_TIME, 1.0)
 }

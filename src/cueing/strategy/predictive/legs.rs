@@ -70,7 +70,7 @@ const HEAVE_RETURN: f64 = 0.4;
 pub const LARGEST_HEAVE: f64 = 0.1;
 
 impl<'a> LegContext<'a> {
-    /// Those of a step.
+    /// The rig and motion at a step.
     pub fn of(context: &StepContext<'a>) -> Self {
         let StepContext { parameters, guard, angles, .. } = *context;
         let Parameters { rig, predictive, angular, splitter, .. } = parameters;
@@ -110,8 +110,8 @@ impl<'a> LegContext<'a> {
     /// Roll, pitch and yaw beside the tilt after `time` seconds, if the vehicle goes
     /// on turning as it does.
     ///
-    /// They are the free response of a second-order high-pass with damping 1. It stands for the
-    /// angular channel's other filters too.
+    /// The angles are the free response of a second-order high-pass with damping 1, which stands
+    /// for the angular channel's other filters too.
     fn angles_after(&self, time: f64) -> Vector3<f64> {
         Vector3::from_fn(|k, _| free_response(self.angles[k], self.angle_rates[k], self.frequencies[k], time))
     }

@@ -1,8 +1,8 @@
 //! The predictive strategy: a plan of surge, sway and tilt over the next seconds, made
 //! anew 50 times a second.
 //!
-//! A plan is the solution of a quadratic [`program`] over the blocks of a [`horizon`]. It has the
-//! least dropped force for the reference that is [`forecast`]. Travel, tilt and the actuators'
+//! A plan is the solution of a quadratic [`program`] over the blocks of a [`horizon`]. The plan has
+//! the least dropped force for the reference that is [`forecast`]. Travel, tilt and the actuators'
 //! lengths ([`legs`]) stay within their limits. The [`dual_active_set`] method solves it a few
 //! iterations at a time, so that no internal step takes long.
 //!
@@ -81,8 +81,8 @@ pub struct Predictive {
     free: [Nodes; 2],
     begun: f64,
     plan: Plan,
-    /// Dropped forces in force \[m/s2\]. They go linearly from node to node of the plan, at most at
-    /// [`MAX_DROPPED_SLOPE`].
+    /// Dropped forces in force \[m/s2\]. Each goes linearly from node to node of the plan, at most
+    /// at [`MAX_DROPPED_SLOPE`].
     dropped_forces: [f64; 2],
     idle_return: [IdleReturn; 2],
     /// Logarithms of the weights and poles in force less those set.
@@ -432,7 +432,7 @@ impl Plan {
     }
 
     /// A quantity after a step of `step` seconds, at whose beginning it has this `value`: on the
-    /// line to the next node, then from node to node. It stays at the last one.
+    /// line to the next node, then from node to node. From the last node on the quantity stays.
     fn value_after(&self, nodes: &[f64], value: f64, step: f64) -> f64 {
         let end = self.age + step;
         let Some(block) = self.horizon.block_at(end) else { return nodes[BLOCKS - 1] };

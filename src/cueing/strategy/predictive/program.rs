@@ -14,9 +14,9 @@
 //!
 //! with Rk the ramp from 1 to 0, integrated k times over the block, and gc somewhat below g, the
 //! slope of a chord of g sin q. The nodes' states are linear in the start, the reference and the
-//! variables. The cost is that of the regulator and weights of both variables' slopes. It has the
-//! integrals of their squares and of their slopes' squares, the trapezoidal rule for the motion,
-//! and the regulator's cost to come at the end.
+//! variables. The cost is that of the regulator and weights of both variables' slopes. Its terms
+//! are the integrals of their squares and of their slopes' squares, the trapezoidal rule for the
+//! motion, and the regulator's cost to come at the end.
 
 use alloc::boxed::Box;
 
@@ -435,8 +435,8 @@ impl AxisProgram {
     /// Position in the middle of a block after the first, between the nodes before and after it.
     /// `tilting` is the block's tilt acceleration, relative to its limit.
     ///
-    /// It is that of the cubic through the nodes, and by the tilt acceleration a term of fourth
-    /// order less. The ramp's part of that is left out.
+    /// The position is that of the cubic through the nodes, and by the tilt acceleration a term of
+    /// fourth order less. The ramp's part of that is left out.
     #[inline(always)]
     pub(super) fn middle(
         &self,

@@ -452,7 +452,7 @@ fn legs_pursue_their_demands_a_little_inside_the_certified_stroke() {
 }
 
 /// The platform joins a demand that is at most 0.01 a h² away, with the limit of acceleration a and
-/// the step h. This holds for each leg and for each axis.
+/// the step h. The same holds for each leg and for each axis.
 #[test]
 fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
     let (rig, step) = (Rig::default(), 0.002);

@@ -1,8 +1,8 @@
 //! An attacker that looks ahead.
 //!
 //! Every so many steps the run saves the washout's state and tries several inputs for some steps.
-//! It goes back after each. The inputs that brought a leg or an axis nearest to a limit are held
-//! until the next choice. A trial that breaks a limit is repeated in earnest.
+//! After each trial the state is restored. The inputs that brought a leg or an axis nearest to a
+//! limit are held until the next choice. A trial that breaks a limit is repeated in earnest.
 
 use std::collections::BTreeMap;
 

@@ -114,9 +114,9 @@ pub enum Action {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scope {
-    /// It stays in memory.
+    /// The state stays in memory.
     Memory,
-    /// It goes through bytes, where the washout is driven through the C functions.
+    /// The state goes through bytes, where the washout is driven through the C functions.
     Bytes,
     /// A trial's own: where an [attacker](super::attacker) goes back to.
     Trial,

@@ -1,9 +1,10 @@
 //! A search for anything that makes the washout break a limit.
 //!
-//! The search draws random [machines](machine) and [episodes](scenario), and runs the episodes on a
-//! [target]. A target is the washout, called through the crate or through the C functions of its
-//! shared library. The [oracle] judges a target by its outputs alone. An episode that breaks a
-//! limit is [shrunk](shrink) to a short one. It is saved to a file, and `--replay` repeats it.
+//! The search draws random [machines](machine) and [episodes](scenario), and runs the episodes on
+//! a [target]. A target is the washout, called through the crate or through the C functions of
+//! its shared library. The [oracle] judges a target by its outputs alone. An episode that breaks
+//! a limit is [shrunk](shrink) to a short one. The short episode is saved to a file, and
+//! `--replay` repeats it.
 //!
 //! | module | content |
 //! |---|---|

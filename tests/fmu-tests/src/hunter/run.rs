@@ -235,7 +235,7 @@ struct Drive<'a> {
 /// An attacker with what it has chosen.
 struct Attack<'a> {
     attacker: &'a Attacker,
-    /// Its inputs' places and amplitudes.
+    /// Places and amplitudes of the inputs.
     places: Vec<(usize, f64)>,
     choice: Choice,
     /// The step before which it chooses next.

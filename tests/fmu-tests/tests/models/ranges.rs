@@ -139,7 +139,8 @@ fn an_input_of_a_call_that_fails_is_no_warning() {
     }
 }
 
-/// Rounding in a host may put an input slightly beyond its range. This must not end a simulation.
+/// Rounding in a host may put an input slightly beyond its range. Such a value must
+/// not end a simulation.
 #[test]
 fn inputs_beyond_their_range_count_as_its_end() {
     for model in MODELS {

@@ -1,4 +1,4 @@
-//! A small model as a shared library. It is the least that an FMU's library
+//! A small model as a shared library. The model is the least that an FMU's library
 //! needs. The tests load it.
 
 pub mod model;

@@ -1,4 +1,4 @@
-//! Forged serialized states. They are refused with a reason, or do no harm.
+//! Forged serialized states. Each is refused with a reason, or does no harm.
 
 use moris_fmu_host::{Instance, Status};
 use moris_fmu_tests::hostile::Choices;

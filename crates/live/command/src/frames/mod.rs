@@ -179,7 +179,8 @@ impl Frames {
 
 /// Poses ahead of now, for a display that shows them later.
 ///
-/// They go on with their velocity and acceleration, from differences over [`Ahead::STEPS`] steps.
+/// Values that continue with their velocity and acceleration, from differences over
+/// [`Ahead::STEPS`] steps.
 #[derive(Clone, Debug)]
 struct Ahead {
     time: f64,

@@ -121,7 +121,7 @@ impl ControlBroker {
     /// A broker for a session that starts with these parameters.
     ///
     /// # Errors
-    /// They cannot be used.
+    /// The parameters cannot be used.
     pub fn new(
         setup: &Setup,
         [orders, urgent]: [Producer<Order>; 2],

@@ -119,7 +119,7 @@ impl Access {
     /// Checks where a request comes from.
     ///
     /// # Errors
-    /// It has no token, or comes from another page.
+    /// The request has no token, or comes from another page.
     pub fn check(&self, request: &Request) -> Result<(), HttpError> {
         // A name would let another page's server point its own name here.
         let (host, port) = request.host.rsplit_once(':').unwrap_or((&request.host, "80"));

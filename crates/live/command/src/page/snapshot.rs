@@ -38,7 +38,7 @@ pub struct Snapshot {
 /// The vehicle on a road that is learned.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Driven {
-    /// Its place along x and y, if it is known \[m\].
+    /// The vehicle's place along x and y, if it is known \[m\].
     place: Option<[f64; 2]>,
     /// Trust in the preview, from 0 to 1.
     trust: f64,

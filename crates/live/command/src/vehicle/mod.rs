@@ -25,7 +25,7 @@ pub trait Vehicle: Send {
     /// What is known of it before it runs.
     fn features(&self) -> Features;
 
-    /// Its place on the road.
+    /// The place on the road.
     fn place(&self) -> Option<RoadPlace> {
         None
     }
@@ -33,13 +33,13 @@ pub trait Vehicle: Send {
     /// Makes a step with what is held.
     ///
     /// # Errors
-    /// It has ended.
+    /// The vehicle has ended.
     fn advance(&mut self, command: &RiderCommand) -> Result<()>;
 
     /// The motion now, without a time.
     ///
     /// # Errors
-    /// It has ended.
+    /// The vehicle has ended.
     fn sample(&mut self) -> Result<Sample>;
 
     /// Stands at its beginning again, if it can.

@@ -14,7 +14,7 @@ const STEPS_PER_SAMPLE: u32 = 5;
 /// The motorcycle of `moris ride`.
 pub struct Motorcycle {
     ridden: Ridden,
-    /// It has been put back, and no sample has said so yet.
+    /// True once the motorcycle has been put back, until a sample has said so.
     is_put_back: bool,
 }
 

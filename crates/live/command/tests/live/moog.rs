@@ -20,7 +20,7 @@ struct Told {
     fails: AtomicBool,
     /// Times that it has been engaged.
     engaged: AtomicU32,
-    /// It has been moved by 5 mm or 0.3 degrees.
+    /// True once the base has moved by 5 mm or 0.3 degrees.
     has_moved: AtomicBool,
     /// State of the next answer, in the place of the true one; 0xFF: none.
     lie: AtomicU8,

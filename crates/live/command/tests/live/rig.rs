@@ -35,7 +35,8 @@ impl Live {
         Live::with(directory, from, &to, &[&["--settled"], arguments].concat(), device)
     }
 
-    /// Starts the command with another device. It ends by itself, so that no test waits for ever.
+    /// Starts the command with another device. The command ends by itself, so that
+    /// no test waits for ever.
     pub fn with(
         directory: &Path,
         from: &str,

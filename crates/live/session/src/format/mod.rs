@@ -245,7 +245,7 @@ macro_rules! words {
         pub enum $type { $( #[doc = $word] #[serde(rename = $word)] $(#[$item_attribute])* $item, )+ }
 
         impl $type {
-            /// Its word in a table.
+            /// The word in a table.
             pub fn word(self) -> &'static str {
                 match self { $( $type::$item => $word, )+ }
             }
@@ -308,7 +308,7 @@ words! {
 /// Reason for which a table cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FormatError {
-    /// It is not TOML, or has unknown words.
+    /// The text is not TOML, or has unknown words.
     #[error("{0}")]
     Toml(#[from] toml::de::Error),
     /// A field does not fit the layout.

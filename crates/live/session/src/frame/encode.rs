@@ -26,7 +26,7 @@ pub struct Values {
     pub time: f64,
     /// Lengths of the actuators, or arcs of the cranks' arms \[m\].
     pub length: [f64; 6],
-    /// Their rates \[m/s\].
+    /// Rates of the lengths \[m/s\].
     pub velocity: [f64; 6],
     /// Position of the platform \[m\], its roll, pitch and yaw \[rad\].
     pub pose: [f64; 6],
@@ -73,7 +73,7 @@ impl Values {
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
     Bytes(Vec<u8>),
-    /// These bytes of an actuator's number, the most significant first.
+    /// Bytes of an actuator's number, the most significant first.
     Binary {
         leg: usize,
         whole: Whole,
@@ -147,7 +147,7 @@ impl Whole {
         Some(Whole { width, is_signed, little })
     }
 
-    /// Its smallest and largest number.
+    /// The type's smallest and largest number.
     fn ends(self) -> [i64; 2] {
         let bits = 8 * self.width;
         if self.is_signed { [-(1 << (bits - 1)), (1 << (bits - 1)) - 1] } else { [0, (1 << bits) - 1] }

@@ -52,7 +52,7 @@ pub use encode::{Encoder, FRAME_QUANTITIES, Values};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Frames {
-    /// Its name.
+    /// Name of the format.
     pub name: String,
     /// The device.
     pub about: String,
@@ -112,7 +112,7 @@ fn usual_pulse_centre() -> f64 {
 /// Reason for which a template cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FramesError {
-    /// It is not TOML, or has unknown words.
+    /// The text is not TOML, or has unknown words.
     #[error("{0}")]
     Toml(#[from] toml::de::Error),
     /// A token is unknown.

@@ -38,7 +38,7 @@ impl Motors {
     /// Checks that the frames say how large a unit of [`MOTOR_UNITS`] is.
     ///
     /// # Errors
-    /// It is missing.
+    /// The size is missing.
     pub fn check(&self, unit: usize) -> Result<(), FramesError> {
         match (MOTOR_UNITS[unit], self.scale[unit][0]) {
             ("pulse", 0.0) => {

@@ -1,11 +1,11 @@
 //! The motion of the next seconds, for the preview.
 //!
 //! A second simulation with the same equations, rider and path is stepped ahead of the motorcycle.
-//! It records the specific force at the head by time and distance. The preview is the recorded
-//! force from the motorcycle's present distance on. Until the simulation is far enough ahead, it
-//! takes several steps for each step of the motorcycle. It assumes constant wind and torso
-//! command. It restarts at the motorcycle when the motorcycle's speed or deviation differs too
-//! much from the recorded one.
+//! The second one records the specific force at the head by time and distance. The preview is the
+//! recorded force from the motorcycle's present distance on. Until the simulation is far enough
+//! ahead, it takes several steps for each step of the motorcycle. Wind and torso command count as
+//! constant. The simulation restarts at the motorcycle when the motorcycle's speed or deviation
+//! differs too much from the recorded one.
 
 use moris_washout::interface::PREVIEW_SAMPLES;
 use nalgebra::SVector;

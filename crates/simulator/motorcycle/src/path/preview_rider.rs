@@ -25,9 +25,9 @@ use crate::speeds::Speeds;
 
 /// Number of coordinates of the plant.
 ///
-/// They are the lateral state, the accumulated error of the lean, the reference lean (its tangent)
-/// and its rate, and the torso's lean and its rate. The last three are the deviation from the path
-/// to the right, the heading relative to it, and the deviation's integral.
+/// The states are the lateral state, the accumulated error of the lean, the reference lean (its
+/// tangent) and its rate, and the torso's lean and its rate. The last three are the deviation from
+/// the path to the right, the heading relative to it, and the deviation's integral.
 const PLANT_SIZE: usize = lateral::STATE_SIZE + 8;
 const LEAN_ERROR_INDEX: usize = lateral::STATE_SIZE;
 const REFERENCE_INDEX: usize = LEAN_ERROR_INDEX + 1;

@@ -27,7 +27,7 @@ use crate::washout_fmu::WashoutFmu;
 pub enum Scale {
     /// The vehicle's force, unscaled.
     One,
-    /// That of `moris fit`, which reaches its aims or comes nearest to them.
+    /// The scale of `moris fit`, which reaches its aims or comes nearest to them.
     Fit {
         /// On force and rates.
         factor: f64,
@@ -36,10 +36,10 @@ pub enum Scale {
     },
     /// The automatic scale, from the vehicle's force on.
     Automatic {
-        /// Its mean over the drive.
+        /// Mean of the scale over the drive.
         factor: f64,
     },
-    /// That of another washout.
+    /// The scale of another washout.
     Own,
 }
 

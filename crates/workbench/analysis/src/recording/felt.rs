@@ -44,7 +44,7 @@ impl Kind {
         }
     }
 
-    /// Its units, as messages list them.
+    /// The units, as messages list them.
     pub fn units(self) -> String {
         match self {
             Kind::Length => LENGTH_UNITS.map(|(spelling, _)| spelling).join(", "),

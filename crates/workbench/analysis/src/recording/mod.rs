@@ -166,7 +166,7 @@ impl Recording {
     /// The preview that is learned by its position, with these laps known, which learn it too.
     ///
     /// # Errors
-    /// It has no position, or one that never changes.
+    /// The recording has no position, or one that never changes.
     pub fn learned(&self, laps: &mut Laps) -> Result<Previewer, RecordingError> {
         let refused = |reason| RecordingError::whole(Path::new(&self.name), reason);
         let road = self.road.as_ref().ok_or_else(|| {

@@ -71,7 +71,7 @@ pub fn smooth(values: impl Iterator<Item = f64>, step: f64) -> Vec<f64> {
 /// Two signals beside each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Relation {
-    /// Their root mean squares.
+    /// Root mean squares of the two.
     pub sizes: [f64; 2],
     /// Slope of the second over the first, through the origin.
     slope: f64,

@@ -27,7 +27,7 @@ pub struct Workspace {
     /// With the platform also able to tilt by [`WORKSPACE_TILT`] in each of eight directions.
     pub tilted: Volume,
     /// Smallest and largest coordinates found with the platform level, in the base frame \[m\].
-    /// They include at least a small box around neutral.
+    /// The range includes at least a small box around neutral.
     pub extent: [Vector3<f64>; 2],
     /// Number of points tested.
     pub samples: u32,

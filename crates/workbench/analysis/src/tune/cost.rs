@@ -104,7 +104,7 @@ pub struct Objective {
     stroke_reserve: f64,
     /// The fixed parameters, with the recording's step as internal step, at most [`LONGEST_STEP`].
     fixed: Parameters,
-    /// Washouts at rest, indexed by the orders of splitter and angular channel less 2. They are
+    /// Washouts at rest, indexed by the orders of splitter and angular channel less 2. Washouts are
     /// kept, because constructing a washout surveys its rig; apart, because objectives are moved.
     coarse: [[OnceLock<Box<Washout>>; 3]; 3],
     /// The parameters that the search starts from.
@@ -135,7 +135,7 @@ pub const COMFORT_BOUNDS: [f64; 3] = [0.2, 4.0, 4.0];
 enum Steps {
     /// The search's long ones.
     Coarse,
-    /// Those that the parameters will be used with.
+    /// The steps that the parameters will be used with.
     Full,
 }
 

@@ -56,8 +56,8 @@ pub struct Searched {
 /// keep all constraints.
 ///
 /// `evaluate` computes the costs, on this machine or on others. `progress` is called within the
-/// scan, with 0, and after each generation with the number of evaluated sets. It also gets the best
-/// set so far, and returns false to end the search.
+/// scan, with 0, and after each generation with the number of evaluated sets. The callback also
+/// gets the best set so far, and returns false to end the search.
 ///
 /// # Errors
 /// Parameters of the space cannot be used.
@@ -120,7 +120,7 @@ struct Beginning {
 }
 
 /// The best start: first with the initial orders, then, if orders are tuned, with others,
-/// while `continues` is true. It receives the best set so far.
+/// while `continues` is true. The callback receives the best set so far.
 fn best_beginning(
     recordings: &Recordings,
     space: &Space,
@@ -306,7 +306,7 @@ fn penalized_cost(recordings: &Recordings, space: &Space, point: &DVector<f64>, 
     cost + PENALTY_OF_OUTSIDE * outside + penalty
 }
 
-/// The best sets so far, the best first. They do not depend on the order of evaluation.
+/// The best sets so far, the best first. The order of evaluation does not matter.
 #[derive(Default)]
 struct Best(Vec<Candidate>);
 

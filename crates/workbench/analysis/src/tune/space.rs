@@ -154,7 +154,7 @@ impl Space {
     }
 
     /// A point with other scales of surge, sway and all rates, and other frequencies of surge and
-    /// sway. They are those of the start times these factors, as far as the box goes.
+    /// sway. All are those of the start times these factors, as far as the box goes.
     pub fn with_all_channels(&self, point: &DVector<f64>, frequency: f64, scale: f64) -> DVector<f64> {
         self.moved(point, |tuned| match tuned.channel {
             Some(0 | 1 | 3..) if tuned.is_in(TuningGroup::Scale) => Some(scale),

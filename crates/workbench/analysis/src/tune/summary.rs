@@ -288,7 +288,7 @@ fn shape_table(results: &[RecordingResult]) -> String {
 pub struct OfStrategy {
     /// The strategy's name.
     pub name: String,
-    /// Its recordings; none where no parameters keep the limits.
+    /// The set's recordings; none where no parameters keep the limits.
     pub results: Option<Vec<RecordingResult>>,
 }
 

@@ -89,7 +89,7 @@ impl Map {
     /// The map in a file.
     ///
     /// # Errors
-    /// It cannot be read, has unknown words, or its outputs are no whole motion.
+    /// The file cannot be read, has unknown words, or its outputs are no whole motion.
     pub fn read(file: &Path) -> Result<Self> {
         let shown = || file.display().to_string();
         let text = moris_fmu_host::files::text(file, MAX_TEXT_SIZE).about(shown)?;

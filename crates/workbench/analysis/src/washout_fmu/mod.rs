@@ -58,8 +58,9 @@ impl WashoutFmu {
         Ok(WashoutFmu { file: file.to_owned(), map: Map::read(map)? })
     }
 
-    /// Its motion for a recording, and sentences about it. The inputs are linear between the
-    /// samples; an FMU that takes slopes gets those of each step, others the values at its start.
+    /// The washout's motion for a recording, and sentences about it. The inputs are
+    /// linear between the samples; an FMU that takes slopes gets those of each step,
+    /// others the values at its start.
     ///
     /// # Errors
     /// The FMU lacks a variable of the map or has it in another unit, or does not make a step.

@@ -100,13 +100,13 @@ const AT_REST: &str = "at rest";
 /// An RMS error beside others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Figure {
-    /// That of the row.
+    /// The error of the row.
     Own,
     /// The bound.
     Bound,
     /// The least of all rows.
     Best,
-    /// That of a platform at rest.
+    /// The error of a platform at rest.
     Rest,
 }
 

@@ -38,7 +38,7 @@ use crate::words::WHICH_COMMAND;
 /// `moris simulate --parameters`. One factor scales surge, sway and all rates; heave has its own.
 /// The classical strategy gets a second factor on its break frequencies of surge and sway.
 ///
-/// A second line says what a tilt of 6 degrees a second would give. It is never chosen.
+/// A second line says what a tilt of 6 degrees a second would give. No choice depends on that line.
 ///
 /// The exit status is 3 if no scale fits a recording; then the nearest one is shown.
 #[derive(Clone, Debug, clap::Args)]

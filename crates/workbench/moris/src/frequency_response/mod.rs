@@ -27,10 +27,10 @@ use crate::words::option;
 /// Measure the frequency response of the whole washout
 ///
 /// The test follows ICAO Doc 9625's objective motion cueing test. The vehicle moves on one channel
-/// at a time: surge, sway, heave, roll, pitch or yaw. It moves in sines of twelve frequencies from
-/// 0.1 to 15.8 rad/s. The felt motion is compared with it on the same channel and on those coupled
-/// by gravity. Each test is made twice. With the amplitudes below, the tilt's rate limit may be
-/// active. With a thousandth of them, the response is that of the linear filters.
+/// at a time: surge, sway, heave, roll, pitch or yaw. The motion consists of sines of twelve
+/// frequencies from 0.1 to 15.8 rad/s. The felt motion is compared with it on the same channel and
+/// on those coupled by gravity. Each test is made twice. With the amplitudes below, the tilt's rate
+/// limit may be active. With a thousandth of them, the response is that of the linear filters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     #[command(flatten)]

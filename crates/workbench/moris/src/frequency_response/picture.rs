@@ -112,7 +112,7 @@ struct Diagram<'a> {
     small: &'a [Response],
     limits: &'a [&'a Limit],
     output: Channel,
-    /// It shows the phase, and the frequencies.
+    /// True for the panel of the phase, which shows the frequencies.
     below: bool,
     /// Ends of bounds that are open.
     ends: [f64; 2],

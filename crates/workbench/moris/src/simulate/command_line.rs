@@ -6,7 +6,7 @@ use clap::{Args, Command};
 
 use super::Options;
 
-/// This program's command line for one recording, with `--parameters` at its end for another file.
+/// The program's command line for one recording, with `--parameters` at its end for another file.
 pub fn with_other_parameters(recording: &Path) -> String {
     // The program and its subcommand come first.
     let arguments = std::env::args_os().skip(2).map(|argument| argument.to_string_lossy().into_owned());

@@ -56,12 +56,12 @@ pub use moris_simulation::{Simulation, measures};
 /// in from rest over 1 s; --fade-in changes it.
 ///
 /// The exit status is 0 if every recording stays within the rig, and 1 if one could not
-/// be simulated. It is 3 if a safety unit or the actuator guard was active on one, with
+/// be simulated. The status is 3 if a safety unit or the actuator guard was active on one, with
 /// the first parameters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings: CSV, also .csv.gz; - is standard input. The columns are time, the specific force
-    /// ax, ay, az [m/s2] and the angular velocity wx, wy, wz [rad/s]. They apply to the rider's
+    /// ax, ay, az [m/s2] and the angular velocity wx, wy, wz [rad/s]. Columns apply to the rider's
     /// head, with x forward, y left, z up. Units in brackets in the header are read. Other names,
     /// units and axes are given by the options below
     #[arg(required = true, value_name = "RECORDING")]
@@ -89,7 +89,7 @@ pub struct Options {
     /// Motion that another washout computed for the recording, compared with these parameters: CSV
     /// with felt forces, poses of the platform or lengths of the legs. A folder has such a file for
     /// each recording, under the recording's name.
-    /// docs/your-washout.md lists the columns. It is judged at the washout location, at the
+    /// docs/your-washout.md lists the columns. The motion is judged at the washout location, at the
     /// scale and on the rig of the first parameters
     #[arg(long, value_name = "FILE")]
     felt: Vec<PathBuf>,

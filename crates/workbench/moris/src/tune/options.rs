@@ -19,9 +19,9 @@ use crate::setup_options::SetupOptions;
 /// error. 0 is perfect; a platform at rest scores 1. No safety unit and no actuator limit may be
 /// active at any time. Shake, jolt and peak of the felt force may not exceed --comfort.
 ///
-/// The sensed error is the vestibular model's response to felt minus desired. It is the RMS over
-/// time in perception thresholds, added in quadrature over specific force and angular velocity
-/// along x, y, z. It is divided by the same quantity of the desired motion.
+/// The sensed error is the vestibular model's response to felt minus desired. The response
+/// counts as the RMS over time in perception thresholds, added in quadrature over specific force
+/// and angular velocity along x, y, z. The same quantity of the desired motion divides it.
 ///
 /// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the given
 /// parameters. Ctrl-C ends it and keeps the best result so far, a second Ctrl-C does so at once.

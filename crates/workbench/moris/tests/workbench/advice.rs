@@ -1,4 +1,4 @@
-//! Who follows a verdict ends at a better motion: on drives, rigs and sets.
+//! Following a verdict ends at a better motion: on drives, rigs and sets.
 
 use moris::recording::Recording;
 use moris::simulate::Outcome;

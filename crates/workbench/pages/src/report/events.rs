@@ -221,7 +221,7 @@ fn closest_to_limit(utilisations: impl Iterator<Item = Utilisation>) -> Option<U
     known.max_by(|a, b| a.fraction.total_cmp(&b.fraction))
 }
 
-/// Who is at which limit: those at the same one together.
+/// Axes and legs by the limit that they reach: those at the same one together.
 fn limits_reached(reached: &[&Utilisation]) -> String {
     let same_limit = reached.chunk_by(|a, b| a.limit == b.limit);
     let parts = same_limit.map(|utilisations| {

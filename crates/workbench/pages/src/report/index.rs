@@ -8,13 +8,14 @@ use crate::report::tables::{cells_html, heads_html};
 pub struct IndexRow {
     /// The recording's name.
     pub name: String,
-    /// Its page, a file in the same directory; none for a recording that could not be used.
+    /// The recording's page, a file in the same directory; none for a recording
+    /// that could not be used.
     pub file: Option<String>,
     /// False for one that needs attention.
     pub is_good: bool,
     /// The verdict in words.
     pub verdict: String,
-    /// Its figures, one for each heading.
+    /// The recording's figures, one for each heading.
     pub cells: Vec<String>,
 }
 

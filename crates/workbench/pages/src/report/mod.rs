@@ -1,10 +1,10 @@
 //! A self-contained HTML page about a recording on a motion platform.
 //!
-//! It shows felt and desired signals, the legs' lengths in their stroke, the times at which limits
-//! were active, and a table of measures. Beside them the platform moves in 3D.
+//! The page shows felt and desired signals, the legs' lengths in their stroke, the times at which
+//! limits were active, and a table of measures. Beside them the platform moves in 3D.
 //!
 //! The input is a [`Report`]; [`html`] returns the page's text. The page needs no network and no
-//! other file. It contains its data, and the scripts and styles of
+//! other file. Data are in it, and the scripts and styles of
 //! `crates/workbench/pages/page/report/` and `shared/` beside it.
 
 mod data;

@@ -12,7 +12,7 @@ pub struct PlanePose {
 }
 
 impl PlanePose {
-    /// This pose moved ahead and to the left, and turned to the left.
+    /// The pose moved ahead and to the left, and turned to the left.
     pub fn moved(self, ahead: f64, left: f64, turned: f64) -> PlanePose {
         let (sin, cos) = self.yaw.sin_cos();
         PlanePose { x: self.x + ahead * cos - left * sin, y: self.y + ahead * sin + left * cos, yaw: self.yaw + turned }

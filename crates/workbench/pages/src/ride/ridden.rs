@@ -29,7 +29,7 @@ pub struct Ridden {
     motorcycle: Motorcycle,
     course: Circuit,
     place: PlanePose,
-    /// It has fallen or left the road.
+    /// True once the motorcycle has fallen or left the road.
     has_ended: bool,
 }
 
@@ -81,7 +81,7 @@ impl Ridden {
     /// Sets the friction of the road.
     ///
     /// # Errors
-    /// It is out of range.
+    /// The friction is out of range.
     pub fn set_friction(&mut self, friction: f64) -> Result<(), ParameterError> {
         let mut parameters = *self.motorcycle.parameters();
         parameters.tyres.friction = friction;

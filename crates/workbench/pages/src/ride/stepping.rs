@@ -124,7 +124,7 @@ impl Ride {
     /// when the cue has faded and the platform is at neutral. True for such ones.
     ///
     /// # Errors
-    /// They cannot be used; nothing has changed then.
+    /// The parameters cannot be used; nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<bool, ParameterError> {
         let parameters = in_body_axes(parameters);
         if parameters == self.parameters {
@@ -141,7 +141,7 @@ impl Ride {
     /// Sets the friction of the road.
     ///
     /// # Errors
-    /// It is out of range.
+    /// The friction is out of range.
     pub fn set_friction(&mut self, friction: f64) -> Result<(), ParameterError> {
         self.ridden.set_friction(friction)
     }
@@ -226,7 +226,7 @@ impl Ride {
         }
     }
 
-    /// Puts the next washout in place at neutral. It fades in, or begins with a ride at rest.
+    /// Puts the next washout in place at neutral. The cue fades in, or begins with a ride at rest.
     fn exchange_washout(&mut self) {
         // Longest time to wait for the platform at neutral [s].
         const NEUTRAL_TIMEOUT: f64 = 20.0;

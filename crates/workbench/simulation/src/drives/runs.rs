@@ -81,7 +81,7 @@ pub const RUN_C: Manoeuvre =
     Manoeuvre { name: "c", text: "accelerate, brake to a brusque stop", duration: 50.0, motion: run_c };
 
 /// A car in town: three starts and stops, two bends and a lane change. The run is not the paper's.
-/// It serves to compare the strategies.
+/// The strategies are compared by it.
 pub const TOWN_RUN: Manoeuvre =
     Manoeuvre { name: "town", text: "a car through town: starts, stops, bends", duration: 90.0, motion: town_motion };
 

@@ -49,7 +49,7 @@ pub fn derivatives(values: &[f64], step: f64) -> Vec<[f64; 2]> {
     (0..values.len()).map(at).collect()
 }
 
-/// Velocity and acceleration by central differences over three samples. They are means over the
+/// Velocity and acceleration by central differences over three samples. Both are means over the
 /// neighbouring steps, and exceed no limit that the motion itself keeps.
 pub fn mean_derivatives(values: &[f64], step: f64) -> Vec<[f64; 2]> {
     let last = values.len() - 2;

@@ -11,7 +11,7 @@ use crate::Simulation;
 /// Checks that poses and legs can be meant on this rig.
 ///
 /// # Errors
-/// They are in other units or relative to another frame.
+/// The values are in other units or relative to another frame.
 pub fn check(
     pose: &Option<Vec<[f64; 6]>>,
     legs: &Option<Vec<[f64; 6]>>,

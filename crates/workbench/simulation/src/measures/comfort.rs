@@ -183,8 +183,8 @@ fn changes_around(signal: impl ExactSizeIterator<Item = f64> + Clone, count: usi
     sliding_max(largest_change(signal, count), count, count).take(length)
 }
 
-/// The largest of the values from `before` samples before each to `after` samples after it. It goes
-/// on beyond the last one.
+/// The largest of the values from `before` samples before each to `after` samples after it. The
+/// series continues beyond the last one.
 fn sliding_max(values: impl Iterator<Item = f64>, before: usize, after: usize) -> impl Iterator<Item = f64> {
     // Values that no later one exceeds, the largest first.
     let mut candidates: VecDeque<(usize, f64)> = VecDeque::new();
@@ -234,7 +234,7 @@ fn above_shake_frequency(
 }
 
 /// Butterworth high-pass of fourth order by the bilinear transform, with `k` the tangent of half
-/// the cutoff's angle. It starts as if the first value had always been there.
+/// the cutoff's angle. The filter starts as if the first value had always been there.
 fn high_pass(k: f64) -> impl FnMut(f64) -> f64 + Clone {
     // A pole pair at this angle from the negative real axis has the damping cos(angle).
     let mut sections = [PI / 8.0, 3.0 * PI / 8.0].map(|angle| {

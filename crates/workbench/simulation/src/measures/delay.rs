@@ -17,8 +17,8 @@ const SAME_SIGNAL: f64 = 0.9;
 /// found between the samples by a parabola through the best shift and its neighbours. The
 /// correlation at a shift is Pearson's over the samples that overlap.
 ///
-/// The delay is `None` where a signal is constant or the best correlation is below 0.9. It is also
-/// `None` where the best shift is not within two seconds or half the signals' length. Such signals
+/// The delay is `None` where a signal is constant or the best correlation is below 0.9. The same
+/// holds where the best shift is not within two seconds or half the signals' length. Such signals
 /// have no common delay.
 pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     // Accuracy of the correlations from the Fourier transform.

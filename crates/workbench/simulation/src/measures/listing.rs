@@ -65,7 +65,7 @@ struct Subject {
 }
 
 impl Subject {
-    /// Its name on an axis.
+    /// The measure's name on an axis.
     fn title(&self, axis: usize) -> String {
         const AXIS_NAMES: Axes<&str> = ["x", "y", "z"];
         if self.axes == 0 { self.name.to_owned() } else { format!("{} {}", self.name, AXIS_NAMES[axis]) }

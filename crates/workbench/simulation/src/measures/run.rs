@@ -41,8 +41,8 @@ pub struct Run<'a> {
     /// Specific force that the rider on the platform feels, in head axes, gravity's
     /// reaction included \[m/s2\].
     pub felt_force: &'a dyn Series<3>,
-    /// The same, with any whole number of samples to a step, for the measures of comfort. It begins
-    /// and ends with `felt_force`; without finer samples it is the same series.
+    /// The same, with any whole number of samples to a step, for the measures of comfort. The
+    /// series begins and ends with `felt_force`; without finer samples it is the same series.
     pub felt_force_within_steps: &'a dyn Series<3>,
     /// Angular velocity that the vehicle's rider would feel, in head axes \[rad/s\].
     pub desired_rate: &'a dyn Series<3>,

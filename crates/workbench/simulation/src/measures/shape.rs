@@ -131,7 +131,7 @@ pub fn below_cue_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
 }
 
 /// Butterworth low-pass of second order by the bilinear transform, with `k` the tangent of half the
-/// cutoff's angle. It starts as if the first value had always been there.
+/// cutoff's angle. The filter starts as if the first value had always been there.
 fn low_pass(k: f64) -> impl FnMut(f64) -> f64 + Clone {
     let damping = 2.0 * k * FRAC_1_SQRT_2;
     let gain = 1.0 / (1.0 + damping + k * k);

@@ -2,9 +2,9 @@
 //!
 //! Minimizes u'Hu/2 + g'u subject to lower <= C u <= upper. The method is that of Goldfarb and
 //! Idnani, *A numerically stable dual method for solving strictly convex quadratic programs*,
-//! Mathematical Programming 27 (1983) 1-33, for two-sided rows. It starts at the unconstrained
-//! minimum, so that no feasible start is needed, and adds one violated row after the other. Each
-//! iterate is the minimum under its active rows.
+//! Mathematical Programming 27 (1983) 1-33, for two-sided rows. The method starts at the
+//! unconstrained minimum, so that no feasible start is needed, and adds one violated row after the
+//! other. Each iterate is the minimum under its active rows.
 //!
 //! With N the normals of the active rows, the method keeps J and the upper triangular R of
 //!

@@ -15,7 +15,7 @@ pub struct DenseRows<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> DenseRows<N, M> {
-    /// Those of other rows.
+    /// Copies of other rows.
     pub fn of(rows: &impl Rows<N, M>) -> Self {
         let [lower, upper] = rows.bounds().map(|bounds| *bounds);
         let normal = |row| {

@@ -2,9 +2,9 @@
 //!
 //! Four experts forecast the reference's mean over each block, and its slow and fast part at the
 //! horizon's end. Three are fixed, and linear in the reference and low-passes of it. The fourth is
-//! the least-squares fit to what followed these and the angular velocity in the past. It forgets,
-//! and falls back on a prior (direct multi-step: one regression for each target). The forecast
-//! is a mixture of the four, weighted by their latest errors.
+//! the least-squares fit to what followed these and the angular velocity in the past. The fit
+//! forgets, and falls back on a prior (direct multi-step: one regression for each target). The
+//! forecast is a mixture of the four, weighted by their latest errors.
 //!
 //! Only the past enters: a target is used once the time that was forecast is over. So the fits of
 //! near blocks learn what has just happened.
@@ -366,7 +366,7 @@ impl Forecaster {
 
     /// The weight of the preview in each block of a horizon, from 0 to 1.
     ///
-    /// It follows from the ratio of the preview's error to that of the forecast without it,
+    /// The weight follows from the ratio of the preview's error to that of the forecast without it,
     /// [`FORECAST_FLOOR`] included. The ratio in a block is the largest of the blocks up to
     /// it, since a preview that is worse for near blocks is not better for later ones. For
     /// later blocks, the first [`FIRST_LONG_BLOCK`] blocks are left out: they are shorter than

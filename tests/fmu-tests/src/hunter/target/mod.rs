@@ -37,7 +37,7 @@ pub trait Target {
     /// that differ. Returns false if the values are refused; then nothing has changed.
     fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool;
 
-    /// Gives a preview, as of the next step's start. It holds until the next one.
+    /// Gives a preview, as of the next step's start. A preview holds until the next one.
     fn preview(&mut self, preview: &Preview);
 
     /// Advances by `step` \[s\]. The inputs are held at `start`, or change linearly

@@ -117,7 +117,7 @@ fn a_loss_that_the_loop_has_no_room_for_is_reported_later() {
     assert!(matches!(reported.pop(), Ok(Order::Lost(Loss::Device))));
 }
 
-/// Whoever sends to the controller's socket without end.
+/// A sender to the controller's socket that never ends.
 #[test]
 fn a_flood_of_answers_delays_no_frame() {
     let device = UdpSocket::bind("127.0.0.1:0").unwrap();

@@ -157,12 +157,12 @@ impl Dimension {
         ["time-unit", "force-unit", "rate-unit", "angle-unit", "speed-unit", "length-unit"][self as usize]
     }
 
-    /// Its name in messages.
+    /// The name in messages.
     pub fn name(self) -> &'static str {
         ["time", "specific force", "angular velocity", "angle", "speed", "position"][self as usize]
     }
 
-    /// Its units, the SI unit first, each with its other spellings.
+    /// The units, the SI unit first, each with its other spellings.
     fn spelled_units(self) -> &'static [(Unit, &'static [&'static str])] {
         match self {
             Dimension::Time => TimeUnit::SPELLED,

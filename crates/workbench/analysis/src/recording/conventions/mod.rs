@@ -1,6 +1,6 @@
 //! Names, units and axes of a recording's columns.
 //!
-//! They are given by options, by a small TOML file with the same words, or by the name of a
+//! Conventions are given by options, by a small TOML file with the same words, or by the name of a
 //! logger's format. Options take precedence over the file, and the file over the format. Units in
 //! the recording's header take precedence over the defaults.
 //!

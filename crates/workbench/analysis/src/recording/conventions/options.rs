@@ -150,7 +150,7 @@ impl ConventionOptions {
         Ok(self.over(given))
     }
 
-    /// These options over others.
+    /// The options over others.
     fn over(&self, under: ConventionOptions) -> ConventionOptions {
         let columns = under.columns.into_iter().chain(self.columns.iter().cloned()).collect();
         // A format's mounting is that of the sensor whose columns it names: what a receiver computes is not turned.

@@ -121,7 +121,7 @@ const RULES_OF_MOTION: &[Rule] = rules! {
 /// The warnings about a recording before it is faded in.
 ///
 /// # Errors
-/// It breaks a rule that refuses it. The message names the cause and the remedy.
+/// The recording breaks a rule that refuses it. The message names the cause and the remedy.
 pub fn warnings(channels: &Channels) -> Result<Vec<Message>, RecordingError> {
     apply_rules(RECORDING_RULES, channels)
 }

@@ -17,8 +17,8 @@ use crate::texts::text;
 /// Finest step: below it, time is in another unit \[s\].
 pub const MIN_SAMPLE_STEP: f64 = 1e-4;
 
-/// The recording at equal steps, with warnings. It is unchanged if its steps are equal, and
-/// interpolated if an option asks for it.
+/// The recording at equal steps, with warnings. Equal steps stay unchanged; an option
+/// asks for interpolation.
 ///
 /// # Errors
 /// Time does not increase, the steps are unequal and interpolation is off, or the steps are too

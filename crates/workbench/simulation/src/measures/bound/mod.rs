@@ -116,7 +116,7 @@ pub const DEFAULT_INTERVAL: f64 = 0.02;
 ///
 /// `desired` is the deviation from rest (in heave, without gravity), sampled every `step` seconds
 /// and linear in between. `interval` \[s\] is the length of the program's intervals, by default
-/// [`DEFAULT_INTERVAL`]. It is rounded to a whole number of steps, at least one.
+/// [`DEFAULT_INTERVAL`]. The length is rounded to a whole number of steps, at least one.
 ///
 /// # Errors
 /// The recording or the limits cannot be used, or the solver fails.

@@ -9,8 +9,8 @@ pub struct Projection {
 }
 
 impl Projection {
-    /// Those of a signal that is linear between samples with equal distances. Simpson's rule is
-    /// exact for it.
+    /// Projections of a signal that is linear between samples with equal distances. Simpson's
+    /// rule is exact for it.
     pub fn of_line(samples: &[f64]) -> Self {
         let steps = (samples.len() - 1) as f64;
         let (mut mean, mut slope) = (0.0, 0.0);

@@ -23,7 +23,7 @@ pub struct Forward {
     pub direction: Vector3<f64>,
     /// Standard error \[rad\].
     pub error: f64,
-    /// Its source, for a sentence.
+    /// Source of the direction, for a sentence.
     pub evidence: String,
     /// True where the sign is that of the first acceleration alone.
     pub may_be_backward: bool,
