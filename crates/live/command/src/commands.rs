@@ -1,4 +1,4 @@
-//! Commands of a person: lines on standard input.
+//! Commands of the operator: lines on standard input.
 
 use std::io::{ErrorKind, Read};
 use std::thread;

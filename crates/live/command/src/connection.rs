@@ -24,7 +24,7 @@ impl Connection {
         Connection { most, failures: 0, last: Duration::ZERO, is_lost: false }
     }
 
-    /// A person has started the controller again.
+    /// The operator has started the controller again.
     pub fn renew(&mut self) {
         (self.failures, self.is_lost) = (0, false);
     }

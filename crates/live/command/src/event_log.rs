@@ -44,7 +44,7 @@ pub enum Note {
     Lost(f64, Loss),
     /// The place of the legs at a start, and the time for which the first lengths are held \[s\].
     Located(f64, Legs, f64),
-    /// A person says that the platform is settled, and the last frames have left
+    /// The operator says that the platform is settled, and the last frames have left
     /// it so far away \[m\].
     Doubted(f64, f64),
     /// The telemetry's delay is long \[s\].

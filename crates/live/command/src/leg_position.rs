@@ -1,4 +1,4 @@
-//! Place of the legs at a start: a report of the controller, what a person has seen, or a slow
+//! Place of the legs at a start: a report of the controller, what the operator has seen, or a slow
 //! start.
 
 use moris_live::Legs;
@@ -7,7 +7,7 @@ use moris_live::frame::{Encoder, Frames};
 /// Time for which a report holds \[s\].
 const REPORT_VALIDITY: f64 = 1.0;
 
-/// Words of a person for the place, beside the options.
+/// Words of the operator for the place, beside the options.
 pub const PLACE_COMMANDS: &str = "settled, slow";
 
 /// All that is known of the legs' place.
@@ -15,11 +15,11 @@ pub const PLACE_COMMANDS: &str = "settled, slow";
 pub struct LegPosition {
     /// The device goes to the first frame by itself, or has no actuators, or nobody follows.
     is_own: bool,
-    /// The place that a person has given for the next start.
+    /// The place that the operator has given for the next start.
     given: Option<Legs>,
     /// True if the position was given before this session.
     is_given_before: bool,
-    /// Time at which a person was asked to look again \[s\].
+    /// Time at which the operator was asked to look again \[s\].
     doubted: Option<f64>,
     /// Speed with which the controller goes to its first length by itself \[m/s\].
     slow_speed: Option<f64>,
@@ -39,8 +39,8 @@ impl LegPosition {
         LegPosition { is_own: true, ..LegPosition::default() }
     }
 
-    /// The place with a controller that a template describes. A person may have seen the platform
-    /// settled, or may know the speed with which it starts from anywhere.
+    /// The place with a controller that a template describes. The operator may have seen the
+    /// platform settled, or may know the speed with which it starts from anywhere.
     pub fn of(template: &Frames, encoder: &Encoder, settled: bool, slow_start: Option<f64>) -> Self {
         LegPosition {
             is_own: !encoder.moves_actuators(),
@@ -65,7 +65,7 @@ impl LegPosition {
         self.slow_speed.unwrap_or(SLOW_SPEED)
     }
 
-    /// True if a session that engages by itself may begin: a person or the controller can say
+    /// True if a session that engages by itself may begin: the operator or the controller can say
     /// where the legs are.
     pub fn can_start(&self) -> bool {
         self.is_own || self.given.is_some() || self.slow_speed.is_some() || self.asks
@@ -92,12 +92,12 @@ impl LegPosition {
         self.report.zip(self.rest).is_some_and(|((last, _), (first, _))| last - first >= 0.999 * AT_REST_TIME)
     }
 
-    /// True if a person has given the place for the next start.
+    /// True if the operator has given the place for the next start.
     pub fn is_given(&self) -> bool {
         self.given.is_some()
     }
 
-    /// True if a person or the controller says at this time \[s\] where the legs are.
+    /// True if the operator or the controller says at this time \[s\] where the legs are.
     pub fn is_known_anew(&self, now: f64) -> bool {
         self.is_given() || self.fresh(now).is_some()
     }
@@ -120,12 +120,12 @@ impl LegPosition {
         self.report = Some((now, lengths));
     }
 
-    /// Sets the place for the next start, as a person has given it at a time \[s\]. Legs that the
-    /// last frames have left `away` \[m\] from their lowest pose are settled if a person says so
-    /// twice: false the first time.
+    /// Sets the place for the next start, as the operator has given it at a time \[s\]. Legs that
+    /// the last frames have left `away` \[m\] from their lowest pose are settled if the operator
+    /// says so twice: false the first time.
     pub fn give(&mut self, legs: Legs, now: f64, away: f64) -> bool {
-        // Way from the last frame to the lowest pose [m], or part of the stroke, from which on a
-        // person is asked to look again, and the time for it [s].
+        // Way from the last frame to the lowest pose [m], or part of the stroke, from which on the
+        // operator is asked to look again, and the time for it [s].
         const RECHECK_DISTANCE: f64 = 0.02;
         const RECHECK_PART: f64 = 0.1;
         const SECOND_LOOK: f64 = 20.0;
@@ -145,8 +145,8 @@ impl LegPosition {
         self.is_given_before = false;
     }
 
-    /// The place for a start at this time \[s\]. A controller that reports knows better than a
-    /// person, whose word holds once.
+    /// The place for a start at this time \[s\]. A controller that reports knows better than the
+    /// operator, whose word holds once.
     pub fn take(&mut self, now: f64) -> Legs {
         if self.is_own {
             return Legs::Settled;
@@ -271,7 +271,7 @@ mod tests {
         assert!(!place.give(Legs::Settled, 30.0, 0.248) && !place.give(Legs::Settled, 60.0, 0.248));
         assert!(place.give(Legs::Slow, 61.0, 0.248) && !place.give(Legs::Settled, 62.0, 0.248));
         assert!(place.give(Legs::Settled, 90.0, 0.01));
-        // A controller that reports knows better than a person.
+        // A controller that reports knows better than the operator.
         let mut place = of("csv", false, None);
         place.give(Legs::Settled, 0.0, 0.0);
         assert!(place.wants_report());

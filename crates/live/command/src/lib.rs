@@ -291,7 +291,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             true => LegPosition::own(),
             false => LegPosition::of(&template, &encoder, options.settled && !was_left, options.slow_start),
         };
-        // Also where a person has said it: after a loss the controller is asked.
+        // Also where the operator has said it: after a loss the controller is asked.
         if encoder.asks() {
             sink.listen_if_it_can()?;
         }

@@ -111,7 +111,7 @@ impl Interrupts {
         self.first.is_some()
     }
 
-    /// True once a person at the keyboard asks again: frames end at once.
+    /// True once the operator at the keyboard asks again: frames end at once.
     pub fn ends_at_once(&self) -> bool {
         self.again
     }

@@ -87,7 +87,7 @@ pub fn empty(steps: u64) -> Lateness {
 }
 
 impl Steps<'_> {
-    /// Steps until a person, the time or the end of a recording ends it.
+    /// Steps until the operator, the time or the end of a recording ends it.
     pub fn run(&mut self) -> Summary {
         // Lateness from which on steps are not made up for: their motion would come at once [s].
         const MAX_CATCH_UP_LATENESS: f64 = 0.02;
@@ -254,7 +254,7 @@ impl Steps<'_> {
         }
     }
 
-    /// Takes the place of the legs that a person gives for the next start. While they follow
+    /// Takes the place of the legs that the operator gives for the next start. While they follow
     /// commands it is none: it would be believed later, when they are somewhere else.
     fn give(&mut self, legs: Legs, summary: &mut Summary) {
         let state = self.session.state();
@@ -273,7 +273,7 @@ impl Steps<'_> {
     fn ask(&mut self, event: Event, summary: &mut Summary) -> bool {
         let state = self.session.state();
         let moves = matches!(event, Event::Start | Event::Clear) && state.after(event) != state;
-        // A person or the controller may say that they are elsewhere than the last frame has left them.
+        // The operator or the controller may say that they are elsewhere than the last frame has left them.
         let is_given_anew = state == State::Off && self.place.is_known_anew(self.session.time());
         if moves && (is_given_anew || !self.session.is_located()) {
             self.locate(summary);
@@ -508,7 +508,7 @@ mod tests {
 
     #[test]
     fn a_controller_that_is_lost_comes_back_without_a_jump() {
-        // It has stayed where it was, or has gone down by itself, as a person has seen.
+        // It has stayed where it was, or has gone down by itself, as the operator has seen.
         for (frames, word) in [("csv", None), ("amc-aasd15a", Some(Legs::Slow)), ("amc-aasd15a", Some(Legs::Settled))] {
             with_place(place(frames, true), |live| {
                 live.ask(Event::Start);
@@ -533,7 +533,7 @@ mod tests {
                     assert!(live.state() == State::Fault && live.steps.is_lost, "it does not know where the legs are");
                     live.obey(Order::Legs(legs));
                     if legs == Legs::Settled {
-                        // The last frames have left them somewhere else: a person looks again.
+                        // The last frames have left them somewhere else: the operator looks again.
                         live.ask(Event::Clear);
                         assert!(live.state() == State::Fault && live.said.iter().any(|line| line == "doubted"));
                         live.obey(Order::Legs(legs));
@@ -584,7 +584,7 @@ mod tests {
         });
     }
 
-    /// A person says settled in the state off, after a stop high above.
+    /// The operator says settled in the state off, after a stop high above.
     #[test]
     fn settled_is_believed_at_the_second_word_where_the_last_frame_says_otherwise() {
         with_place(place("amc-aasd15a", true), |live| {
@@ -643,7 +643,7 @@ mod tests {
         });
     }
 
-    /// A fault from which a person wants no more frames.
+    /// A fault from which the operator wants no more frames.
     #[test]
     fn stop_ends_a_fault_at_once() {
         with_place(place("csv", true), |live| {

@@ -10,7 +10,7 @@ use crate::session::Refusal;
 pub enum Legs {
     /// An unknown place.
     Unknown,
-    /// At the settled pose, as a person has seen.
+    /// At the settled pose, as the operator has seen.
     Settled,
     /// Anywhere, with a controller that goes to a length at its own low speed. The settled lengths
     /// are commanded for as long as it may take at [`slow_speed`](crate::Settings::slow_speed).
@@ -30,7 +30,7 @@ impl Legs {
         }
     }
 
-    /// The place that a person may give by this name.
+    /// The place that the operator may give by this name.
     pub fn of_person(name: &str) -> Option<Legs> {
         Self::named(name).filter(|legs| *legs != Legs::Unknown)
     }

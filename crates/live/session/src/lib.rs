@@ -1,8 +1,8 @@
 //! The washout beside a running vehicle.
 //!
-//! Telemetry and the commands of a person go in, actuator lengths come out, a step a millisecond.
-//! There is no clock, no socket, no file and no thread here. A [`Session`] that receives the same
-//! events at the same steps computes the same bits.
+//! Telemetry and the commands of the operator go in, actuator lengths come out, a step a
+//! millisecond. There is no clock, no socket, no file and no thread here. A [`Session`] that
+//! receives the same events at the same steps computes the same bits.
 //!
 //! | module | contents |
 //! |---|---|

@@ -24,7 +24,7 @@ const ROAD_PREFIX: &str = "road,";
 /// Something from outside that a session has received before a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Happening {
-    /// An event of a person or the device.
+    /// An event of the operator or the device.
     Event(Event),
     /// A sample that arrived at this time of the session \[s\].
     Sample(f64, Sample),

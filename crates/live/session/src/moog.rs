@@ -3,7 +3,7 @@
 //! | state | sent, if the base is wanted up | sent, if it is wanted down |
 //! |---|---|---|
 //! | power up | DOF mode, once the packets' pose is neutral | the same |
-//! | idle | engage, once the packets' pose is neutral; after a fault only when a person has started again | new position |
+//! | idle | engage, once the packets' pose is neutral; after a fault only when the operator has started again | new position |
 //! | standby | new position | park |
 //! | engaged | new position | park |
 //! | parking | new position | new position |
@@ -16,7 +16,7 @@
 //! that it asks of the legs. So the limits of the legs' frames hold for packets, too: nothing
 //! changes a pose after them.
 //!
-//! A fault is reset by a person at the base.
+//! A fault is reset by the operator at the base.
 //!
 //! Layout, commands and states are those of two public programs for this base. No base has verified
 //! them.
@@ -103,7 +103,7 @@ pub struct Moog {
     unanswered: u32,
     /// Packets of the fade that have passed.
     faded_packets: u32,
-    /// After a fault the base is not engaged until a person starts it again.
+    /// After a fault the base is not engaged until the operator starts it again.
     waits: bool,
 }
 
@@ -121,7 +121,7 @@ impl Moog {
         }
     }
 
-    /// A person starts the base.
+    /// The operator starts the base.
     pub fn start(&mut self) {
         self.waits = false;
     }
@@ -405,7 +405,7 @@ mod tests {
                 assert_no_jump(&mut before, numbers(&packet)[2]);
             }
             assert_eq!(before, 0.0, "{state:#x}");
-            // Parking is what a person asks for at the base.
+            // Parking is what the operator asks for at the base.
             assert_eq!(events.len(), usize::from(state != 0x7), "{state:#x}");
         }
     }
@@ -434,7 +434,7 @@ mod tests {
         let faults = (0..200).filter_map(|_| moog.send(true, &Values::default()).1).count();
         assert_eq!((faults, moog.base()), (1, None));
         assert_eq!(moog.receive(&[0; 39]), None);
-        // After a fault only a person makes it engage again.
+        // After a fault only the operator makes it engage again.
         confirm(&mut moog, 0x1);
         assert_eq!(command(&sent(&mut moog, true)), 130);
         moog.start();

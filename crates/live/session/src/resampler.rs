@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 const SAMPLE_CAPACITY: usize = 256;
 /// Longest delay \[s\].
 pub const MAX_DELAY: f64 = 0.25;
-/// Delay from which on a person is warned \[s\].
+/// Delay from which on the operator is warned \[s\].
 pub const WARNED_DELAY: f64 = 0.06;
 
 /// The samples of the last moments.

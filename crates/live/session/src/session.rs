@@ -70,7 +70,7 @@ pub enum TelemetryFault {
     Table(TableFault),
 }
 
-/// Reason for which an event of a person is refused.
+/// Reason for which an event of the operator is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// The event does nothing in this state.
@@ -426,7 +426,7 @@ impl Session {
         &self.commands
     }
 
-    /// An event of a person or of the device.
+    /// An event of the operator or of the device.
     ///
     /// # Errors
     /// The reason for which it has no effect.
@@ -480,7 +480,7 @@ impl Session {
         self.commands = Commands { length: self.begin, velocity: [0.0; 6], pose, heave, ..self.commands };
     }
 
-    /// The transition of an event, without a person's guards.
+    /// The transition of an event, without the operator's guards.
     fn enter(&mut self, next: State, event: Event) {
         let before = self.state;
         self.changed |= before.follows_telemetry() != next.follows_telemetry();

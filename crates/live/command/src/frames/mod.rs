@@ -101,7 +101,7 @@ pub struct Frames {
     owed: Option<Sending>,
     /// The session ends: no start string any more.
     pub ends: bool,
-    /// The actuators are where the next start begins, as a person or the controller has said.
+    /// The actuators are where the next start begins, as the operator or the controller has said.
     pub is_placed: bool,
     /// Time by which poses are ahead of now \[s\], and the poses before.
     ahead: Option<Ahead>,
@@ -226,7 +226,7 @@ mod tests {
 
     use super::*;
 
-    /// The sending thread stands still while frames pile up, and a person stops.
+    /// The sending thread stands still while frames pile up, and the operator stops.
     #[test]
     fn a_stop_without_room_leaves_as_soon_as_there_is_room() {
         let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();

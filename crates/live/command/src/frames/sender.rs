@@ -175,7 +175,7 @@ impl<'a> Sender<'a> {
             self.limiter.forget_last_frame();
         }
         if self.connection.is_lost() && message != Message::Stop {
-            // What comes back without a person who clears it would jump.
+            // What comes back without the operator who clears it would jump.
             return None;
         }
         let mut values = *values;

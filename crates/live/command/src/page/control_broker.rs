@@ -23,7 +23,7 @@ use crate::{Shared, loop_clock};
 /// An order to the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
-    /// A command of a person.
+    /// A command of the operator.
     Event(Event),
     /// A value of a parameter, by its slot.
     Choose(u16, f64),
@@ -33,7 +33,7 @@ pub enum Order {
     Lost(Loss),
     /// The controller has reported the legs' lengths \[m\].
     Report([f64; 6]),
-    /// A person has said where the legs are.
+    /// The operator has said where the legs are.
     Legs(Legs),
 }
 
@@ -344,7 +344,7 @@ impl Inner {
         Ok(())
     }
 
-    /// The reason for which parameters are refused, in words of a person at the platform.
+    /// The reason for which parameters are refused, in words of the operator at the platform.
     fn reason(&self, parameters: &Parameters, error: &ParameterError) -> String {
         if retune(&mut self.trial.clone(), parameters, State::Settled).is_err() {
             return error.to_string();

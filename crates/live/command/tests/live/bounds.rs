@@ -19,7 +19,7 @@ fn error(directory: &Path, arguments: &[&str]) -> String {
     text
 }
 
-/// The command with each file that a person writes.
+/// The command with each file that the operator writes.
 fn commands(file: &str) -> [Vec<&str>; 4] {
     [
         vec!["--replay", file],

@@ -209,7 +209,7 @@ pub struct Field {
     /// Type of a binary number.
     #[serde(rename = "type", default)]
     pub kind: Number,
-    /// Unit of the quantity; that of the washout if none is given.
+    /// Unit of the value in the packet, by default the SI unit of the quantity.
     pub unit: Option<Unit>,
     /// Factor; a negative one turns the axis round.
     #[serde(default = "one")]

@@ -116,7 +116,7 @@ fn legs_of_unknown_place_do_not_start() {
         "start needs the legs' place, which is unknown: let the controller report it, confirm that the platform is \
          settled, or start slowly"
     );
-    // A person has seen it settled.
+    // The operator has seen it settled.
     judged.session.locate(Legs::Settled).unwrap();
     judged.session.handle(Event::Start).unwrap();
     assert_eq!(judged.session.locate(Legs::Settled), Err(Refusal::Commanded(State::Homing)));

@@ -8,9 +8,9 @@ use nalgebra::Vector3;
 /// An event of the ride.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RideEvent {
-    /// A person's.
+    /// The operator's.
     Person(Event),
-    /// A person chooses the scale of the surge.
+    /// The operator chooses the scale of the surge.
     Scale(f64),
     /// Samples of the running vehicle.
     Run,

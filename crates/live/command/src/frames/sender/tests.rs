@@ -304,7 +304,7 @@ fn after_a_gap_of_two_seconds_no_frame_leaves_before_a_start() {
     sender.take(Message::Frame, &at(1.5));
     assert!(matches!(reported.pop(), Ok(Order::Lost(Loss::Gap(gap))) if gap >= 2.0));
     assert!(reported.pop().is_err(), "a loss is reported once");
-    // A person starts again: from the last frame on, slowly.
+    // The operator starts again: from the last frame on, slowly.
     sender.take(Message::Start, &at(1.5));
     sender.take(Message::Frame, &at(1.5));
     sender.take(Message::Stop, &at(1.5));
