@@ -53,15 +53,15 @@ pub struct Washout {
     parameters: Parameters,
     /// The conditioning in force.
     conditioning: ConditioningParameters,
-    glide: ConditioningGlide,
+    conditioning_glide: ConditioningGlide,
     /// Parameters of the soft limits in force.
-    soft: SoftLimitGlide,
+    soft_limit_glide: SoftLimitGlide,
     /// Fraction of the time to engage that has passed, 1: engaged, 0: disengaged, and its rate
     /// \[1/s\].
     engaging: f64,
     engaging_rate: f64,
     /// The input at the end of the last step, and its cue.
-    last: CuedInput,
+    last_input: CuedInput,
     scale: FittingScale,
     input_filter: InputFilter,
     preaction: StopPreaction,
@@ -70,12 +70,12 @@ pub struct Washout {
     direct_linear: DirectLinearMotion,
     soft_limits: SoftLimits,
     /// Time for which the input has been at rest \[s\].
-    resting: f64,
+    time_at_rest: f64,
     guard: ActuatorGuard,
     felt: Felt,
     limited_by: LimitedBy,
     /// Outputs without an exact derivative, one internal step ago.
-    before: PreviousStep,
+    previous_step: PreviousStep,
 }
 
 /// The input's course over a step.
@@ -124,14 +124,14 @@ struct PreviousStep {
 
 /// Least and longest time over which the cue fades in or out when the washout is engaged or
 /// disengaged \[s\].
-const FADE_TIME: [f64; 2] = [4.0, 10.0];
+const ENGAGEMENT_TIMES: [f64; 2] = [4.0, 10.0];
 
 /// Time in which a fade turns round after `engaged` has changed on its way \[s\].
-const TURN_TIME: f64 = 1.0;
+const ENGAGEMENT_TURN_TIME: f64 = 1.0;
 
 /// Change of the cue's horizontal force per second above which it fades more slowly \[m/s3\]: what
 /// tilt at 3 degrees a second takes over. A faster fade would take the stroke.
-const FADE_SLOPE: f64 = 0.5;
+const MAX_ENGAGEMENT_SLOPE: f64 = 0.5;
 
 /// Time for which the soft limits act once the input rests \[s\]. A filter that they hold does not
 /// unwind, and may push against them for ever. Without them it returns in its time constants.
@@ -155,16 +155,16 @@ impl Washout {
         let guard = ActuatorGuard::new(rig, structure.max_step);
         let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
-        let last = CuedInput::new(Input::default(), &parameters.conditioning, structure);
-        let at_rest = felt(&guard.commanded().motion, &last.head, structure.gravity);
+        let last_input = CuedInput::new(Input::default(), &parameters.conditioning, structure);
+        let at_rest = felt(&guard.commanded().motion, &last_input.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
             conditioning: parameters.conditioning,
-            glide: ConditioningGlide::default(),
-            soft: SoftLimitGlide::at(parameters),
+            conditioning_glide: ConditioningGlide::default(),
+            soft_limit_glide: SoftLimitGlide::at(parameters),
             engaging: 1.0,
             engaging_rate: 0.0,
-            last,
+            last_input,
             scale: FittingScale::new(parameters)?,
             input_filter: InputFilter::default(),
             preaction: StopPreaction::new(structure.max_step),
@@ -172,21 +172,21 @@ impl Washout {
             angular: AngularChannel::new(angular, structure.angular_order, structure.max_step),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
             soft_limits,
-            resting: 0.0,
+            time_at_rest: 0.0,
             guard,
             felt: at_rest,
             limited_by: LimitedBy::default(),
-            before: PreviousStep { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
+            previous_step: PreviousStep { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
         })
     }
 
     /// The washout at rest at neutral before its first step, with this input. The washout is
     /// disengaged if the input is, and the head is where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
-        self.last = self.cued(input.sanitized());
+        self.last_input = self.cued(input.sanitized());
         self.engaging = f64::from(input.engaged);
-        self.felt = felt(self.motion(), &self.last.head, self.parameters.structure.gravity);
-        self.before.felt = self.felt;
+        self.felt = felt(self.motion(), &self.last_input.head, self.parameters.structure.gravity);
+        self.previous_step.felt = self.felt;
         self
     }
 
@@ -213,7 +213,7 @@ impl Washout {
     #[inline]
     pub fn preview(&mut self, preview: &Preview) {
         let (conditioning, structure) = (&self.conditioning, &self.parameters.structure);
-        let CuedInput { input, head, .. } = &self.last;
+        let CuedInput { input, head, .. } = &self.last_input;
         let (engagement, factor) = (self.engagement(), self.scale.factor());
         let Some(law) = self.strategy.as_previewing() else { return };
         let force = |[surge, sway]: [f64; 2]| Vector3::new(surge, sway, input.specific_force.z);
@@ -260,12 +260,12 @@ impl Washout {
         }
         let end = match course {
             InputCourse::Held(input) => {
-                self.last = self.cued(input.sanitized());
+                self.last_input = self.cued(input.sanitized());
                 None
             }
             InputCourse::Ramp(end) => {
                 let end = end.sanitized();
-                self.last.input.engaged = end.engaged;
+                self.last_input.input.engaged = end.engaged;
                 if let Some(law) = self.strategy.as_previewing() {
                     law.delay_preview(step);
                     self.scale.delay_preview(step);
@@ -273,33 +273,33 @@ impl Washout {
                 Some(end)
             }
             InputCourse::Between(start, end) => {
-                self.last = self.cued(start.sanitized());
+                self.last_input = self.cued(start.sanitized());
                 Some(end.sanitized())
             }
         };
-        let start = self.last;
+        let start = self.last_input;
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited_by = LimitedBy::default();
         let mut done = 0.0;
         while done < count {
             done += 1.0;
-            if !self.soft.is_at(&self.parameters) {
+            if !self.soft_limit_glide.is_at(&self.parameters) {
                 self.glide_soft_limits(internal_step);
             }
-            let glides = !self.glide.is_over();
+            let glides = !self.conditioning_glide.is_over();
             if glides {
-                self.glide.advance(internal_step);
-                self.conditioning = self.glide.in_force(&self.parameters.conditioning);
+                self.conditioning_glide.advance(internal_step);
+                self.conditioning = self.conditioning_glide.in_force(&self.parameters.conditioning);
             }
             if let Some(end) = &end {
                 let next = self.cued(start.input.towards(end, done / count));
                 self.internal_step(&next, internal_step);
-                self.last = next;
+                self.last_input = next;
             } else if glides {
                 let next = self.cued(start.input);
                 self.internal_step(&next, internal_step);
-                self.last = next;
+                self.last_input = next;
             } else {
                 self.internal_step(&start, internal_step);
             }
@@ -331,12 +331,13 @@ impl Washout {
         // (1) Strategy splitter: scale, limits and low-pass of the cue. Its high- and low-pass are in
         // the strategy and in the chain of (3).
         let (cue_start, cue_end) = self.limited_cues(end, step);
-        let (mut cue_start, mut cue_end) = self.conditioned_cues(cue_start, cue_end, self.last.input.engaged, step);
+        let (mut cue_start, mut cue_end) =
+            self.conditioned_cues(cue_start, cue_end, self.last_input.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
         let rotation = self.motion().orientation.rotation;
         let rotation_at_end = self.motion().rotation_after(step);
-        let force_start = rotation * self.last.head.to_platform_axes(cue_start.force);
+        let force_start = rotation * self.last_input.head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
         // (5), (6) Angular channel.
@@ -371,8 +372,8 @@ impl Washout {
         let mut demand = PlatformState::turning(coordinates, &turning, self.guard.geometry(), rig.neutral_height);
         // Soft limits, safety units, actuator guard and evaluator: each may change the demand.
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
-        self.resting = if at_rest { self.resting + step } else { 0.0 };
-        let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_REST_TIME;
+        self.time_at_rest = if at_rest { self.time_at_rest + step } else { 0.0 };
+        let soft = self.soft_limits.enabled() && self.time_at_rest <= SOFT_LIMITS_REST_TIME;
         let tilt_compensation = if self.strategy.allows_tilt_overshoot(conditioning.compensation) {
             let tilting = Vector3::new(tilt_roll.acceleration, tilt_pitch.acceleration, 0.0);
             -tangential(tilting, arm).component_mul(&Vector3::new(1.0, 1.0, 0.0))
@@ -390,7 +391,7 @@ impl Washout {
         if self.direct_linear.deviates() {
             demand = self.guard.state(PlatformCoordinates { linear, ..demand.coordinates });
         }
-        self.before = PreviousStep { step, acceleration: self.motion().acceleration, felt: self.felt };
+        self.previous_step = PreviousStep { step, acceleration: self.motion().acceleration, felt: self.felt };
         self.guard.advance(&demand, safety, at_rest, step);
         self.felt = felt(self.motion(), head_at_end, structure.gravity);
         self.limited_by.tilt |= self.strategy.tilt_limited();
@@ -411,12 +412,12 @@ impl Washout {
     fn glide_soft_limits(&mut self, step: f64) {
         let heave = self.strategy.largest_heave();
         let idle = !self.soft_limits.limited();
-        let next = self.soft.after(&self.parameters, idle, step);
+        let next = self.soft_limit_glide.after(&self.parameters, idle, step);
         let limits = SoftLimits::new(&next.in_force(&self.parameters), heave);
-        if !next.is_gentler_than(&self.soft)
-            || limits.stop_from(self.guard.commanded(), GENTLER_PACE_FRACTION, GENTLE_SPEED)
+        if !next.is_gentler_than(&self.soft_limit_glide)
+            || limits.stops_in_time(self.guard.commanded(), GENTLER_PACE_FRACTION, GENTLE_SPEED)
         {
-            self.soft = next;
+            self.soft_limit_glide = next;
             self.soft_limits.retune(&next.in_force(&self.parameters), heave);
         }
     }
@@ -453,9 +454,13 @@ impl Washout {
             let references = [engagement * end.cue.force.x, engagement * end.cue.force.y];
             self.scale.advance(references, &self.parameters, step);
         }
-        let start = self.last.cue.limited(before, &self.conditioning);
+        let start = self.last_input.cue.limited(before, &self.conditioning);
         let end = end.cue.limited(self.scale.factor(), &self.conditioning);
-        if self.glide.is_over() { (start, end) } else { (self.glide.corrected(start), self.glide.corrected(end)) }
+        if self.conditioning_glide.is_over() {
+            (start, end)
+        } else {
+            (self.conditioning_glide.corrected(start), self.conditioning_glide.corrected(end))
+        }
     }
 
     /// The cue at the step's start and end as the channels receive it: filtered, and faded while
@@ -475,10 +480,10 @@ impl Washout {
             self.engaging_rate = 0.0;
             return;
         }
-        let [least, longest] = FADE_TIME;
-        let pace = 1.0 / (force.xy().norm() / FADE_SLOPE).clamp(least, longest);
+        let [least, longest] = ENGAGEMENT_TIMES;
+        let pace = 1.0 / (force.xy().norm() / MAX_ENGAGEMENT_SLOPE).clamp(least, longest);
         let rate = if engaged { pace } else { -pace };
-        let change = 2.0 * pace * step / TURN_TIME;
+        let change = 2.0 * pace * step / ENGAGEMENT_TURN_TIME;
         let before = self.engaging_rate;
         self.engaging_rate = if before == 0.0 { rate } else { max(min(rate, before + change), before - change) };
         self.engaging = min(max(self.engaging + self.engaging_rate * step, 0.0), 1.0);
@@ -513,7 +518,8 @@ impl Washout {
     /// Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
-        let nothing_cued = self.last.cue.force.xy() == Vector2::zeros() && self.last.cue.rates == Vector3::zeros();
+        let nothing_cued =
+            self.last_input.cue.force.xy() == Vector2::zeros() && self.last_input.cue.rates == Vector3::zeros();
         let mut scale = self.scale;
         scale.retune(parameters, nothing_cued)?;
         self.strategy.retune(parameters, &self.guard.commanded().coordinates.linear)?;
@@ -521,11 +527,11 @@ impl Washout {
         self.scale = scale;
         let spurious_before = self.spurious();
         let before = core::mem::replace(&mut self.parameters, *parameters);
-        self.soft.tighten(&parameters.safety);
+        self.soft_limit_glide.tighten(&parameters.safety);
         if nothing_cued && self.motion().velocity == Vector3::zeros() {
-            self.soft = SoftLimitGlide::at(parameters);
+            self.soft_limit_glide = SoftLimitGlide::at(parameters);
         }
-        self.soft_limits.retune(&self.soft.in_force(parameters), self.strategy.largest_heave());
+        self.soft_limits.retune(&self.soft_limit_glide.in_force(parameters), self.strategy.largest_heave());
         let Parameters { conditioning, splitter, angular, structure, .. } = parameters;
         if before.conditioning != *conditioning {
             let numbers = ConditioningParameters {
@@ -534,19 +540,19 @@ impl Washout {
                 ..if nothing_cued { *conditioning } else { self.conditioning }
             };
             let limited = |cue: &Cue, by: &ConditioningParameters| cue.limited(self.scale.factor(), by);
-            let old = limited(&CuedInput::new(self.last.input, &numbers, structure).cue, &numbers);
+            let old = limited(&CuedInput::new(self.last_input.input, &numbers, structure).cue, &numbers);
             let by_choice = ConditioningParameters {
                 gravity_removal: conditioning.gravity_removal,
                 angular_velocity_frame: conditioning.angular_velocity_frame,
                 ..numbers
             };
-            let new = limited(&CuedInput::new(self.last.input, &by_choice, structure).cue, &by_choice);
-            self.glide.begin(&before.conditioning, conditioning, &old.less(&new));
+            let new = limited(&CuedInput::new(self.last_input.input, &by_choice, structure).cue, &by_choice);
+            self.conditioning_glide.begin(&before.conditioning, conditioning, &old.less(&new));
             if nothing_cued {
-                self.glide.end();
+                self.conditioning_glide.end();
             }
-            self.conditioning = self.glide.in_force(conditioning);
-            self.last = self.cued(self.last.input);
+            self.conditioning = self.conditioning_glide.in_force(conditioning);
+            self.last_input = self.cued(self.last_input.input);
         }
         let jump = self.spurious() - spurious_before;
         self.direct_linear.retune(splitter, structure.splitter_order, jump);
@@ -558,7 +564,7 @@ impl Washout {
     fn spurious(&self) -> Vector3<f64> {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let turning = RotationalMotion::new(&self.guard.demand().angles);
-        let arm = turning.orientation.rotation * self.last.head.point;
+        let arm = turning.orientation.rotation * self.last_input.head.point;
         compensated(conditioning.compensation, &turning, arm, &self.strategy.tilt_angles(), structure.gravity)
     }
 
@@ -644,19 +650,19 @@ impl Washout {
             }
         };
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
-        let per_step = if self.before.step > 0.0 { 1.0 / self.before.step } else { 0.0 };
+        let per_step = if self.previous_step.step > 0.0 { 1.0 / self.previous_step.step } else { 0.0 };
         Output {
             position: motion.velocity,
             velocity: motion.acceleration,
-            acceleration: (motion.acceleration - self.before.acceleration) * per_step,
+            acceleration: (motion.acceleration - self.previous_step.acceleration) * per_step,
             orientation: motion.orientation.rates(motion.angular_velocity),
             angular_velocity: motion.angular_acceleration,
             length: leg_rates,
             leg_velocity,
             angle,
             angular_rate,
-            felt_specific_force: (self.felt.specific_force - self.before.felt.specific_force) * per_step,
-            felt_angular_velocity: (self.felt.angular_velocity - self.before.felt.angular_velocity) * per_step,
+            felt_specific_force: (self.felt.specific_force - self.previous_step.felt.specific_force) * per_step,
+            felt_angular_velocity: (self.felt.angular_velocity - self.previous_step.felt.angular_velocity) * per_step,
             tilt_roll: tilt_roll.velocity,
             tilt_pitch: tilt_pitch.velocity,
             tilt_roll_rate: tilt_roll.acceleration,

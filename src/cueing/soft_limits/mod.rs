@@ -114,9 +114,10 @@ impl ApproachLimits {
         }
     }
 
-    /// True if a motion towards a limit ends before it at this pace, or is as slow as this.
-    fn stop(&self, position: f64, velocity: f64, pace: f64, slow: f64) -> bool {
-        velocity <= max(pace * (self.max - position), slow) && -velocity <= max(pace * (position - self.min), slow)
+    /// True if a motion towards a limit ends before it at this pace, or is as slow_speed as this.
+    fn stops_in_time(&self, position: f64, velocity: f64, pace: f64, slow_speed: f64) -> bool {
+        velocity <= max(pace * (self.max - position), slow_speed)
+            && -velocity <= max(pace * (position - self.min), slow_speed)
     }
 
     /// The least and the largest acceleration with which the limits are approached at this pace.
@@ -232,12 +233,14 @@ impl SoftLimits {
     }
 
     /// True if axes and legs come to rest before their limits at this part of the pace. Those up to
-    /// `slow` \[m/s\] do anyway.
-    pub fn stop_from(&self, state: &PlatformState, part: f64, slow: f64) -> bool {
+    /// `slow_speed` \[m/s\] do anyway.
+    pub fn stops_in_time(&self, state: &PlatformState, part: f64, slow_speed: f64) -> bool {
         let pace = part * self.pace;
         let linear = &state.coordinates.linear;
-        let axes = (0..3).all(|k| self.axis_limits[k].stop(linear.position[k], linear.velocity[k], pace, slow));
-        axes && (0..6).all(|i| self.leg_limits.stop(state.legs.length[i], state.legs.velocity[i], pace, slow))
+        let axes =
+            (0..3).all(|k| self.axis_limits[k].stops_in_time(linear.position[k], linear.velocity[k], pace, slow_speed));
+        axes && (0..6)
+            .all(|i| self.leg_limits.stops_in_time(state.legs.length[i], state.legs.velocity[i], pace, slow_speed))
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.
