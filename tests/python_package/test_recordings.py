@@ -142,6 +142,8 @@ def test_units_and_axes_are_converted(ride, expected):
         axes="forward-right-down",
     )
     assert np.allclose(inputs(recording), expected, rtol=1e-13, atol=1e-13)
+    in_g = {**ride, "ax": ride["ax"] / STANDARD_GRAVITY}
+    assert np.allclose(inputs(moris.Recording(in_g, columns="ax=ax * 9.80665")), expected, rtol=1e-13, atol=1e-13)
 
 
 @pytest.mark.parametrize(
@@ -154,6 +156,7 @@ def test_units_and_axes_are_converted(ride, expected):
         ({"time": lambda t: t + 0.005 * (t > 5)}, {}, "do not come at equal steps.*resample=100 interpolates"),
         ({"ay": lambda ay: np.where(ay > 0.3, np.nan, ay)}, {}, "column ay: is NaN; cut this part off"),
         ({}, {"force_unit": "G"}, "unknown variant `G`, expected one of `m/s2`, `g`, `mg`"),
+        ({}, {"columns": ["ax"]}, 'columns must be names by key, or a text such as "time=t,ax=accel_x"'),
         ({}, {"resample": 0.1}, "resample is 0.1, but must be from 1 to 10000"),
         ({"ax": lambda ax: ax[:-1]}, {}, "values, others have"),
     ],

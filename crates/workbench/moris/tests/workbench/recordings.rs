@@ -194,6 +194,16 @@ fn options_stand_over_the_file_of_conventions() {
     assert_eq!(given.unit(Dimension::Rate), None);
     assert_eq!((given.column(Quantity::Force(0)), given.column(Quantity::Force(1))), ("x", "lateral"));
     assert_eq!(given.rate_frame, Frame::Body);
+    let written = |columns: &str| {
+        fs::write(&file, format!("columns = {columns}\n")).unwrap();
+        ConventionOptions { conventions: Some(file.clone()), ..ConventionOptions::default() }.load()
+    };
+    let [text, table] = ["'ax=x * 9.80665, ay=-y'", "{ ax = 'x * 9.80665', ay = '-y' }"].map(written);
+    assert_eq!(text.unwrap(), table.unwrap());
+    for (columns, message) in [("5", "names by key, or a text such as"), ("'x'", "write KEY=NAME, as in ax=accel_x")] {
+        let found = words::error(&written(columns).unwrap_err());
+        assert!(found.contains(message), "{found}");
+    }
 
     fs::write(&file, "force-units = \"g\"\n").unwrap();
     let message = words::error(&options.load().unwrap_err());

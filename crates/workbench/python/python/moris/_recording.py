@@ -30,7 +30,7 @@ class Recording:
         time needs no such column.
     name: of the recording; by default the file's, without extension.
     format: name of a logger's format, such as "phyphox"; `moris simulate --help` lists them.
-    columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/recordings.md.
+    columns: names that are not these, {"ax": "accel_x"} or "ax=accel_x,ay=accel_y"; signs and sums as in docs/recordings.md.
     time_unit: "s", "ms", "us", "ns", "min", "h", "d". force_unit: "m/s2", "g", "mg", "ft/s2". rate_unit: "rad/s", "deg/s".
     angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn", "ft/s".
     length_unit: "m", "km", "ft". position: True reads the columns x and y, or latitude and

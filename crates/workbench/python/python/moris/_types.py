@@ -30,7 +30,7 @@ class RecordingOptions(TypedDict, total=False):
     """Options of Recording, which describes them; None is the default of each."""
 
     format: str | None
-    columns: Mapping[str, str] | None
+    columns: Mapping[str, str] | str | None
     time_unit: Literal["s", "ms", "us", "ns", "min", "h", "d"] | None
     force_unit: Literal["m/s2", "g", "mg", "ft/s2"] | None
     rate_unit: Literal["rad/s", "deg/s"] | None

@@ -216,7 +216,6 @@ impl ConventionOptions {
 }
 
 /// `key=name` of an option.
-#[cfg(feature = "clap")]
 fn column_name(text: &str) -> Result<(Quantity, String), String> {
     let (key, name) = text
         .split_once('=')
@@ -224,8 +223,17 @@ fn column_name(text: &str) -> Result<(Quantity, String), String> {
     Ok((Quantity::of_key(key.trim())?, name.trim().to_owned()))
 }
 
+/// Columns as a table, or in a text as on the command line.
 fn columns_of_table<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<(Quantity, String)>, D::Error> {
-    let table = BTreeMap::<String, String>::deserialize(deserializer)?;
-    let named = table.into_iter().map(|(key, name)| Ok((Quantity::of_key(&key)?, name)));
-    named.collect::<Result<_, String>>().map_err(serde::de::Error::custom)
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "columns must be names by key, or a text such as \"time=t,ax=accel_x\"")]
+    enum Given {
+        Table(BTreeMap<String, String>),
+        Text(String),
+    }
+    let named: Result<_, String> = match Given::deserialize(deserializer)? {
+        Given::Table(table) => table.into_iter().map(|(key, name)| Ok((Quantity::of_key(&key)?, name))).collect(),
+        Given::Text(text) => text.split(',').map(column_name).collect(),
+    };
+    named.map_err(serde::de::Error::custom)
 }
