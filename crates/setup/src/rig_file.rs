@@ -391,11 +391,13 @@ impl RigFile {
         let rig = self.rig();
         let neutral = leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig));
         let mean = neutral.iter().sum::<f64>() / 6.0;
-        let is_travel = min_length <= 0.0 && max_length > min_length && max_length < mean;
+        // No leg of one stage is more than twice as long as when it is retracted.
+        let is_travel = min_length < 0.5 * max_length && max_length < mean;
         if is_travel {
             // From neutral, or from the retracted leg.
-            let shortest = if min_length < 0.0 { mean + min_length } else { mean - 0.5 * max_length };
-            let longest = shortest + max_length - min_length;
+            let stroke = max_length - min_length;
+            let shortest = if min_length < 0.0 { mean + min_length } else { mean - 0.5 * stroke };
+            let longest = shortest + stroke;
             let reason = format!(
                 "is {}, but lengths are from joint to joint, not travel; with neutral in the middle of this stroke minLength \
                  would be {shortest:.3} and maxLength {longest:.3}",
@@ -465,8 +467,58 @@ impl RigFile {
     ///
     /// # Errors
     /// Errors of the rig: legs that do not reach neutral, a singularity inside the stroke, a
-    /// value out of its range.
+    /// value out of its range. That of cranks ends with values that are accepted.
     pub fn check(&self) -> Result<(), ParameterError> {
-        check(&self.parameters())
+        check(&self.parameters()).map_err(|error| self.with_remedy(error))
+    }
+
+    /// The error with the [`RigFile::accepted_cranks`] at its end, if there are any.
+    pub fn with_remedy(&self, error: ParameterError) -> ParameterError {
+        match self.accepted_cranks() {
+            Some(values) => ParameterError { reason: format!("{}. Accepted is {values}", error.reason), ..error },
+            None => error,
+        }
+    }
+
+    /// Values with which cranks that are refused were tried and are accepted: the height or the
+    /// rods with level arms at neutral, or narrower angles, or both. `None` for legs, for cranks
+    /// that are accepted, and where none of these is.
+    pub fn accepted_cranks(&self) -> Option<String> {
+        let crank = self.crank.filter(|_| !self.is_accepted())?;
+        let rig = self.rig();
+        // From the end of each level arm to its platform joint, without the height.
+        let ends: [Vector3<f64>; 6] = std::array::from_fn(|i| {
+            let (sin, cos) = crank.heading_degrees[i].to_radians().sin_cos();
+            rig.platform[i] - rig.base[i] - crank.arm * Vector3::new(cos, sin, 0.0)
+        });
+        let mean = |length: &dyn Fn(&Vector3<f64>) -> f64| {
+            let mean = ends.iter().map(length).sum::<f64>() / 6.0;
+            Some((mean * 1e4).round() / 1e4).filter(|mean| mean.is_finite())
+        };
+        let upward = self.neutral_height.signum();
+        let height = mean(&|end| upward * (crank.rod.powi(2) - end.xy().norm_squared()).sqrt() - end.z);
+        let rod = mean(&|end| end.xy().norm().hypot(end.z + self.neutral_height));
+        let of_height =
+            |height| (format!("neutralHeight = {height}, "), RigFile { neutral_height: height, ..self.clone() });
+        let of_rod =
+            |rod| (format!("crank.rod = {rod}, "), RigFile { crank: Some(Crank { rod, ..crank }), ..self.clone() });
+        let others: Vec<(String, RigFile)> = height.map(of_height).into_iter().chain(rod.map(of_rod)).collect();
+        let narrower = |(other, rig): &(String, RigFile)| {
+            (3..10).rev().find_map(|tenths| {
+                let crank = rig.crank?;
+                let [low, high] = [crank.min_angle_degrees, crank.max_angle_degrees]
+                    .map(|angle| (angle * f64::from(tenths) / 10.0).round());
+                let crank = Crank { min_angle_degrees: low, max_angle_degrees: high, ..crank };
+                let is_accepted = RigFile { crank: Some(crank), ..rig.clone() }.is_accepted();
+                is_accepted.then(|| format!("{other}crank.minAngleDegrees = {low}, crank.maxAngleDegrees = {high}"))
+            })
+        };
+        let alone = others.iter().filter(|(_, rig)| rig.is_accepted()).map(|(other, _)| other.trim_end_matches(", "));
+        let found: Vec<String> = alone.map(str::to_owned).chain(narrower(&(String::new(), self.clone()))).collect();
+        if found.is_empty() { others.iter().find_map(narrower) } else { Some(found.join("; or ")) }
+    }
+
+    fn is_accepted(&self) -> bool {
+        check(&self.parameters()).is_ok()
     }
 }

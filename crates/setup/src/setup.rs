@@ -35,8 +35,11 @@ impl Setup {
     pub fn load(rig: Option<&Path>, sets: &[String]) -> Result<Self, Error> {
         let rig = rig.map(load_rig).transpose()?;
         let load = |set: &String| Ok((set_name(set), load_set(set, Parameters::ROWS)?));
-        let setup = Self::unchecked(rig, &sets.iter().map(load).collect::<Result<Vec<_>, Error>>()?);
-        check(&setup.parameters)?;
+        let setup = Self::unchecked(rig.clone(), &sets.iter().map(load).collect::<Result<Vec<_>, Error>>()?);
+        check(&setup.parameters).map_err(|error| match rig {
+            Some(rig) => rig.with_remedy(error),
+            None => error,
+        })?;
         Ok(setup)
     }
 

@@ -200,7 +200,9 @@ fn radians_in_place_of_degrees_are_named() {
 
 #[test]
 fn travel_in_place_of_lengths_is_named_with_the_lengths() {
-    for (min, max, shortest, longest) in [("-0.3", "0.3", "1.000", "1.600"), ("0", "0.6", "1.000", "1.600")] {
+    for (min, max, shortest, longest) in
+        [("-0.3", "0.3", "1.000", "1.600"), ("0", "0.6", "1.000", "1.600"), ("0.1", "0.5", "1.100", "1.500")]
+    {
         let text = default_text().replace("minLength = 1.0", &format!("minLength = {min}"));
         let message = refusal(&text.replace("maxLength = 1.6", &format!("maxLength = {max}")));
         assert!(message.starts_with("my.toml: actuator.minLength is "), "{message}");
@@ -316,5 +318,38 @@ fn legs_that_do_not_reach_neutral_are_refused_by_number() {
         let refusal = read(text, "my.toml").unwrap().check().unwrap_err();
         assert_eq!(refusal.variable, "rig.neutralHeight");
         assert!(refusal.to_string().contains("actuator 1"), "{refusal}");
+    }
+}
+
+/// The published machine with a value changed: what is printed is accepted. The height and the rod
+/// of level arms are those of the formula in docs/cranks.md.
+#[test]
+fn cranks_that_are_refused_get_values_with_which_they_are_accepted() {
+    let published = std::fs::read_to_string(example("crank-hobby25.toml")).unwrap();
+    for (from, to, expected) in [
+        ("rod = 0.155", "rod = 0.12", "crank.rod = 0.1552"),
+        ("neutralHeight = 0.148", "neutralHeight = 0.19", "neutralHeight = 0.1478"),
+        ("leastTransmission = 0.3", "leastTransmission = 0.99", ""),
+        ("40.0", "45.0", "crank.minAngleDegrees = -"),
+        ("40.0", "75.0", "crank.minAngleDegrees = -"),
+    ] {
+        let text = published.replace(from, to);
+        let refusal = read(&text, "my.toml").unwrap().check().unwrap_err().to_string();
+        let Some((_, values)) = refusal.split_once(". Accepted is ") else {
+            assert_eq!(expected, "", "{refusal}");
+            continue;
+        };
+        assert!(!expected.is_empty() && values.contains(expected), "{refusal}");
+        for alternative in values.split("; or ") {
+            let mut table: toml::Table = text.parse().unwrap();
+            for (name, value) in alternative.split(", ").map(|pair| pair.split_once(" = ").unwrap()) {
+                let value = toml::Value::Float(value.parse().unwrap());
+                match name.split_once('.') {
+                    Some((section, key)) => table[section][key] = value,
+                    None => table[name] = value,
+                }
+            }
+            assert_eq!(read(&table.to_string(), "my.toml").unwrap().check(), Ok(()), "{refusal}");
+        }
     }
 }

@@ -5,7 +5,8 @@ use std::fmt;
 use moris_interface::Group;
 use moris_setup::rig_file::RigFile;
 pub use moris_simulation::capabilities::{AxisAlone, Capabilities, Singularities};
-use moris_washout::ParameterError;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{ParameterError, Rig};
 
 use super::workspace::{Volume, WORKSPACE_TILT, Workspace};
 use crate::text_table::TextTable;
@@ -19,6 +20,8 @@ pub struct Survey {
     pub capabilities: Capabilities,
     /// Where it can go.
     pub workspace: Workspace,
+    /// What else is to be said of it, as lines.
+    pub notes: Vec<String>,
 }
 
 impl Survey {
@@ -30,17 +33,37 @@ impl Survey {
     pub fn of(file: &RigFile, samples: u32) -> Result<Self, ParameterError> {
         let parameters = file.parameters();
         parameters.check_ranges()?;
+        let capabilities = Capabilities::of(&parameters, file.diameter()).map_err(|error| file.with_remedy(error))?;
+        let accepted = match capabilities.singularities {
+            Singularities::At(_) => file.accepted_cranks().map(|values| format!("Accepted is {values}.")),
+            Singularities::None(_) => None,
+        };
         Ok(Survey {
             name: file.name.clone(),
-            capabilities: Capabilities::of(&parameters, file.diameter())?,
+            capabilities,
             workspace: Workspace::of(&parameters.rig, samples),
+            notes: larger_platform(&parameters.rig).into_iter().chain(accepted).collect(),
         })
     }
 }
 
+/// A sentence on a platform whose joints are farther apart than the base's: few are so built.
+fn larger_platform(rig: &Rig) -> Option<String> {
+    let [base, platform] = [&rig.base, &rig.platform].map(|joints| {
+        let centre = joints.iter().sum::<Vector3<f64>>() / 6.0;
+        joints.iter().map(|joint| (joint - centre).norm()).sum::<f64>() / 6.0
+    });
+    (platform > base).then(|| {
+        format!(
+            "the platform's joints are {platform:.3} m from their middle, those of the base {base:.3} m: few platforms are \
+             the larger part; are [base] and [platform] exchanged?"
+        )
+    })
+}
+
 impl fmt::Display for Survey {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Survey { name, capabilities, workspace: Workspace { level, tilted, samples, .. } } = self;
+        let Survey { name, capabilities, workspace: Workspace { level, tilted, samples, .. }, .. } = self;
         writeln!(f, "{name}\n\n{}\n", capabilities.legs())?;
         let mut table = TextTable::new(AxisAlone::HEADS);
         capabilities.axes.iter().for_each(|axis| table.push(axis.row()));
@@ -51,6 +74,7 @@ impl fmt::Display for Survey {
         writeln!(f, "  tilted by {:.0}° in any direction  {}\n", WORKSPACE_TILT.to_degrees(), volume(tilted))?;
         writeln!(f, "{}\n", capabilities.safety().join("\n"))?;
         writeln!(f, "{}", capabilities.clearance)?;
-        write!(f, "{}", capabilities.singularities)
+        write!(f, "{}", capabilities.singularities)?;
+        self.notes.iter().try_for_each(|note| writeln!(f, "  {note}"))
     }
 }
