@@ -161,6 +161,17 @@ fn wrong_units_signs_and_rates_are_said() {
     said(|[x, y, z]| [x, y, z - 9.80665], "lacks gravity's reaction");
     said(|force| force.map(|value| -value), "The felt force has the wrong sign");
     said(|[x, y, z]| [x, -y, z], "Sway is felt with the wrong sign");
+    // The desired force, so much later or earlier, beyond the 2 s within which delays are measured.
+    let inputs = recording.inputs();
+    for (shift, text) in [
+        (-250, "Surge is felt 2.50 s later than desired"),
+        (250, "Surge is felt 2.50 s earlier than desired"),
+        (-150, "!later"),
+    ] {
+        let at = |k: usize| (k as isize + shift).clamp(0, inputs.len() as isize - 1) as usize;
+        let late = findings((0..inputs.len()).map(|k| inputs[at(k)].specific_force.into()).collect());
+        assert!(text.strip_prefix('!').map_or(late.contains(text), |text| !late.contains(text)), "{late}");
+    }
     // The verdict asks for no other scale where the reading is in doubt.
     let headline = |change: fn([f64; 3]) -> [f64; 3]| {
         let motion = ForeignMotion { force: Some(forces(change)), ..ForeignMotion::default() };
@@ -172,7 +183,8 @@ fn wrong_units_signs_and_rates_are_said() {
         assert!(text.contains("may be wrong") && !text.contains("scale"), "{text}");
     }
     let right = findings(forces(|force| force));
-    assert!(!right.contains("wrong sign") && !right.contains("too small"), "{right}");
+    let is_said = |text: &&str| right.contains(text);
+    assert!(!["wrong sign", "too small", "exchanged", "later"].iter().any(is_said), "{right}");
 
     let error = |motion: ForeignMotion| {
         let inputs = recording.inputs();
@@ -189,13 +201,61 @@ fn wrong_units_signs_and_rates_are_said() {
     assert!(of_poses([0.0; 6]).contains("add 1.091"));
     assert!(of_poses([0.0, 0.0, 1.091, 0.0, 3.0, 0.0]).contains("as in degrees"));
     assert!(of_poses([0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0]).contains("pose[0] holds NaN"));
-    let strokes = error(ForeignMotion { legs: Some(vec![[0.1; 6]; 1201]), ..none() });
-    assert!(strokes.contains("add the shortest length"), "{strokes}");
+    // Strokes from the retracted leg of 1 m, and from neutral, where the default rig's are 1.300 m long.
+    for (legs, remedy) in [
+        ([0.1, 0.5, 0.1, 0.1, 0.1, 0.1], "strokes from the retracted leg: add 1.000 m to each"),
+        ([0.1, -0.2, 0.1, 0.1, 0.1, 0.1], "strokes from neutral: add 1.300 m to each"),
+        ([1000.0, 1600.0, 1300.0, 1300.0, 1300.0, 1300.0], "check the unit (m)"),
+    ] {
+        let refused = error(ForeignMotion { legs: Some(vec![legs; 1201]), ..none() });
+        assert!(refused.contains(remedy), "{refused}");
+    }
     // Poses with four decimals, 100 a second.
     let pose = |k: usize| [1e-4 * (1000.0 * (0.01 * k as f64).sin()).round(), 0.0, 1.091, 0.0, 0.0, 0.0];
     let motion = ForeignMotion { pose: Some((0..1201).map(pose).collect()), ..none() };
     let outcome = Outcome::foreign(&recording, &setup, "other", &motion, Vec::new()).unwrap();
     assert!(outcome.evaluated().findings()[1].text.starts_with("The poses have 4 decimals"));
+}
+
+#[test]
+fn exchanged_axes_are_said_of_forces_and_of_poses() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("ride.csv");
+    let mut text = "time,ax,ay,az,wx,wy,wz\n".to_owned();
+    for k in 0..=2400 {
+        let t = 0.01 * f64::from(k);
+        let sines = |first: f64, second: f64| 0.3 * ((first * t).sin() + (second * t).sin());
+        writeln!(text, "{t},{},{},9.80665,0,0,0", sines(2.3, 4.1), sines(3.1, 5.3)).unwrap();
+    }
+    fs::write(&file, text).unwrap();
+    let recording = Recording::read(&file, &Conventions { fade_in: 1.0, ..Conventions::default() }).unwrap();
+    let setup = Setup::load(None, &[]).unwrap();
+    let own = Outcome::of(&recording, &setup, None, || ()).unwrap();
+    let force = |of: fn([f64; 3]) -> [f64; 3]| {
+        let felt = own.simulation.outputs.iter().map(|output| of(output.felt_specific_force.into()));
+        ForeignMotion { force: Some(felt.collect()), ..ForeignMotion::default() }
+    };
+    let pose = |is_exchanged: bool| {
+        let of = |output: &Output| {
+            let (p, a) = (output.position, output.orientation);
+            let [x, y] = if is_exchanged { [p.y, p.x] } else { [p.x, p.y] };
+            [x, y, p.z, a.roll, a.pitch, a.yaw]
+        };
+        let pose = own.simulation.outputs.iter().map(of).collect();
+        ForeignMotion { pose: Some(pose), ..ForeignMotion::default() }
+    };
+    for (motion, signal) in [
+        (force(|[x, y, z]| [y, x, z]), "felt force"),
+        (force(|[x, y, z]| [-y, x, z]), "felt force"),
+        (pose(true), "platform's acceleration"),
+        (force(|force| force), ""),
+        (pose(false), ""),
+    ] {
+        let outcome = Outcome::foreign(&recording, &setup, "other", &motion, Vec::new()).unwrap();
+        let text: String = outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect();
+        let said = format!("Surge and sway are exchanged: the {signal} along y goes with");
+        assert!(if signal.is_empty() { !text.contains("exchanged") } else { text.contains(&said) }, "{signal}: {text}");
+    }
 }
 
 #[test]

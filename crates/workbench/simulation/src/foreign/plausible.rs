@@ -1,8 +1,11 @@
 //! Wrong units, signs and frames of a foreign motion.
 
+use crate::measures::delay::{LONGEST_DELAY, delay_within};
 use crate::measures::statistics::median;
-use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::{Geometry, Pose, leg_lengths};
+use moris_washout::{Output, Parameters};
 
 use super::ForeignError;
 use super::differences::rounding_error;
@@ -50,15 +53,26 @@ pub fn check(
         return refused("legs", reason.to_owned());
     }
     if let Some(legs) = legs {
-        let length = median(legs.iter().flatten().copied());
-        if !(rig.min_length / MAX_SIZE_RATIO..rig.max_length * MAX_SIZE_RATIO).contains(&length) {
-            let (least, greatest) = (rig.min_length, rig.max_length);
-            let reason = format!(
-                "the lengths are {length:.3} m at the median, but an actuator has {least} to {greatest} m from joint to joint; check the \
-                 unit (m), and add the shortest length to strokes"
-            );
-            return refused("legs", reason);
-        }
+        let all = || legs.iter().flatten().copied();
+        let [least, greatest] = [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)];
+        let (shortest, longest) = (rig.min_length, rig.max_length);
+        let length = median(all());
+        let remedy = if greatest < shortest && greatest - least <= longest - shortest {
+            let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig)).iter().sum::<f64>() / 6.0;
+            let (zero, length) = if least < 0.0 { ("neutral", neutral) } else { ("the retracted leg", shortest) };
+            format!("these may be strokes from {zero}: add {length:.3} m to each")
+        } else if !(shortest / MAX_SIZE_RATIO..longest * MAX_SIZE_RATIO).contains(&length) {
+            "check the unit (m), and add the shortest length to strokes".to_owned()
+        } else {
+            return Ok(());
+        };
+        return refused(
+            "legs",
+            format!(
+                "the lengths are {least:.3} to {greatest:.3} m, {length:.3} m at the median, but an actuator has {shortest} to \
+                 {longest} m from joint to joint; {remedy}"
+            ),
+        );
     }
     Ok(())
 }
@@ -151,11 +165,15 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
     // The axis that no tilt coordination turns about.
     const YAW_AXIS: usize = 2;
     // RMS of a signal that is enough for a suspicion, of forces [m/s2] and of rates [rad/s].
-    const MIN_SUSPECTED_RMS: [f64; 2] = [0.05, 0.01];
+    const MIN_SUSPECTED_FORCE: f64 = 0.05;
+    const MIN_SUSPECTED_RATE: f64 = 0.01;
     let gravity = simulation.parameters.structure.gravity;
     let scale = &simulation.parameters.conditioning.force_scale;
     let vertical = median(simulation.outputs.iter().map(|output| output.felt_specific_force.z));
     if let Some(sentence) = of_vertical(vertical, gravity) {
+        return vec![sentence];
+    }
+    if let Some(sentence) = exchanged_axes(simulation, MIN_SUSPECTED_FORCE) {
         return vec![sentence];
     }
     let mut found = Vec::new();
@@ -163,8 +181,11 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
         let samples = || simulation.inputs.iter().zip(&simulation.outputs);
         let pairs =
             || samples().map(move |(input, output)| [input.specific_force[axis], output.felt_specific_force[axis]]);
-        let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RMS[0]) else { continue };
-        if correlation < OPPOSED_CORRELATION {
+        let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_FORCE) else { continue };
+        let may_be_late = correlation.abs() < -OPPOSED_CORRELATION;
+        if let Some(sentence) = may_be_late.then(|| late_force(simulation, axis, name)).flatten() {
+            found.push(sentence);
+        } else if correlation < OPPOSED_CORRELATION {
             found.push(format!(
                 "{name} is felt with the wrong sign: its correlation with the desired force is {correlation:.2}. If the washout is not \
                  to blame, its {} points the other way; axes are x forward, y left, z up, and positive pitch is nose down.",
@@ -182,7 +203,7 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
     for (axis, name) in ["Roll rate", "Pitch rate", "Yaw rate"].into_iter().enumerate() {
         let samples = || rates.iter().zip(&simulation.outputs);
         let pairs = || samples().map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]]);
-        let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RMS[1]) else { continue };
+        let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RATE) else { continue };
         if correlation > -OPPOSED_CORRELATION && size > 10.0 {
             found.push(format!(
                 "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
@@ -194,6 +215,49 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
         }
     }
     found
+}
+
+/// Surge and sway that are felt for each other, or travelled for each other in poses whose angles
+/// are right.
+fn exchanged_axes(simulation: &Simulation, least_force: f64) -> Option<String> {
+    // Least correlation of exchanged axes, and largest of the right ones as a fraction of it.
+    const MIN_EXCHANGED_CORRELATION: f64 = 0.3;
+    const MAX_RIGHT_FRACTION: f64 = 0.5;
+    let exchanged = |(name, of): (&str, fn(&Output) -> Vector3<f64>)| {
+        let correlation = |desired: usize, felt: usize| {
+            let samples = || simulation.inputs.iter().zip(&simulation.outputs);
+            let pairs = || samples().map(move |(input, output)| [input.specific_force[desired], of(output)[felt]]);
+            signal_likeness(pairs, least_force).map(|likeness| likeness.correlation)
+        };
+        let [of_x, of_y] = [correlation(0, 1)?, correlation(1, 0)?];
+        let largest = correlation(0, 0)?.abs().max(correlation(1, 1)?.abs());
+        let least = of_x.abs().min(of_y.abs());
+        (least >= MIN_EXCHANGED_CORRELATION && largest <= MAX_RIGHT_FRACTION * least).then(|| {
+            format!(
+                "Surge and sway are exchanged: the {name} along y goes with the desired force along x (correlation {of_x:.2}), and that \
+                 along x with the one along y ({of_y:.2}). Exchange x and y; axes are x forward, y left, z up."
+            )
+        })
+    };
+    let felt: fn(&Output) -> Vector3<f64> = |output| output.felt_specific_force;
+    [("felt force", felt), ("platform's acceleration", |output| output.acceleration)].into_iter().find_map(exchanged)
+}
+
+/// A force that is felt later or earlier than delays are searched for.
+fn late_force(simulation: &Simulation, axis: usize, name: &str) -> Option<String> {
+    // Longest shift that is found here [s], and as a fraction of the motion: rides repeat themselves.
+    const LONGEST_SHIFT: f64 = 20.0;
+    const MAX_SHIFTED_FRACTION: f64 = 0.25;
+    let desired: Vec<f64> = simulation.inputs.iter().map(|input| input.specific_force[axis]).collect();
+    let felt: Vec<f64> = simulation.outputs.iter().map(|output| output.felt_specific_force[axis]).collect();
+    let found = |longest: f64| delay_within(longest, &desired, &felt, simulation.step);
+    let longest = LONGEST_SHIFT.min(MAX_SHIFTED_FRACTION * simulation.step * desired.len() as f64);
+    let delay = found(longest).filter(|delay| delay.abs() >= LONGEST_DELAY && found(LONGEST_DELAY).is_none())?;
+    Some(format!(
+        "{name} is felt {:.2} s {} than desired, and delays are measured up to {LONGEST_DELAY} s: check the times of the motion.",
+        delay.abs(),
+        if delay > 0.0 { "later" } else { "earlier" }
+    ))
 }
 
 /// A wrong vertical force \[m/s2\] at the median.

@@ -9,7 +9,7 @@ use realfft::RealFftPlanner;
 use super::statistics::{CONSTANT_TOLERANCE, correlation, mean};
 
 /// Longest delay considered, of either sign \[s\].
-const LONGEST_DELAY: f64 = 2.0;
+pub const LONGEST_DELAY: f64 = 2.0;
 /// Least correlation at the best shift for one signal to count as the other one delayed.
 const SAME_SIGNAL: f64 = 0.9;
 
@@ -21,9 +21,14 @@ const SAME_SIGNAL: f64 = 0.9;
 /// holds where the best shift is not within two seconds or half the signals' length. Such signals
 /// have no common delay.
 pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
+    delay_within(LONGEST_DELAY, desired, felt, step)
+}
+
+/// As [`delay`], within this time in place of two seconds.
+pub fn delay_within(longest: f64, desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     // Accuracy of the correlations from the Fourier transform.
     const CORRELATION_ACCURACY: f64 = 1e-9;
-    let longest = ((LONGEST_DELAY / step).round() as usize).min(desired.len() / 2);
+    let longest = ((longest / step).round() as usize).min(desired.len() / 2);
     let approximate = shifted_correlations(desired, felt, longest)?;
     let exact = |index: usize| correlation_at(desired, felt, index as i64 - longest as i64);
     let largest = approximate.iter().copied().fold(f64::NEG_INFINITY, f64::max);
