@@ -41,26 +41,33 @@ pub fn pair_name(input: Channel, output: Channel) -> String {
 
 impl Limit {
     /// The bounds in a CSV file: a row for each channel and frequency, its columns `channel`,
-    /// `frequency` \[rad/s\], `modulus_low`, `modulus_high`, `phase_low` and `phase_high` \[deg\].
-    /// An empty field is no bound.
+    /// `frequency` \[rad/s\], and at least one of `modulus_low`, `modulus_high`, `phase_low` and
+    /// `phase_high` \[deg\]. An empty field is no bound.
     ///
     /// # Errors
-    /// The file cannot be read, lacks a column or a row, names no channel, or a field is no number.
+    /// The file cannot be read, lacks a column or a row, has another column, names no channel, or a
+    /// field is no number.
     pub fn read(file: &Path) -> Result<Vec<Self>, String> {
         let at = |reason: String| format!("{}: {reason}", file.display());
         let mut reader =
             csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(file).map_err(|reason| at(reason.to_string()))?;
         let header = reader.headers().map_err(|reason| at(reason.to_string()))?.clone();
-        let place = |column: &&str| {
-            header
-                .iter()
-                .position(|title| title == *column)
-                .ok_or_else(|| at(format!("there is no column {column}; the columns are {}", BOUND_COLUMNS.join(", "))))
-        };
-        let places = BOUND_COLUMNS.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+        let columns = BOUND_COLUMNS.join(", ");
+        if let Some(other) = header.iter().find(|title| !BOUND_COLUMNS.contains(title)) {
+            return Err(at(format!("column {other} is no bound; the columns are {columns}")));
+        }
+        let places = BOUND_COLUMNS.map(|column| header.iter().position(|title| title == column));
+        if let Some(missing) = (0..2).find(|&k| places[k].is_none()) {
+            return Err(at(format!("there is no column {}; the columns are {columns}", BOUND_COLUMNS[missing])));
+        }
+        if places[2..].iter().all(Option::is_none) {
+            return Err(at(format!(
+                "there is no column of bounds; the columns are {columns}, the last four as needed"
+            )));
+        }
         let row = |(line, record): (usize, csv::Result<csv::StringRecord>)| {
             let record = record.map_err(|reason| at(reason.to_string()))?;
-            let fields: Vec<&str> = places.iter().map(|&place| record.get(place).unwrap_or("")).collect();
+            let fields = places.map(|place| place.and_then(|place| record.get(place)).unwrap_or(""));
             Self::of_fields(&fields).map_err(|reason| at(format!("line {}: {reason}", line + 2)))
         };
         let limits = reader.records().enumerate().map(row).collect::<Result<Vec<_>, _>>()?;

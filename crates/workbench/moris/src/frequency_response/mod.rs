@@ -62,10 +62,15 @@ pub struct Options {
     #[arg(long, value_name = "FILES", num_args = 1.., value_delimiter = ',')]
     measured: Vec<PathBuf>,
 
-    /// CSV file of bounds of one's own: channel, frequency, modulus_low, modulus_high, phase_low,
-    /// phase_high. The verdict is printed, and the exit status is 4 where a bound is not held
+    /// CSV file of bounds of one's own: channel, frequency, and any of modulus_low, modulus_high,
+    /// phase_low, phase_high. The verdict is printed, and the exit status is 4 where a bound is not
+    /// held
     #[arg(long, value_name = "FILE.csv")]
     bounds: Option<PathBuf>,
+
+    /// As for `moris simulate`, which alone steps another washout
+    #[arg(long, value_name = "FMU", hide = true)]
+    washout: Option<PathBuf>,
 
     /// Directory for the table (response.csv) and the pictures (direct.svg, cross.svg)
     #[arg(long, value_name = "DIRECTORY", default_value = "response")]
@@ -78,6 +83,11 @@ pub struct Options {
 /// The rig or the parameters cannot be used, an amplitude is not positive, or a
 /// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    ensure!(
+        options.washout.is_none(),
+        "--washout is for simulate alone; for the response of another washout let it compute the felt motion for recordings of \
+         one sine each, and give these with --measured FILES; docs/response.md has their columns"
+    );
     let setup = options.setup.load_with_notes()?;
     for (name, value) in [("--force", options.force), ("--rate", options.rate)] {
         ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");

@@ -206,8 +206,19 @@ fn bounds_of_one_s_own_are_held_or_named_with_the_value() {
         let error = read(rows).unwrap_err();
         assert!(error.contains(reason), "{error}");
     }
-    std::fs::write(&file, "channel,frequency\n").unwrap();
-    assert!(Limit::read(&file).unwrap_err().contains("there is no column modulus_low"));
+    // Columns of bounds that are not needed may be left out, and come in any order.
+    std::fs::write(&file, "phase_high,frequency,channel\n-30,10,heave\n").unwrap();
+    let found = &Limit::read(&file).unwrap()[0];
+    assert_eq!((found.modulus, found.phase), ([None, None], [None, Some(-30.0)]));
+    for (header, reason) in [
+        ("channel,frequency", "there is no column of bounds; the columns are channel, frequency, modulus_low"),
+        ("frequency,modulus_low", "there is no column channel"),
+        ("channel,frequency,modulus_least", "column modulus_least is no bound; the columns are channel"),
+    ] {
+        std::fs::write(&file, format!("{header}\n")).unwrap();
+        let error = Limit::read(&file).unwrap_err();
+        assert!(error.contains(reason), "{error}");
+    }
     let picture = directory.path().join("direct.svg");
     picture::draw(&picture, measured, &limits, &direct(), 3).unwrap();
     let bars = std::fs::read_to_string(&picture).unwrap().matches("stroke-width=\"12\"").count();
