@@ -29,9 +29,9 @@ pub enum List {
 /// There is no table of this name.
 pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
     match list {
-        List::Formats { name: Some(name) } => write!(out, "{}", shipped("format", name, &format::SHIPPED_FORMATS)?)?,
+        List::Formats { name: Some(name) } => write!(out, "{}", shipped("format", name, format::SHIPPED_FORMATS)?)?,
         List::Frames { name: Some(name) } if name == moog::FRAME_NAME => writeln!(out, "{}", moog::FRAME_DESCRIPTION)?,
-        List::Frames { name: Some(name) } => write!(out, "{}", shipped("frames", name, &frame::SHIPPED_FRAMES)?)?,
+        List::Frames { name: Some(name) } => write!(out, "{}", shipped("frames", name, frame::SHIPPED_FRAMES)?)?,
         List::Formats { name: None } => {
             for (name, text) in format::SHIPPED_FORMATS {
                 writeln!(out, "{name:<14} {}", text.parse::<format::Format>()?.about)?;
@@ -52,7 +52,7 @@ pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
 /// # Errors
 /// There is none, or it cannot be used.
 pub fn format(name: &str) -> Result<format::Format> {
-    text("format", name, &format::SHIPPED_FORMATS)?.parse().with_context(|| name.to_owned())
+    text("format", name, format::SHIPPED_FORMATS)?.parse().with_context(|| name.to_owned())
 }
 
 /// The template of this name or in this file.
@@ -60,7 +60,7 @@ pub fn format(name: &str) -> Result<format::Format> {
 /// # Errors
 /// As [`format()`].
 pub fn frames(name: &str) -> Result<frame::Frames> {
-    text("frames", name, &frame::SHIPPED_FRAMES)?.parse().with_context(|| name.to_owned())
+    text("frames", name, frame::SHIPPED_FRAMES)?.parse().with_context(|| name.to_owned())
 }
 
 fn text(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<String> {

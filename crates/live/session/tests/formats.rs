@@ -1,5 +1,8 @@
 //! Packets written out by hand from each layout, and any bytes at all.
 
+use std::fs;
+use std::path::Path;
+
 use moris_live::format::{Dropped, Format, SHIPPED_FORMATS, shipped};
 use moris_live::{Motion, Sample};
 use nalgebra::Vector3;
@@ -514,10 +517,14 @@ fn x_plane() {
 }
 
 #[test]
-fn the_shipped_tables_say_what_they_are() {
-    for (name, text) in SHIPPED_FORMATS {
+fn every_table_is_shipped_says_what_it_is_and_is_listed_in_the_page() {
+    let page = include_str!("../../../../docs/live.md");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/format/tables");
+    assert_eq!(fs::read_dir(folder).unwrap().count(), SHIPPED_FORMATS.len());
+    for &(name, text) in SHIPPED_FORMATS {
         let format: Format = text.parse().unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(format.name, name);
+        assert!(page.lines().any(|line| line == format!("{name:<14} {}", format.about)), "{name}");
         assert!(
             !format.about.is_empty() && (format.note.starts_with("Ours.") || format.note.contains("No real packet"))
         );

@@ -1,5 +1,8 @@
 //! Frames written out by hand from each device's layout.
 
+use std::fs;
+use std::path::Path;
+
 use moris_live::frame::{Encoder, Frames, SHIPPED_FRAMES, Values, shipped};
 use moris_live::{Session, Settings};
 use moris_washout::interface::RollPitchYaw;
@@ -204,9 +207,13 @@ fn rig_for(name: &str) -> Rig {
 }
 
 #[test]
-fn a_template_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
-    for (name, text) in SHIPPED_FRAMES {
+fn every_template_is_listed_and_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
+    let page = include_str!("../../../../docs/live-reference.md");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/frame/tables");
+    assert_eq!(fs::read_dir(folder).unwrap().count(), SHIPPED_FRAMES.len());
+    for &(name, text) in SHIPPED_FRAMES {
         let frames: Frames = text.parse().unwrap();
+        assert!(page.lines().any(|line| line == format!("{name:<14} {}", frames.about)), "{name}");
         let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();
         assert_eq!(encoder.moves_actuators(), name != "vr-pose", "{name}");
         assert_eq!(encoder.asks(), ["csv", "json"].contains(&name), "{name}");
@@ -221,7 +228,7 @@ fn a_template_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
 proptest! {
     #[test]
     fn any_values_are_encoded_without_a_panic(length in prop::array::uniform6(any::<f64>()), time in any::<f64>()) {
-        for (name, text) in SHIPPED_FRAMES {
+        for &(name, text) in SHIPPED_FRAMES {
             let frames: Frames = text.parse().unwrap();
             assert_eq!(frames.name, name);
             let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();

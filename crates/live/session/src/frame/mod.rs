@@ -159,7 +159,7 @@ impl FromStr for Frames {
 }
 
 /// The shipped templates, each with its name and text.
-pub const SHIPPED_FRAMES: [(&str, &str); 8] = [
+pub const SHIPPED_FRAMES: &[(&str, &str)] = &[
     ("json", include_str!("tables/json.toml")),
     ("csv", include_str!("tables/csv.toml")),
     ("amc-aasd15a", include_str!("tables/amc-aasd15a.toml")),
