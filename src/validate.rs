@@ -8,7 +8,7 @@ use moris_interface::{
 };
 use nalgebra::Vector2;
 
-use crate::interface::{GravityRemoval, Input, Parameters, Rig, RollPitchYaw};
+use crate::interface::{GravityRemoval, Input, Parameters, Rig, RollPitchYaw, STANDARD_GRAVITY};
 use crate::platform::reach::{Axis, single_axis_range, stroke_clearance};
 use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, step_margin};
 
@@ -91,9 +91,10 @@ fn soft_limit_warning(Parameters { rig, soft_limit, .. }: &Parameters) -> Option
     (acceleration_limit < needed * (1.0 - 1e-9)).then(|| {
         format!(
             "actuator.accelerationLimit is {acceleration_limit} m/s2, but braking from {velocity_limit} m/s at the \
-             softLimit.pace of {} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; reduce softLimit.pace \
-             for more",
-            soft_limit.pace
+             softLimit.pace of {} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; if the limit is in g, \
+             give {:.1} m/s2, else reduce softLimit.pace for more",
+            soft_limit.pace,
+            STANDARD_GRAVITY * acceleration_limit
         )
     })
 }

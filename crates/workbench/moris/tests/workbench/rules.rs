@@ -146,6 +146,12 @@ fn in_unit(k: usize, unit: f64) -> Sample {
     Sample { force: (flat(k).force - GRAVITY * Vector3::z()) / unit, ..flat(k) }
 }
 
+/// A vehicle with small forces along x, which lasts, and y, in bends at 14 m/s, without gravity.
+fn quiet(k: usize, [surge, sway]: [f64; 2]) -> Sample {
+    let sway = sway * (0.3 * flat(k).time).sin();
+    Sample { force: Vector3::new(surge, sway, 0.0), rate: sway / 14.0 * Vector3::z(), ..flat(k) }
+}
+
 /// A vehicle on the level road that rolls by an angle of its yaw rate and speed.
 fn rolling(k: usize, roll: impl Fn(&Sample) -> f64) -> Sample {
     let [sample, next] = [flat(k), flat(k + 1)];
@@ -435,6 +441,10 @@ const ROWS: &[Row] = rows! {
     SIX, "gravity = 'removed'", |k, _| in_unit(k, GRAVITY)
         => ["if they are in g, use --force-unit g."], "force-unit = 'g'";
     SIX, "gravity = 'removed'", |k, _| in_unit(k, 1.0) => [], "";
+    // Nothing of small forces either, where the bends are those of 14 m/s, and in g they would be those of 140 m/s.
+    SIX, "gravity = 'removed'", |k, _| quiet(k, [0.0, 0.5]) => [], "";
+    // And half a m/s2 that lasts: in g the vehicle would gain 147 m/s in 30 s.
+    SIX, "gravity = 'removed'", |k, _| quiet(k, [0.5, 0.0]) => ["force along x is 0.50 m/s2", "!in g"], "";
     "time,ax [m/s2],ay [m/s2],az [m/s2],wx,wy,wz", "gravity = 'removed'", |k, _| in_unit(k, GRAVITY) => ["!in g"], "";
     SPEED, "gravity = 'removed'", |k, _| in_unit(k, GRAVITY) => ["--force-unit g"], "force-unit = 'g'";
     // Gravity of slopes that conversion has added does not hide the unit.

@@ -9,6 +9,7 @@ use super::units::usual_maximum;
 use crate::message::Message;
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Gravity, Quantity};
+use crate::recording::signal::{integral, relation, smooth};
 use crate::texts::text;
 
 /// A lasting force along x or y, and what may be its cause.
@@ -36,14 +37,23 @@ pub fn bias(channels: &Channels, quantity: Quantity) -> Option<Message> {
     (mean.abs() > MIN_BIAS).then(|| text!["bias", axis, mean, cause])
 }
 
-/// Accelerations that may be in g: without gravity and speed nothing tells their unit.
+/// Accelerations that may be in g: without gravity and speed only the motion tells their unit.
 pub fn force_unit(channels: &Channels, _: Quantity) -> Option<Message> {
     // Largest force along x and y below which accelerations of vehicles may be in g [m/s2].
     const WEAK_FORCE: f64 = 1.5;
+    // Speed that no vehicle has in bends, or gains in this time [m/s, s].
+    const MAX_SPEED: f64 = 100.0;
+    const GAIN_TIME: f64 = 30.0;
     let (unit, source) = channels.table.unit(Quantity::Force(0));
     let is_unknown = source == UnitSource::Default && !channels.has(Quantity::Speed);
     let force = channels.inputs.iter().map(|input| input.specific_force.xy().norm()).fold(0.0, f64::max);
-    let may_be = channels.conventions.gravity == Gravity::Removed && is_unknown && force < WEAK_FORCE;
+    let gained = integral(channels.force(0), channels.step);
+    let window = (GAIN_TIME / channels.step) as usize;
+    let gain = gained.iter().skip(window).zip(&gained).map(|(after, before)| (after - before).abs());
+    let bends = relation(&smooth(channels.rate(2), channels.step), &channels.lateral()).slope().unwrap_or(0.0);
+    let speed = gain.fold(bends.abs(), f64::max);
+    let is_possible = speed * STANDARD_GRAVITY < MAX_SPEED;
+    let may_be = channels.conventions.gravity == Gravity::Removed && is_unknown && force < WEAK_FORCE && is_possible;
     may_be.then(|| text!["force-unit", force, unit = unit.word])
 }
 
