@@ -41,6 +41,15 @@ use moris_simulation::Simulation;
 /// Six channels: specific force x, y, z, angular velocity x, y, z.
 pub type Channels<T> = [T; 6];
 
+/// The channels on which none of these recordings desires a motion that is felt, by the RMS of each
+/// in thresholds.
+pub fn still_channels<'a>(desired: impl Iterator<Item = &'a Channels<f64>>) -> Channels<bool> {
+    // Largest RMS of a channel on which nothing is desired [thresholds].
+    const NOTHING_DESIRED: f64 = 0.1;
+    let largest = desired.fold([0.0; 6], |largest: Channels<f64>, rms| std::array::from_fn(|k| largest[k].max(rms[k])));
+    largest.map(|rms| rms < NOTHING_DESIRED)
+}
+
 /// Cost of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {

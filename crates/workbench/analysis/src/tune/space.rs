@@ -6,6 +6,8 @@ use moris_interface::{Group as _, Kind, Reader, Row, slots_of};
 use moris_washout::Parameters;
 use moris_washout::interface::TuningGroup;
 
+use super::cost::Channels;
+
 /// The group of this name, in letters of any case.
 pub fn group_named(name: &str) -> Option<TuningGroup> {
     TuningGroup::ALL.iter().copied().find(|group| group.name().eq_ignore_ascii_case(name))
@@ -120,6 +122,19 @@ impl Space {
         }
     }
 
+    /// The space without the parameters of channels that are still, as far as others remain. No
+    /// recording tells of them, so they stay as they are.
+    pub fn without_channels(self, is_still: Channels<bool>) -> Self {
+        let is_kept = |k: &usize| self.tuned[*k].channel.is_none_or(|channel| !is_still[channel]);
+        let kept: Vec<usize> = (0..self.tuned.len()).filter(is_kept).collect();
+        if kept.is_empty() {
+            return self;
+        }
+        let bounds = |all: &DVector<f64>| DVector::from_iterator(kept.len(), kept.iter().map(|&k| all[k]));
+        let (lower, upper) = (bounds(&self.lower), bounds(&self.upper));
+        Space { tuned: kept.iter().map(|&k| self.tuned[k]).collect(), lower, upper, ..self }
+    }
+
     /// Number of tuned parameters.
     pub fn dimension(&self) -> usize {
         self.lower.len()
@@ -196,6 +211,11 @@ impl Space {
         })
     }
 
+    /// The parameters with all scales that are tuned times a factor.
+    pub fn with_scales_times(&self, parameters: &Parameters, factor: f64) -> Parameters {
+        self.changed(parameters, |k, value| value * if self.tuned[k].is_in(TuningGroup::Scale) { factor } else { 1.0 })
+    }
+
     /// The parameters at a point.
     pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
         self.changed(&self.start, |k, value| value * point[k].exp())
@@ -215,6 +235,7 @@ impl Space {
 mod tests {
     use moris_washout::interface::StrategyKind;
 
+    use super::super::cost::still_channels;
     use super::*;
 
     const DEFAULT: [TuningGroup; 3] = [TuningGroup::Splitter, TuningGroup::Angular, TuningGroup::Scale];
@@ -248,6 +269,24 @@ mod tests {
         assert!((moved.conditioning.rate_scale - 0.25 * start.conditioning.rate_scale).norm() < 1e-12);
         assert!((moved.splitter.omega1.x - 0.5 * start.splitter.omega1.x).abs() < 1e-12);
         assert_eq!((moved.splitter.omega1.z, moved.angular), (start.splitter.omega1.z, start.angular));
+    }
+
+    #[test]
+    fn channels_on_which_nothing_is_desired_stay_as_they_are() {
+        let start = classical();
+        let still = still_channels([[2.0, 0.0, 0.05, 0.3, 0.0, 0.0], [0.0, 0.09, 0.0, 0.0, 0.0, 0.0]].iter());
+        assert_eq!(still, [false, true, true, false, true, true]);
+        let space = Space::new(&start, &DEFAULT).without_channels(still);
+        let moved = space.parameters(&DVector::from_element(space.dimension(), -0.5));
+        let changed = moris_setup::differing(&moved, &start);
+        // Four filter parameters and a scale of surge and of the roll rate.
+        assert_eq!((space.dimension(), changed.len()), (10, 10));
+        let is_kept = |name: &str| [".x.", ".roll."].iter().any(|part| name.contains(part)) || name.ends_with(".x");
+        assert!(changed.iter().all(|(name, _)| is_kept(name)), "{changed:?}");
+        let scaled = moris_setup::differing(&space.with_scales_times(&start, 0.5), &start);
+        let names: Vec<&str> = scaled.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["scale.specificForce.x", "scale.angularVelocity.x"]);
+        assert_eq!(Space::new(&start, &DEFAULT).without_channels([true; 6]).dimension(), 30);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use moris_simulation::measures::statistics::mean_of_any;
 use moris_washout::Parameters;
 use moris_washout::platform::reach::Axis;
 
-use super::cost::{Channels, Cost, Objective};
+use super::cost::{Channels, Cost, Objective, still_channels};
 use super::tuner::WORST_RATIO;
 use crate::message::{Message, Words};
 use crate::text_table::{TextTable, or_undefined};
@@ -161,6 +161,12 @@ pub fn text(
     }
     if 0.0 < fraction && fraction < 1.0 {
         text += &text!["tuning-part-of-the-way", percent = 100.0 * fraction].worded(words);
+    }
+    let tuned_on = results.iter().filter(|result| result.tuned.is_some());
+    let is_still = still_channels(tuned_on.map(|result| &result.desired));
+    let still: Vec<&str> = (0..6).filter(|&k| is_still[k]).map(|k| name(Axis::ALL[k])).collect();
+    if !still.is_empty() {
+        text += &text!["tuning-still", channels = still.join(", ")].worded(words);
     }
     let verdict = verdict_text(results, &before.parameters_name).worded(words);
     let tables = [
@@ -490,6 +496,18 @@ mod tests {
         );
         let text = verdict_text(&[not], "default").worded(words);
         assert!(text.ends_with("Nothing is known of other recordings.") && !text.contains("held out"), "{text}");
+    }
+
+    #[test]
+    fn channels_without_a_desired_motion_are_named_once() {
+        let setup = Setup::load(None, &[]).unwrap();
+        let said = |desired: Channels<f64>| {
+            let result = RecordingResult { desired, ..result(cost(0.8, 0.0), None) };
+            text(&setup, &setup, &[result], 1.0, false, words)
+        };
+        let found = said([2.0, 0.0, 0.0, 1.0, 0.05, 1.0]);
+        assert!(found.contains("The recordings have no sway, heave, pitch rate: parameters of these"), "{found}");
+        assert!(!said([1.0; 6]).contains("The recordings have no"));
     }
 
     #[test]

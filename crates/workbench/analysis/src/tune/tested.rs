@@ -6,7 +6,7 @@ use moris_setup::Setup;
 use super::cost::{Cost, Objective};
 use super::error::TuneError;
 use super::summary::RecordingResult;
-use super::tuner::{Tuner, WORST_RATIO, full_cost, full_costs, with_scales_times, worst_ratio};
+use super::tuner::{Tuner, WORST_RATIO, full_cost, full_costs, worst_ratio};
 
 /// Fractions of the distance from the initial parameters to the best ones for the recordings
 /// tuned on, in logarithms.
@@ -156,7 +156,7 @@ fn within_limits(
     }
     let towards = tuner.space.towards(&best.parameters, fraction);
     for k in 0..=MAX_TRIES {
-        let setup = Setup { parameters: with_scales_times(&towards, SCALE_STEP.powi(k)), ..best.clone() };
+        let setup = Setup { parameters: tuner.space.with_scales_times(&towards, SCALE_STEP.powi(k)), ..best.clone() };
         if full_costs(objectives, &setup)?.iter().all(Cost::is_feasible) {
             return Ok(Some(setup));
         }

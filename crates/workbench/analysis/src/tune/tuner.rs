@@ -139,7 +139,7 @@ impl Tuner<'_> {
         const MAX_TRIES: i32 = 32;
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
         let tries = if self.space.has_scales() { MAX_TRIES } else { 0 };
-        let scaled = (1..=tries).map(move |k| with_scales_times(&best, SCALE_STEP.powi(k)));
+        let scaled = (1..=tries).map(move |k| self.space.with_scales_times(&best, SCALE_STEP.powi(k)));
         let nearer = searched
             .best
             .first()
@@ -170,14 +170,6 @@ impl Tuner<'_> {
             format!(" (the closest set still violates them: {})", limited.join(", "))
         })
     }
-}
-
-/// The parameters with all scales times a factor.
-pub fn with_scales_times(parameters: &Parameters, factor: f64) -> Parameters {
-    let mut parameters = *parameters;
-    parameters.conditioning.force_scale *= factor;
-    parameters.conditioning.rate_scale *= factor;
-    parameters
 }
 
 /// Largest ratio of a recording's error to the error before at which it does not count as worse.
