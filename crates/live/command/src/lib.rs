@@ -331,7 +331,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let record = record.map(Recorder::new).transpose().context("cannot record the session")?;
     let shared = Arc::new(Shared::default());
-    let interrupts = Interrupts::new(Signals::listen()?);
+    let signals = Signals::listen()?;
+    let interrupts = Interrupts::new(signals.clone());
 
     let (samples, received) = RingBuffer::new(1024);
     let (commands, commanded) = RingBuffer::new(64);
@@ -370,6 +371,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             prepare_helper(options);
             let mut sender = Sender::new(to_send, device, sink, from_device, (interval, actuators), shared);
             sender.time_out = time_out;
+            sender.signals = signals;
             sender.run()
         });
         let printer =

@@ -19,7 +19,7 @@ const LAST_REAL_TIME: i32 = 64;
 #[derive(Clone, Debug, Default)]
 pub struct Signals {
     /// True once Ctrl-C was pressed.
-    interrupt: Arc<AtomicBool>,
+    pub(crate) interrupt: Arc<AtomicBool>,
     /// Another one that ends a program, or stops it.
     termination: Arc<AtomicBool>,
 }
@@ -33,6 +33,11 @@ impl Signals {
         let signals = Signals::default();
         signals.register().context("cannot listen to signals")?;
         Ok(signals)
+    }
+
+    /// True if Ctrl-C was pressed since the last look.
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
     }
 
     #[cfg(unix)]

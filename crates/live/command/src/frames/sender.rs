@@ -14,6 +14,7 @@ use super::super::connection::Connection;
 use super::super::lateness::Lateness;
 use super::super::lines::Lines;
 use super::super::page::Order;
+use super::super::signals::Signals;
 use super::super::thread_monitor::Part;
 use super::super::{Shared, loop_clock};
 use super::{Device, Loss, Message, Sending, Sink};
@@ -48,6 +49,8 @@ pub struct Sender<'a> {
     pub connection: Connection,
     /// The controller's own time-out.
     pub time_out: Option<Duration>,
+    /// Of the system: the loop has ended while frames go on to the lowest pose.
+    pub signals: Signals,
     pub shared: &'a Shared,
     bytes: Vec<u8>,
     running: bool,
@@ -82,6 +85,7 @@ impl<'a> Sender<'a> {
             limiter: FrameLimiter::new(interval, actuators),
             connection: Connection::new(interval),
             time_out: None,
+            signals: Signals::default(),
             shared,
             bytes: Vec::with_capacity(4096),
             running: false,
@@ -145,18 +149,26 @@ impl<'a> Sender<'a> {
     }
 
     /// Goes on with frames until the actuators are where these values have them. Frames that were
-    /// late are behind the loop, and a controller that parks takes no more of them.
+    /// late are behind the loop, and a controller that parks takes no more of them. Ends at once if
+    /// a person stops, or presses Ctrl-C.
     fn arrive(&mut self, values: &Values, packet: &mut [u8]) {
         // Longest time to the lowest pose: the slowest way over the longest stroke.
         const LONGEST_ARRIVAL: Duration = Duration::from_secs(20);
         let mut values = *values;
         let interval = self.limiter.interval();
         let end = loop_clock::now() + LONGEST_ARRIVAL;
+        let mut is_stopped = false;
         while !self.limiter.is_at(&self.device.followed(&values))
             && !self.connection.is_lost()
+            && !self.signals.is_interrupted()
             && loop_clock::now() < end
         {
             std::thread::sleep(Duration::from_secs_f64(interval));
+            // A loop that ends stops as well, and leaves the ring right after it: seen twice, a person has stopped.
+            let stops = self.ring.peek().is_ok_and(|next| next.message == Message::Stop) && !self.ring.is_abandoned();
+            if std::mem::replace(&mut is_stopped, stops) && stops {
+                break;
+            }
             values.time += interval;
             let fault = self.take(Message::Frame, &values);
             self.listen(fault, packet);

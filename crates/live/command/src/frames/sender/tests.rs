@@ -58,21 +58,32 @@ fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     assert!(speeds.windows(2).all(|pair| (-1e-3..0.03).contains(&(pair[0] - pair[1]))), "{speeds:?}");
 }
 
-/// The frames that a device receives until the stop string, with a pause after each message.
+/// The frames that a device receives until the stop string, with a pause before each message.
 fn received(messages: &[(Message, Values)], pause: Duration) -> Vec<String> {
+    received_until(messages, pause, |_| ())
+}
+
+/// The same where something happens before the loop ends.
+fn received_until(messages: &[(Message, Values)], pause: Duration, end: impl FnOnce(&Signals)) -> Vec<String> {
     let device = UdpSocket::bind("127.0.0.1:0").unwrap();
     let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
     let (mut ring, to_send) = RingBuffer::new(8);
     let (orders, _) = RingBuffer::new(4);
     let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
+    let signals = Signals::default();
+    let of_sender = signals.clone();
     let sender = std::thread::spawn(move || {
-        Sender::new(to_send, csv(), sink, orders, (0.01, actuators), &Shared::default()).run();
+        let shared = Shared::default();
+        let mut sender = Sender::new(to_send, csv(), sink, orders, (0.01, actuators), &shared);
+        sender.signals = of_sender;
+        sender.run();
     });
     for (message, values) in messages {
+        std::thread::sleep(pause);
         ring.push(Sending { message: *message, values: *values, arrival: None, made: loop_clock::now() }).unwrap();
         sender.thread().unpark();
-        std::thread::sleep(pause);
     }
+    end(&signals);
     drop(ring);
     let received = until_stop(&device);
     sender.join().unwrap();
@@ -98,6 +109,26 @@ fn late_frames_arrive_before_the_park_string() {
     let ways: Vec<f64> = lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     assert!((lengths.last().unwrap() - 1.08).abs() < 1.1e-4, "{lengths:?}");
     assert!(ways.iter().all(|way| *way < 1.1e-3) && *ways.last().unwrap() < 2e-5, "{ways:?}");
+}
+
+/// The way to the lowest pose takes more than a second from here.
+#[test]
+fn a_person_who_stops_while_frames_arrive_ends_them_at_once() {
+    let at = |time: f64, length: f64| Values { time, length: [length; 6], ..Values::default() };
+    let down = [(Message::Start, at(0.0, 1.5)), (Message::Frame, at(0.01, 1.5)), (Message::Park, at(0.02, 1.0))];
+    let stop = [down.as_slice(), &[(Message::Stop, at(0.03, 1.0))]].concat();
+    let pause = Duration::from_millis(80);
+    let wait = || std::thread::sleep(Duration::from_millis(200));
+    let by_stop = received_until(&stop, pause, |_| wait());
+    let by_interrupt = received_until(&down, pause, |signals| {
+        wait();
+        signals.interrupt.store(true, Ordering::Relaxed);
+    });
+    for received in [by_stop, by_interrupt] {
+        let lengths = received.iter().filter_map(|line| line.split(',').nth(1)?.parse::<f64>().ok());
+        assert!(lengths.fold(f64::NAN, f64::min) > 1.1, "{received:?}");
+        assert_eq!(received.last().unwrap(), "stop\n");
+    }
 }
 
 /// The loop is busy, and a report waits for it.
