@@ -298,7 +298,7 @@ fn smooth_rides_with_all_axes_at_once_do_not_jolt() {
         .map(|(size, frequencies, phase)| Swell { size, frequencies, phase });
     let rides = hard.into_iter().chain((0..).map(|_| Swell::random(&mut random)));
     let mut beyond = Vec::new();
-    for (number, ride) in rides.take(crate::cases::cases(300, 25)).enumerate() {
+    for (number, ride) in rides.take(crate::cases::searches(300, 25)).enumerate() {
         let strategy = [Predictive, Classical, Adaptive, Optimal, Robust][number % 5];
         // The default rig's stroke, and from 30 mm to 1.25 m in equal ratios.
         let stroke = match number % 4 {

@@ -1,7 +1,7 @@
 //! The washout's library in the hands of a host that does everything wrong, by
 //! both versions of FMI.
 
-use crate::cases::cases;
+use crate::cases::{cases, searches};
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::{Api, Fmu, fmi3};
 use moris_fmu_tests::hostile::{CallCounts, Choices, Functions, run};
@@ -17,7 +17,7 @@ fn calls(counts: &CallCounts) -> u64 {
 
 /// Makes so many calls for each seed, always the same; returns how they ended.
 fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> CallCounts {
-    let each = cases(250_000, 10_000);
+    let each = searches(80_000, 10_000) as u64;
     let mut total = CallCounts::new();
     for seed in seeds {
         let counts = run(functions, Choices::Seed(seed), each);

@@ -241,34 +241,29 @@ fn degenerate_programs_are_solved() {
     compare_degenerate(2, 300);
 }
 
-/// A hundred thousand programs have the solution that an interior point method finds: the tests of
-/// this module run side by side.
+/// Thousands of programs have the solution that an interior point method finds: the tests of this
+/// module run side by side.
 mod many {
     use super::*;
+    use crate::cases::searches;
 
     #[test]
-    #[ignore = "takes a minute: 30,000 programs"]
+    #[ignore = "takes a minute"]
     fn feasible() {
-        compare_feasible(11, 10_000);
+        compare_feasible(11, searches(6_000, 600));
     }
 
     #[test]
-    #[ignore = "takes a minute: 30,000 programs"]
-    fn other_feasible() {
-        compare_feasible(14, 10_000);
-    }
-
-    #[test]
-    #[ignore = "takes a minute: 30,000 programs"]
+    #[ignore = "takes a minute"]
     fn degenerate() {
-        compare_degenerate(12, 15_000);
+        compare_degenerate(12, searches(5_000, 500));
     }
 
     #[test]
-    #[ignore = "takes a minute: 10,000 programs"]
+    #[ignore = "takes a minute"]
     fn infeasible() {
         let mut random = Random(13);
-        for _ in 0..10_000 {
+        for _ in 0..searches(3_000, 300) {
             compare(&random.infeasible::<16, 40>());
         }
     }
