@@ -381,7 +381,7 @@ fn check_cranks(rig: &Rig, cranks: &Cranks) -> Result<(), ParameterError> {
     }
     let arms = cranks.arms_in(&geometry, &neutral);
     for i in 0..6 {
-        let (angle, transmission) = (arms.angle(i), arms.transmission[i]);
+        let (angle, transmission) = (arms.angles()[i], arms.transmission[i]);
         if !(crank_min_angle < angle && angle < crank_max_angle) {
             return refuse(
                 "rig.neutralHeight",

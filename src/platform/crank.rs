@@ -25,6 +25,8 @@
 //! of that half. So every pose has finite numbers, and a demand or a plan beyond the
 //! reach finds its way back.
 
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2};
+
 use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -51,14 +53,14 @@ pub struct Cranks {
 }
 
 /// The six arms with their rods in a pose. So laid out, the processor does two at a time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Arms {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Arms {
     /// From the axles to the platform's joints \[m\].
     joint: Joints,
     /// e, f and g of the closed form \[m2\].
     e: [f64; 6],
     f: [f64; 6],
-    g: [f64; 6],
+    pub(crate) g: [f64; 6],
     /// Cosines and sines of the arms' angles.
     cos: [f64; 6],
     sin: [f64; 6],
@@ -70,47 +72,33 @@ pub(crate) struct Arms {
     beyond: [f64; 6],
 }
 
+/// Squares of the joints' distances between two poses, and of their parts in the cranks'
+/// planes \[m2\].
+pub(crate) struct Chords {
+    pub(crate) squares: [f64; 6],
+    pub(crate) in_plane: [f64; 6],
+}
+
 impl Arms {
-    /// Angle of arm `i` above its heading \[rad\].
-    pub(crate) fn angle(&self, i: usize) -> f64 {
-        libm::atan2(self.sin[i], self.cos[i]) + self.beyond[i]
+    /// Angles of the arms above their headings \[rad\].
+    #[inline]
+    pub(crate) fn angles(&self) -> [f64; 6] {
+        let mut angles = [0.0; 6];
+        for (i, angle) in angles.iter_mut().enumerate() {
+            *angle = angle_of(self.sin[i], self.cos[i]) + self.beyond[i];
+        }
+        angles
     }
 
-    /// The smallest squares of distances by which the joints are clear of where arms at these
-    /// lowest and highest angles, given by cosine and sine, would have them \[m2\].
+    /// The squares of distances by which joint `i` is clear of where arms at these lowest and
+    /// highest angles, given by cosine and sine, would have it \[m2\].
     ///
     /// An arm at the angle B with its end b has |l - b|² - s² = g - f cos B - e sin B. The
     /// difference is negative for B between the arm's angle and that of the other branch.
     #[inline(always)]
-    pub(crate) fn clear_of(&self, [lowest, highest]: [[f64; 2]; 2]) -> [f64; 2] {
-        let [mut below, mut above] = [f64::INFINITY; 2];
-        for i in 0..6 {
-            let (e, f, g) = (self.e[i], self.f[i], self.g[i]);
-            below = min(g - f * lowest[0] - e * lowest[1], below);
-            above = min(f * highest[0] + e * highest[1] - g, above);
-        }
-        [below, above]
-    }
-
-    /// The smallest g of the six \[m2\].
-    #[inline(always)]
-    pub(crate) fn least_g(&self) -> f64 {
-        let [a, b, c, d, e, f] = self.g;
-        min(min(min(a, c), e), min(min(b, d), f))
-    }
-
-    /// The largest distance of a joint from where it is at neutral \[m\].
-    #[inline(always)]
-    pub(crate) fn farthest_from_neutral(&self, geometry: &Geometry, neutral_height: f64) -> f64 {
-        let Geometry { base, platform, .. } = geometry;
-        let mut largest = 0.0;
-        for i in 0..6 {
-            let x = self.joint.x[i] - (platform.x[i] - base.x[i]);
-            let y = self.joint.y[i] - (platform.y[i] - base.y[i]);
-            let z = self.joint.z[i] - (neutral_height + platform.z[i] - base.z[i]);
-            largest = max(x * x + y * y + z * z, largest);
-        }
-        square_root(largest)
+    pub(crate) fn clear_of(&self, i: usize, [lowest, highest]: &[[f64; 2]; 2]) -> [f64; 2] {
+        let (e, f, g) = (self.e[i], self.f[i], self.g[i]);
+        [g - f * lowest[0] - e * lowest[1], f * highest[0] + e * highest[1] - g]
     }
 
     /// The smallest transmission of the six.
@@ -178,6 +166,21 @@ impl Cranks {
         arms
     }
 
+    /// The joints' distances between these two poses.
+    #[inline(always)]
+    pub(crate) fn chords(&self, [start, end]: [&Arms; 2]) -> Chords {
+        let [ux, uy] = &self.heading;
+        let mut chords = Chords { squares: [0.0; 6], in_plane: [0.0; 6] };
+        for i in 0..6 {
+            let (x, y) = (end.joint.x[i] - start.joint.x[i], end.joint.y[i] - start.joint.y[i]);
+            let z = end.joint.z[i] - start.joint.z[i];
+            let along = x * ux[i] + y * uy[i];
+            chords.squares[i] = x * x + y * y + z * z;
+            chords.in_plane[i] = along * along + z * z;
+        }
+        chords
+    }
+
     /// The arms in a pose.
     pub(crate) fn arms_in(&self, geometry: &Geometry, pose: &Pose) -> Arms {
         self.arms(&geometry.base, &geometry.platform.turned(&pose.orientation.rotation), &pose.position)
@@ -218,37 +221,30 @@ impl Cranks {
 
     /// Arcs, rates and accelerations of the arms for a motion of the platform.
     pub(super) fn motion(&self, geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
-        let [ux, uy] = &self.heading;
-        let turned = geometry.platform.turned(&motion.orientation.rotation);
-        let arms = self.arms(&geometry.base, &turned, &motion.position);
-        let mut legs = LegMotion { transmission: arms.least_transmission(), ..LegMotion::default() };
-        for i in 0..6 {
-            let at = turned.joint(i);
-            let (sin, cos) = (arms.sin[i], arms.cos[i]);
-            let out = Vector3::new(cos * ux[i], cos * uy[i], sin);
-            let tangent = Vector3::new(-sin * ux[i], -sin * uy[i], cos);
-            let along = (arms.joint.joint(i) - self.arm * out) / self.rod;
-            let velocity = motion.velocity + motion.angular_velocity.cross(&at);
-            let rate = along.dot(&velocity) / arms.divisor[i];
-            let across = velocity - rate * tangent;
-            let turning = along.dot(&out) * rate * rate / self.arm + across.norm_squared() / self.rod;
-            legs.velocity[i] = rate;
-            legs.acceleration[i] = (along.dot(&motion.acceleration_at(at)) + turning) / arms.divisor[i];
-        }
-        legs.length = self.arcs(&arms);
-        legs
+        let at = geometry.platform.turned(&motion.orientation.rotation);
+        let arms = self.arms(&geometry.base, &at, &motion.position);
+        let [n, _] = self.rows(&arms, &at);
+        let [velocity, acceleration] = self.rates(&arms, &at, &n, motion);
+        LegMotion { length: self.arcs(&arms), velocity, acceleration, transmission: arms.least_transmission() }
     }
 
-    /// Arcs of the arms \[m\].
-    pub(crate) fn arcs(&self, arms: &Arms) -> [f64; 6] {
-        core::array::from_fn(|i| self.arm * arms.angle(i))
+    /// Accelerations of the arms for a motion of the platform, and the Jacobian there.
+    pub(super) fn accelerations_with_jacobian(
+        &self,
+        geometry: &Geometry,
+        motion: &PlatformMotion,
+    ) -> ([f64; 6], Jacobian) {
+        let at = geometry.platform.turned(&motion.orientation.rotation);
+        let arms = self.arms(&geometry.base, &at, &motion.position);
+        let rows = self.rows(&arms, &at);
+        let [_, acceleration] = self.rates(&arms, &at, &rows[0], motion);
+        (acceleration, jacobian_of(&rows))
     }
 
-    /// Arcs of the arms in a pose \[m\], and their Jacobian: row i is (n, R a_i x n)/k.
-    pub(super) fn arcs_with_jacobian(&self, geometry: &Geometry, pose: &Pose) -> ([f64; 6], Jacobian) {
+    /// n/k of each crank, and R a_i x n/k.
+    #[inline(always)]
+    fn rows(&self, arms: &Arms, at: &Joints) -> [Joints; 2] {
         let [ux, uy] = &self.heading;
-        let at = geometry.platform.turned(&pose.orientation.rotation);
-        let arms = self.arms(&geometry.base, &at, &pose.position);
         let [mut n, mut m] = [Joints::default(); 2];
         for i in 0..6 {
             let (across, per_rod) = (self.arm * arms.cos[i], 1.0 / (self.rod * arms.divisor[i]));
@@ -259,7 +255,48 @@ impl Cranks {
             m.y[i] = at.z[i] * n.x[i] - at.x[i] * n.z[i];
             m.z[i] = at.x[i] * n.y[i] - at.y[i] * n.x[i];
         }
-        (self.arcs(&arms), Matrix6::from_columns(&[n.x, n.y, n.z, m.x, m.y, m.z].map(Vector6::from)))
+        [n, m]
+    }
+
+    /// Rates and accelerations of the arms, from n/k of each.
+    #[inline(always)]
+    fn rates(&self, arms: &Arms, at: &Joints, n: &Joints, motion: &PlatformMotion) -> [[f64; 6]; 2] {
+        let [ux, uy] = &self.heading;
+        let PlatformMotion { velocity: v, acceleration: a, .. } = motion;
+        let (w, turn) = (motion.angular_velocity, motion.angular_acceleration);
+        let (per_arm, per_rod) = (1.0 / self.arm, 1.0 / self.rod);
+        let [mut rates, mut accelerations] = [[0.0; 6]; 2];
+        // Written out and not in vectors, so that the processor does two cranks at a time.
+        for i in 0..6 {
+            let (x, y, z) = (at.x[i], at.y[i], at.z[i]);
+            // The joint's velocity and acceleration as the platform turns about its origin.
+            let (tx, ty, tz) = (w.y * z - w.z * y, w.z * x - w.x * z, w.x * y - w.y * x);
+            let (vx, vy, vz) = (v.x + tx, v.y + ty, v.z + tz);
+            let bx = a.x + (turn.y * z - turn.z * y) + (w.y * tz - w.z * ty);
+            let by = a.y + (turn.z * x - turn.x * z) + (w.z * tx - w.x * tz);
+            let bz = a.z + (turn.x * y - turn.y * x) + (w.x * ty - w.y * tx);
+            let rate = n.x[i] * vx + n.y[i] * vy + n.z[i] * vz;
+            // Of the rod's ends beside each other: V - t q'.
+            let (up, back) = (rate * arms.cos[i], rate * arms.sin[i]);
+            let (qx, qy, qz) = (vx + back * ux[i], vy + back * uy[i], vz - up);
+            let out = n.x[i] * arms.cos[i] * ux[i] + n.y[i] * arms.cos[i] * uy[i] + n.z[i] * arms.sin[i];
+            let turning = out * rate * rate * per_arm + (qx * qx + qy * qy + qz * qz) * per_rod / arms.divisor[i];
+            rates[i] = rate;
+            accelerations[i] = n.x[i] * bx + n.y[i] * by + n.z[i] * bz + turning;
+        }
+        [rates, accelerations]
+    }
+
+    /// Arcs of the arms \[m\].
+    pub(crate) fn arcs(&self, arms: &Arms) -> [f64; 6] {
+        arms.angles().map(|angle| self.arm * angle)
+    }
+
+    /// Arcs of the arms in a pose \[m\], and their Jacobian: row i is (n, R a_i x n)/k.
+    pub(super) fn arcs_with_jacobian(&self, geometry: &Geometry, pose: &Pose) -> ([f64; 6], Jacobian) {
+        let at = geometry.platform.turned(&pose.orientation.rotation);
+        let arms = self.arms(&geometry.base, &at, &pose.position);
+        (self.arcs(&arms), jacobian_of(&self.rows(&arms, &at)))
     }
 
     /// The rods as legs of a fixed length: their base joints are the ends of the arms at these arcs
@@ -274,6 +311,46 @@ impl Cranks {
     }
 }
 
+/// The angle from -pi to pi with this sine and cosine \[rad\], as `libm::atan2` has it but for
+/// rounding. Without branches, so that the processor does two at a time.
+#[inline(always)]
+fn angle_of(sin: f64, cos: f64) -> f64 {
+    /// Minimax polynomial of the arc tangent up to 7/16, that of `libm`.
+    const ARC_TANGENT: [f64; 11] = [
+        3.333_333_333_333_293e-1,
+        -1.999_999_999_987_648_3e-1,
+        1.428_571_427_250_346_6e-1,
+        -1.111_111_040_546_235_6e-1,
+        9.090_887_133_436_507e-2,
+        -7.691_876_205_044_83e-2,
+        6.661_073_137_387_531e-2,
+        -5.833_570_133_790_573e-2,
+        4.976_877_994_615_932e-2,
+        -3.653_157_274_421_692e-2,
+        1.628_582_011_536_578_2e-2,
+    ];
+    let (x, y) = (cos.abs(), sin.abs());
+    // Beyond half a right angle and a quarter of one, the rest to the right angle or to half of it.
+    let (steep, slanted) = (x < (SQRT_2 - 1.0) * y, y > (SQRT_2 - 1.0) * x);
+    let across = if steep { -x } else { y - if slanted { x } else { 0.0 } };
+    let along = if steep { y } else { x + if slanted { y } else { 0.0 } };
+    let base = if steep { FRAC_PI_2 } else { if slanted { FRAC_PI_4 } else { 0.0 } };
+    let tangent = across / max(along, f64::MIN_POSITIVE);
+    let square = tangent * tangent;
+    let mut series = 0.0;
+    for coefficient in ARC_TANGENT.iter().rev() {
+        series = (series + coefficient) * square;
+    }
+    let angle = base + (tangent - tangent * series);
+    (if cos < 0.0 { PI - angle } else { angle }).copysign(sin)
+}
+
+/// The Jacobian of these rows.
+#[inline(always)]
+fn jacobian_of([n, m]: &[Joints; 2]) -> Jacobian {
+    Matrix6::from_columns(&[n.x, n.y, n.z, m.x, m.y, m.z].map(Vector6::from))
+}
+
 /// From e, f and g of a crank whose root is smaller than `least`: the g and the root that stand for
 /// them, and the angle beyond \[rad\].
 #[cold]
@@ -282,4 +359,21 @@ fn beyond_reach([e, f, g]: [f64; 3], least: f64) -> (f64, f64, f64) {
     let root = min(least, square_root(square));
     let kept = square_root(max(square - root * root, 0.0)).copysign(g);
     (kept, root, (g - kept) / root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_those_of_the_arc_tangent() {
+        let turns = (-4000..=4000).map(|k| f64::from(k) * PI / 4000.0);
+        let edges = [0.0, -0.0, 1e-300, FRAC_PI_4, FRAC_PI_2, 0.5 * FRAC_PI_4, 1.5 * FRAC_PI_4, PI];
+        for angle in turns.chain(edges) {
+            let (sin, cos) = libm::sincos(angle);
+            let (found, expected) = (angle_of(sin, cos), libm::atan2(sin, cos));
+            assert!((found - expected).abs() <= 2.0 * f64::EPSILON * expected.abs(), "{found}, not {expected}");
+        }
+        assert_eq!(angle_of(0.0, 0.0), 0.0);
+    }
 }

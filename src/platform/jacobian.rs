@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::{Geometry, Joints, Pose, leg_lengths};
+use super::{Geometry, Joints, PlatformMotion, Pose, leg_accelerations, leg_lengths};
 use crate::motion::square_root::square_root;
 
 /// The Jacobian, with a row for each leg. Its columns are the velocity x, y, z \[m/s\] and the
@@ -49,5 +49,13 @@ pub(crate) fn lengths_with_jacobian(geometry: &Geometry, pose: &Pose) -> ([f64; 
     match &geometry.cranks {
         None => (leg_lengths(geometry, pose), jacobian(geometry, pose)),
         Some(cranks) => cranks.arcs_with_jacobian(geometry, pose),
+    }
+}
+
+/// Accelerations of legs or cranks for a motion of the platform \[m/s2\], and the Jacobian there.
+pub(crate) fn accelerations_with_jacobian(geometry: &Geometry, motion: &PlatformMotion) -> ([f64; 6], Jacobian) {
+    match &geometry.cranks {
+        None => (leg_accelerations(geometry, motion), jacobian(geometry, &motion.pose())),
+        Some(cranks) => cranks.accelerations_with_jacobian(geometry, motion),
     }
 }

@@ -44,8 +44,8 @@ pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_le
 pub(crate) use guard::{ActuatorGuard, step_margin};
 pub(crate) use inverse::joint_distances;
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
-pub(crate) use jacobian::lengths_with_jacobian;
 pub use jacobian::{Jacobian, jacobian};
+pub(crate) use jacobian::{accelerations_with_jacobian, lengths_with_jacobian};
 pub use joints::Joints;
 #[cfg(feature = "std")]
 pub(crate) use known_surveys::known_survey;

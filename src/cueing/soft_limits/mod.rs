@@ -35,7 +35,7 @@ use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::motion::square_root::square_root;
 use crate::platform::reach::{clear_stroke, neutral_lengths, short_stroke_factor};
-use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, jacobian, leg_accelerations};
+use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, accelerations_with_jacobian};
 
 /// The soft limits with their state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -315,8 +315,7 @@ impl SoftLimits {
         };
         let turning = RotationalMotion::new(&coasting.angles);
         let motion = PlatformMotion::new(&coasting.linear, &turning, self.neutral_height);
-        let remaining = leg_accelerations(&self.geometry, &motion);
-        let jacobian = jacobian(&self.geometry, &motion.pose());
+        let (remaining, jacobian) = accelerations_with_jacobian(&self.geometry, &motion);
         // The columns of eq. (10): angular velocities of unit rates.
         let of_rates = SMatrix::<f64, 3, 3>::from_columns(
             &[Vector3::x(), Vector3::y(), Vector3::z()]

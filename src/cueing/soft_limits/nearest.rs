@@ -13,8 +13,17 @@ pub const ROW_COUNT: usize = 9;
 /// A value for each row.
 pub type RowValues = SVector<f64, ROW_COUNT>;
 
-/// A W^-1 A' of the rows' normals A.
-type Gram = SMatrix<f64, ROW_COUNT, ROW_COUNT>;
+/// The dual of a program with these rows.
+struct Dual<'a> {
+    rows: &'a Rows,
+    /// A demand, with the rows' normals A.
+    demanded: RowValues,
+    /// W^-1 A'.
+    moved: SMatrix<f64, 6, ROW_COUNT>,
+    /// A W^-1 A', as far as it is known: the columns of rows that have acted.
+    gram: SMatrix<f64, ROW_COUNT, ROW_COUNT>,
+    known: [bool; ROW_COUNT],
+}
 
 /// Ranges of linear combinations of the accelerations: lower <= normals c <= upper.
 #[derive(Clone, Copy, Debug)]
@@ -62,11 +71,13 @@ pub fn nearest_accelerations(
     acting_rows: &mut ActingRows,
 ) -> Accelerations {
     let moved = SMatrix::<f64, 6, ROW_COUNT>::from_fn(|k, row| inverse_weights[k] * rows.normals[(row, k)]);
-    let gram = rows.normals * moved;
-    let demanded = rows.normals * demand;
-    let multipliers =
-        all_at_once(&gram, &demanded, rows, acting_rows).or_else(|| one_by_one(&gram, &demanded, rows, acting_rows));
-    demand - moved * multipliers.unwrap_or_default()
+    let (demanded, gram, known) = (rows.normals * demand, SMatrix::zeros(), [false; ROW_COUNT]);
+    let mut dual = Dual { rows, demanded, moved, gram, known };
+    let multipliers = match dual.all_at_once(acting_rows) {
+        None => dual.one_by_one(acting_rows),
+        found => found,
+    };
+    demand - dual.moved * multipliers.unwrap_or_default()
 }
 
 /// A row's side if it is beyond its range.
@@ -74,103 +85,116 @@ fn violated_side(value: f64, rows: &Rows, row: usize) -> i8 {
     i8::from(value > rows.upper[row] + VIOLATION_TOLERANCE) - i8::from(value < rows.lower[row] - VIOLATION_TOLERANCE)
 }
 
-/// Principal pivoting from these acting_rows on. None if it does not end soon.
-fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, acting_rows: &mut ActingRows) -> Option<RowValues> {
-    for _ in 0..TRIALS_AT_ONCE {
-        let multipliers = multipliers_of(gram, demanded, rows, acting_rows)?;
-        let values = demanded - gram * multipliers;
-        let before = *acting_rows;
-        for row in 0..ROW_COUNT {
-            acting_rows.0[row] = match acting_rows.0[row] {
-                0 => violated_side(values[row], rows, row),
-                side if f64::from(side) * multipliers[row] < 0.0 => 0,
-                side => side,
-            };
+impl Dual<'_> {
+    /// The rows' values with these multipliers of the rows that act.
+    fn values(&self, multipliers: &RowValues, acting_rows: &ActingRows) -> RowValues {
+        let mut moved = RowValues::zeros();
+        for (row, _) in acting_rows.0.iter().enumerate().filter(|(_, side)| **side != 0) {
+            moved += self.gram.column(row) * multipliers[row];
         }
-        if *acting_rows == before {
-            return Some(multipliers);
-        }
+        self.demanded - moved
     }
-    None
-}
 
-/// Lawson and Hanson's method: the row that is violated most enters, and rows leave
-/// whose multipliers reach zero on the way to the next ones. The dual cost falls with
-/// each change, so it ends.
-fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, acting_rows: &mut ActingRows) -> Option<RowValues> {
-    *acting_rows = ActingRows::default();
-    let mut multipliers = RowValues::zeros();
-    for _ in 0..MOST_CHANGES {
-        let values = demanded - gram * multipliers;
-        let beyond = |row: usize| max(values[row] - rows.upper[row], rows.lower[row] - values[row]);
-        let inside = (0..ROW_COUNT).filter(|row| acting_rows.0[*row] == 0);
-        let worst = inside.max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)));
-        let Some(worst) = worst.filter(|row| violated_side(values[*row], rows, *row) != 0) else { break };
-        acting_rows.0[worst] = violated_side(values[worst], rows, worst);
-        // Each round but the last takes out a row.
-        for _ in 0..ROW_COUNT {
-            let next = multipliers_of(gram, demanded, rows, acting_rows)?;
-            let mut fraction = 1.0;
+    /// Principal pivoting from these acting_rows on. None if it does not end soon.
+    fn all_at_once(&mut self, acting_rows: &mut ActingRows) -> Option<RowValues> {
+        for _ in 0..TRIALS_AT_ONCE {
+            let multipliers = self.multipliers_of(acting_rows)?;
+            let values = self.values(&multipliers, acting_rows);
+            let before = *acting_rows;
             for row in 0..ROW_COUNT {
-                if f64::from(acting_rows.0[row]) * next[row] < 0.0 {
-                    fraction = min(multipliers[row] / (multipliers[row] - next[row]), fraction);
+                acting_rows.0[row] = match acting_rows.0[row] {
+                    0 => violated_side(values[row], self.rows, row),
+                    side if f64::from(side) * multipliers[row] < 0.0 => 0,
+                    side => side,
+                };
+            }
+            if *acting_rows == before {
+                return Some(multipliers);
+            }
+        }
+        None
+    }
+
+    /// Lawson and Hanson's method: the row that is violated most enters, and rows leave
+    /// whose multipliers reach zero on the way to the next ones. The dual cost falls with
+    /// each change, so it ends.
+    fn one_by_one(&mut self, acting_rows: &mut ActingRows) -> Option<RowValues> {
+        let rows = self.rows;
+        *acting_rows = ActingRows::default();
+        let mut multipliers = RowValues::zeros();
+        for _ in 0..MOST_CHANGES {
+            let values = self.values(&multipliers, acting_rows);
+            let beyond = |row: usize| max(values[row] - rows.upper[row], rows.lower[row] - values[row]);
+            let inside = (0..ROW_COUNT).filter(|row| acting_rows.0[*row] == 0);
+            let worst = inside.max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)));
+            let Some(worst) = worst.filter(|row| violated_side(values[*row], rows, *row) != 0) else { break };
+            acting_rows.0[worst] = violated_side(values[worst], rows, worst);
+            // Each round but the last takes out a row.
+            for _ in 0..ROW_COUNT {
+                let next = self.multipliers_of(acting_rows)?;
+                let mut fraction = 1.0;
+                for row in 0..ROW_COUNT {
+                    if f64::from(acting_rows.0[row]) * next[row] < 0.0 {
+                        fraction = min(multipliers[row] / (multipliers[row] - next[row]), fraction);
+                    }
+                }
+                multipliers += fraction * (next - multipliers);
+                if fraction == 1.0 {
+                    break;
+                }
+                for row in 0..ROW_COUNT {
+                    if f64::from(acting_rows.0[row]) * multipliers[row] <= MULTIPLIER_TOLERANCE {
+                        (acting_rows.0[row], multipliers[row]) = (0, 0.0);
+                    }
                 }
             }
-            multipliers += fraction * (next - multipliers);
-            if fraction == 1.0 {
-                break;
-            }
-            for row in 0..ROW_COUNT {
-                if f64::from(acting_rows.0[row]) * multipliers[row] <= MULTIPLIER_TOLERANCE {
-                    (acting_rows.0[row], multipliers[row]) = (0, 0.0);
-                }
-            }
         }
+        Some(multipliers)
     }
-    Some(multipliers)
-}
 
-/// The multipliers if exactly the rows of `acting_rows` act; zero for the others.
-fn multipliers_of(
-    gram: &SMatrix<f64, ROW_COUNT, ROW_COUNT>,
-    demanded: &RowValues,
-    rows: &Rows,
-    acting_rows: &ActingRows,
-) -> Option<RowValues> {
-    let beyond = RowValues::from_fn(|row, _| match acting_rows.0[row] {
-        0 => 0.0,
-        1 => demanded[row] - rows.upper[row],
-        _ => demanded[row] - rows.lower[row],
-    });
-    let (mut numbers, mut count) = ([0; ROW_COUNT], 0);
-    for (row, _) in acting_rows.0.iter().enumerate().filter(|(_, side)| **side != 0) {
-        (numbers[count], count) = (row, count + 1);
-    }
-    // The Cholesky factor of the acting rows' part: the others' rows and columns stay zero.
-    let (acting, mut factor, mut solution) = (&numbers[..count], Gram::zeros(), beyond);
-    for (k, &column) in acting.iter().enumerate() {
-        let (before, from_here) = acting.split_at(k);
-        for &row in from_here {
-            let value = gram[(row, column)] + if row == column { 1.0 / VIOLATION_PENALTY } else { 0.0 };
-            let rest =
-                before.iter().fold(value, |value, &other| value - factor[(column, other)] * factor[(row, other)]);
-            factor[(row, column)] = if row != column {
-                rest / factor[(column, column)]
-            } else if rest > 0.0 {
-                square_root(rest)
-            } else {
-                return None;
-            };
+    /// The multipliers if exactly the rows of `acting_rows` act; zero for the others.
+    fn multipliers_of(&mut self, acting_rows: &ActingRows) -> Option<RowValues> {
+        let Dual { rows, demanded, .. } = &*self;
+        let beyond = RowValues::from_fn(|row, _| match acting_rows.0[row] {
+            0 => 0.0,
+            1 => demanded[row] - rows.upper[row],
+            _ => demanded[row] - rows.lower[row],
+        });
+        let (mut numbers, mut count) = ([0; ROW_COUNT], 0);
+        for (row, _) in acting_rows.0.iter().enumerate().filter(|(_, side)| **side != 0) {
+            (numbers[count], count) = (row, count + 1);
+            if !self.known[row] {
+                self.gram.set_column(row, &(self.rows.normals * self.moved.column(row)));
+                self.known[row] = true;
+            }
         }
-        solution[column] /= factor[(column, column)];
-        for &row in &from_here[1..] {
-            solution[row] -= solution[column] * factor[(row, column)];
+        // The Cholesky factor of the acting rows' part: the others' rows and columns stay zero.
+        let (acting, mut factor, mut solution) =
+            (&numbers[..count], SMatrix::<f64, ROW_COUNT, ROW_COUNT>::zeros(), beyond);
+        for (k, &column) in acting.iter().enumerate() {
+            let (before, from_here) = acting.split_at(k);
+            for &row in from_here {
+                let value = self.gram[(row, column)] + if row == column { 1.0 / VIOLATION_PENALTY } else { 0.0 };
+                let rest =
+                    before.iter().fold(value, |value, &other| value - factor[(column, other)] * factor[(row, other)]);
+                factor[(row, column)] = if row != column {
+                    rest / factor[(column, column)]
+                } else if rest > 0.0 {
+                    square_root(rest)
+                } else {
+                    return None;
+                };
+            }
+            solution[column] /= factor[(column, column)];
+            for &row in &from_here[1..] {
+                solution[row] -= solution[column] * factor[(row, column)];
+            }
         }
+        for &column in acting.iter().rev() {
+            let known = column + 1..;
+            let others = factor.column(column).rows_range(known.clone()).dot(&solution.rows_range(known));
+            solution[column] = (solution[column] - others) / factor[(column, column)];
+        }
+        Some(solution)
     }
-    for &column in acting.iter().rev() {
-        let known = column + 1..;
-        let others = factor.column(column).rows_range(known.clone()).dot(&solution.rows_range(known));
-        solution[column] = (solution[column] - others) / factor[(column, column)];
-    }
-    Some(solution)
 }

@@ -138,20 +138,27 @@ impl Certifier {
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<StopPlan> {
-        if let Some(duration) = self.certify_by_bounds(from, to, safety, step) {
-            return Some(StopPlan::new(&to.coordinates, StopDurations::common(duration)));
+        let cranks = self.geometry.cranks.as_ref();
+        let by_bounds = || {
+            let duration = self.certify_by_bounds(from, to, safety, step)?;
+            Some(StopPlan::new(&to.coordinates, StopDurations::common(duration)))
+        };
+        if cranks.is_none()
+            && let Some(plan) = by_bounds()
+        {
+            return Some(plan);
         }
         let certified = axes_comply_with_limits(&from.coordinates, &to.coordinates, safety, step);
         let plan = if certified { self.stop_plan(to, safety) } else { None }?;
-        let complies =
-            self.transition_complies_with_leg_limits(from, to, step) && self.plan_complies_with_leg_limits(&plan);
-        complies.then_some(plan)
+        let complies = cranks.is_some_and(|cranks| self.ends_certify_stop(cranks, from, to, &plan, step))
+            || self.transition_complies_with_leg_limits(from, to, step) && self.plan_complies_with_leg_limits(&plan);
+        if complies { Some(plan) } else { cranks.and_then(|_| by_bounds()) }
     }
 
     /// The stop from the candidate within the safety limits. All coordinates stop in one
     /// duration that suits the fastest leg and the safety limits of acceleration. An axis with
     /// less clearance stops sooner.
-    fn stop_plan(&self, to: &PlatformState, safety: &SafetyParameters) -> Option<StopPlan> {
+    pub(super) fn stop_plan(&self, to: &PlatformState, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motion { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
         let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
@@ -371,7 +378,11 @@ fn turning_point(position: f64, before: f64, after: f64, acceleration: f64) -> f
 /// Change of velocity over a step, and what the positions' difference has beyond the mean
 /// velocity times the step.
 #[inline(always)]
-fn change_and_gap(now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>, step: f64) -> (Vector3<f64>, Vector3<f64>) {
+pub(super) fn change_and_gap(
+    now: &Motion<Vector3<f64>>,
+    next: &Motion<Vector3<f64>>,
+    step: f64,
+) -> (Vector3<f64>, Vector3<f64>) {
     let gap = next.position - now.position - (now.velocity + next.velocity) * (0.5 * step);
     (next.velocity - now.velocity, gap)
 }

@@ -7,6 +7,7 @@ use super::cranks::JointLimits;
 use crate::interface::Rig;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
+use crate::platform::crank::Arms;
 use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths};
 
 /// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
@@ -66,10 +67,11 @@ pub struct Home {
     pub(super) beyond_margin: [f64; 2],
     /// 1/(2 times the shortest length) \[1/m\].
     pub(super) per_two_lengths: f64,
-    /// Of cranks: cosine and sine of the lowest and of the highest angle, and what the joints have
-    /// beyond their margins from arms there ([`Arms::clear_of`]) \[m2\]. Zero with legs.
+    /// Of cranks: the arms at neutral, cosine and sine of the lowest and of the highest angle, and
+    /// the margins at neutral of the joints from arms there ([`Arms::clear_of`]) \[m2\].
+    pub(super) arms: Option<Arms>,
     pub(super) ends: [[f64; 2]; 2],
-    pub(super) joints_beyond_margin: [f64; 2],
+    pub(super) joints_margin: [f64; 2],
 }
 
 impl Home {
@@ -82,22 +84,27 @@ impl Home {
         let length = leg_lengths(geometry, neutral);
         let [shortest, longest] = extremes(&length);
         let clearance = [shortest - limits.min, limits.max - longest];
-        let arms = geometry.cranks.as_ref().map(|cranks| (cranks, cranks.arms_in(geometry, neutral)));
-        let ends = arms.map_or([[0.0; 2]; 2], |(cranks, _)| {
+        let arms = geometry.cranks.as_ref().map(|cranks| cranks.arms_in(geometry, neutral));
+        let ends = geometry.cranks.as_ref().map_or([[0.0; 2]; 2], |cranks| {
             [limits.min, limits.max].map(|arc| libm::sincos(arc / cranks.arm)).map(|(sin, cos)| [cos, sin])
+        });
+        let joints_margin = arms.as_ref().map_or([0.0; 2], |arms| {
+            [0, 1].map(|end: usize| {
+                let least = (0..6).fold(f64::INFINITY, |least, i| min(arms.clear_of(i, &ends)[end], least));
+                HOME_MARGIN_FRACTION * least
+            })
         });
         Home {
             length,
             longest,
             joints: extremes(&leg_lengths(&geometry.with_legs(), neutral)),
-            transmission: arms.as_ref().map_or(1.0, |(_, arms)| arms.least_transmission()),
+            transmission: arms.as_ref().map_or(1.0, Arms::least_transmission),
             margin: clearance.map(|clearance| HOME_MARGIN_FRACTION * clearance),
             beyond_margin: clearance.map(|clearance| (1.0 - HOME_MARGIN_FRACTION) * clearance),
             per_two_lengths: 0.5 / limits.min,
+            arms,
             ends,
-            joints_beyond_margin: arms.map_or([0.0; 2], |(_, arms)| {
-                arms.clear_of(ends).map(|clearance| (1.0 - HOME_MARGIN_FRACTION) * clearance)
-            }),
+            joints_margin,
         }
     }
 }

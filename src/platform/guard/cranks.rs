@@ -31,15 +31,19 @@
 //! In terms of the joints, F1 and F2 are G1/k and (G2 + G1²/b)/k with a length b, as a leg's are
 //! with k = 1 and its length ([`JointLimits`]).
 
+use nalgebra::Vector3;
+
 use super::bounds::JointBounds;
-use super::certifier::{Certifier, HOME_MARGIN_FRACTION, STOP_FRACTION, Speed};
-use super::home::{Distance, Point, chords_are_clear};
+use super::certificate::change_and_gap;
+use super::certifier::{Certifier, HOME_MARGIN_FRACTION, STOP_FRACTION, Speed, sum_of_magnitudes};
+use super::home::Distance;
 use crate::interface::SafetyParameters;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
 use crate::platform::PlatformState;
-use crate::platform::crank::{Arms, Cranks};
+use crate::platform::crank::{Arms, Chords, Cranks};
 use crate::platform::inverse::LegMotion;
+use crate::platform::stop_plan::{StopDurations, StopPlan};
 
 /// The transmission that is assumed, relative to that of a state: what is left is for the motion.
 const ASSUMED_PART: f64 = 0.8;
@@ -108,47 +112,120 @@ impl Cranks {
         let turns = bounds.velocity / transmission * interval / self.arm;
         // What is left is no smaller than what was assumed, so it may be assumed in its place.
         let left = ends - lost;
-        let second = (bounds.acceleration + bounds.velocity * bounds.velocity * self.turning(left)) / left;
-        let rate = min(rate + half * second, bounds.velocity / left);
+        let rate = self.rate_after(bounds, left, rate, half);
         (left >= transmission && turns <= LARGEST_TURN).then(|| self.arc_jerk(bounds, left, rate) * half)
     }
 
-    /// Bound on the second derivative of any transmission's square on a way. The joints' vectors
-    /// have derivatives of at most `joint` and `bend`, and lengths of at most `farthest`. Their g
-    /// is nowhere smaller than `least_g`.
-    ///
-    /// The square is (e² + f² - g²)/(2 a s)². e and f are linear in the joint's vector l, and
-    /// g'' = 2 |l'|² + 2 l·l''. The square of g' makes the second derivative only smaller, and so
-    /// does |l'|² where g is positive.
-    fn square_bend(&self, joint: f64, bend: f64, farthest: f64, least_g: f64) -> f64 {
-        let Cranks { arm, rod, .. } = *self;
-        let (below, above) = (max(-least_g, 0.0), max(farthest * farthest + arm * arm - rod * rod, 0.0));
-        let (square, turned) = (joint * joint, farthest * bend);
-        let scale = 1.0 / (2.0 * arm * rod);
-        ((8.0 * arm * arm + 4.0 * below) * (square + turned) + 4.0 * above * turned) * scale * scale
+    /// Bound on |q'| up to `time` seconds away from this one, where no transmission is smaller than
+    /// this.
+    fn rate_after(&self, bounds: &JointBounds, transmission: f64, rate: f64, time: f64) -> f64 {
+        let JointBounds { velocity, acceleration, .. } = *bounds;
+        let second = (acceleration + velocity * velocity * self.turning(transmission)) / transmission;
+        min(rate + time * second, velocity / transmission)
     }
 }
 
-/// Bounds on the straight way to neutral.
-pub(super) struct Way {
-    /// Bound on the second derivative of any transmission's square.
-    pub(super) square_bend: f64,
-    /// Bounds on the first and second derivatives of the joints' vectors, and on those vectors
-    /// \[m\].
-    joint: f64,
-    bend: f64,
-    farthest: f64,
+/// True if a function with these values at the ends of a way stays positive on it. Its second
+/// derivative is at most 2 `bend`, so it stays above its chord less bend s (1 - s).
+#[inline(always)]
+fn stays_positive([start, end]: [f64; 2], bend: f64) -> bool {
+    let missing = max(0.0, bend - start - end);
+    (start >= 0.0) & (end >= 0.0) & (missing * missing <= 4.0 * start * end)
 }
 
-impl Way {
-    /// Bound on |q''| on a part of the way with these transmissions at its ends, if one can be
-    /// given.
-    fn arc_bend(&self, cranks: &Cranks, ends: [f64; 2], part: f64) -> Option<f64> {
-        let smaller = min(ends[0], ends[1]);
-        let square = smaller * smaller - 0.125 * self.square_bend * part * part;
-        let transmission = square_root(square);
-        let turning = self.joint * self.joint * cranks.turning(transmission);
-        (square > 0.0).then_some((self.bend + turning) / transmission)
+/// A straight way of all coordinates between two poses, with bounds on it as functions of the
+/// fraction of the way.
+///
+/// A joint's vector l is its chord but for its second derivative b. So |l'| is no more than b/2
+/// above the chord. |g''|/2 is no more than h = |l'|² + |l| b. On the way g is no more than h/4
+/// below its values at the ends. |g'| is no more than h below the difference of these.
+pub(super) struct Way<'a> {
+    cranks: &'a Cranks,
+    ends: [&'a Arms; 2],
+    /// Distance from the first end within which the way begins \[m\].
+    travel: f64,
+    /// Bounds on the joints' second derivative, and on their distance from the axles \[m\].
+    bend: f64,
+    farthest: f64,
+    /// Bounds on the square of each joint's derivative \[m2\], and on any joint's \[m\].
+    squares: [f64; 6],
+    joint: f64,
+    /// Bounds on the second derivatives of the transmissions' squares.
+    pub(super) square_bends: [f64; 6],
+}
+
+impl<'a> Way<'a> {
+    /// The way between these ends, or from within `travel` of the first one.
+    ///
+    /// The square of a transmission is (e² + f² - g²)/(2 a s)². e and f are linear in l. Its part
+    /// in the plane of the crank alone makes them.
+    #[inline(never)]
+    pub(super) fn new(cranks: &'a Cranks, ends: [&'a Arms; 2], bend: f64, farthest: f64, travel: f64) -> Self {
+        let [start, end] = ends;
+        let Chords { squares: chords, in_plane } = cranks.chords(ends);
+        let longest = square_root(chords.iter().fold(0.0, |most, &chord| max(chord, most)));
+        let off = travel + 0.5 * bend;
+        let (slack, turned, shift) = (off * (2.0 * longest + off), farthest * bend, 2.0 * farthest * travel);
+        let four_arms = 4.0 * cranks.arm * cranks.arm;
+        let above = max(farthest * farthest + cranks.arm * cranks.arm - cranks.rod * cranks.rod, 0.0);
+        let of_all = 2.0 * four_arms * (slack + turned) + 4.0 * above * turned;
+        let scale = 0.5 / (cranks.arm * cranks.rod);
+        let [mut squares, mut square_bends] = [[0.0; 6]; 2];
+        for i in 0..6 {
+            squares[i] = chords[i] + slack;
+            let bulge = squares[i] + turned;
+            let below = max(0.25 * bulge + shift - min(start.g[i], end.g[i]), 0.0);
+            let slope = max((end.g[i] - start.g[i]).abs() - shift - bulge, 0.0);
+            let bend = 2.0 * four_arms * in_plane[i] + of_all + 4.0 * below * bulge - 2.0 * slope * slope;
+            square_bends[i] = bend * (scale * scale);
+        }
+        Way { cranks, ends, travel, bend, farthest, squares, joint: longest + off, square_bends }
+    }
+
+    /// True if every crank keeps transmission and range on the way. At either end it needs this
+    /// transmission and these clearances from spheres. Transmissions become smaller by `lost`
+    /// before the way begins.
+    ///
+    /// An angle stays inside its range while the joint keeps its side of a sphere. Its centre is
+    /// the end of an arm at the range's end, given by cosine and sine. Its radius is the rod.
+    /// Such distances are lengths of legs, whose squares have the second derivatives of
+    /// `home.rs`.
+    #[inline(never)]
+    fn complies(&self, range: &[[f64; 2]; 2], needed: [f64; 2], clearances: [[f64; 2]; 2], lost: f64) -> bool {
+        let Way { cranks, ends: [start, end], travel, bend, farthest, .. } = *self;
+        let turned = (farthest + cranks.arm) * bend;
+        let [below_travel, above_travel] =
+            [2.0 * travel * (farthest + cranks.arm), travel * (2.0 * cranks.rod + travel)];
+        let [least, least_at_end] = needed.map(|transmission| transmission * transmission);
+        let mut complies = true;
+        for i in 0..6 {
+            let left = start.transmission[i] - lost;
+            let (from, to) = (left * left - least, end.transmission[i] * end.transmission[i] - least_at_end);
+            complies &= (left >= 0.0) & stays_positive([from, to], 0.5 * self.square_bends[i]);
+            let [below, above] = start.clear_of(i, range);
+            let [below, above] = [below - below_travel - clearances[0][0], above - above_travel - clearances[0][1]];
+            let [below_at_end, above_at_end] = end.clear_of(i, range);
+            let [below_at_end, above_at_end] = [below_at_end - clearances[1][0], above_at_end - clearances[1][1]];
+            complies &= stays_positive([below, below_at_end], self.squares[i] + turned);
+            complies &= stays_positive([above, above_at_end], turned);
+        }
+        complies
+    }
+
+    /// Bound on |q''| on a way between its ends, where no |q'| is larger than `rate` at its start.
+    /// None if a transmission may come to zero.
+    fn arc_bend(&self, rate: f64) -> Option<f64> {
+        let Way { cranks, ends, joint, bend, .. } = *self;
+        let least = (0..6).fold(f64::INFINITY, |least, i| {
+            let smaller = min(ends[0].transmission[i], ends[1].transmission[i]);
+            min(smaller * smaller - 0.125 * max(self.square_bends[i], 0.0), least)
+        });
+        let transmission = square_root(least);
+        let rod_rate = joint / transmission;
+        let by_joints = (bend + joint * joint * cranks.turning(transmission)) / transmission;
+        let rate = min(rate + by_joints, rod_rate);
+        let of_arm = cosine_from_sine(transmission) * rate * rate / cranks.arm;
+        (least > 0.0).then_some((bend + of_arm + rod_rate * rod_rate / cranks.rod) / transmission)
     }
 }
 
@@ -194,74 +271,117 @@ impl Certifier {
         let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
         let joint_limits = self.joint_limits_of_cranks(cranks, arms.least_transmission());
         let duration = self.certify_within::<true>(&joint_limits, from, to, safety, step)?;
-        self.arms_have_way_home_by_bounds(cranks, &arms, &joint_limits, to, duration).then_some(duration)
-    }
-
-    /// As [`Certifier::has_way_home_by_bounds`], for cranks.
-    #[inline(never)]
-    pub(super) fn cranks_have_way_home_by_bounds(&self, cranks: &Cranks, to: &PlatformState, duration: f64) -> bool {
-        let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
-        self.arms_have_way_home_by_bounds(
-            cranks,
-            &arms,
-            &self.joint_limits_of_cranks(cranks, arms.least_transmission()),
-            to,
-            duration,
-        )
-    }
-
-    /// The same, where the arms are known. An angle stays inside its range while the joint
-    /// keeps its side of a sphere: about the end of an arm at the range's end, with the rod
-    /// as radius. Such distances are lengths of legs, whose squares have the second
-    /// derivatives that `home.rs` has.
-    #[inline(always)]
-    fn arms_have_way_home_by_bounds(
-        &self,
-        cranks: &Cranks,
-        arms: &Arms,
-        joint_limits: &JointLimits,
-        to: &PlatformState,
-        duration: f64,
-    ) -> bool {
         let speed = Speed::of(&to.coordinates);
         let travel = 0.5 * duration * speed.of_joints(self.radius);
         let turn = 0.5 * duration * speed.angular;
         let from = Distance::of(&to.coordinates, self.radius);
-        let way = self.way(cranks, arms, Distance { joint: from.joint + travel, angular: from.angular + turn }, travel);
-        // Squares of transmissions beyond what is needed at either end of the way.
-        let [start, needed] = [cranks.least_transmission, self.transmission_needed(cranks, 1.0)];
-        let left = arms.least_transmission() - travel * cranks.transmission_slope(joint_limits.transmission);
-        let start = left * left - start * start;
-        let neutral = self.home.transmission * self.home.transmission - needed * needed;
-        let farthest = way.farthest + cranks.arm;
-        let [below, above] = arms.clear_of(self.home.ends);
-        let below = below - 2.0 * travel * farthest;
-        let above = above - travel * (2.0 * cranks.rod + travel);
-        let turned = farthest * way.bend;
-        travel <= joint_limits.travel
-            && left > 0.0
-            && start >= 0.0
-            && start + neutral >= 0.5 * way.square_bend
-            && below >= 0.0
-            && below + self.home.joints_beyond_margin[0] >= way.joint * way.joint + turned
-            && above >= 0.0
-            && above + self.home.joints_beyond_margin[1] >= turned
+        let distance = Distance { joint: from.joint + travel, angular: from.angular + turn };
+        let lost = travel * cranks.transmission_slope(joint_limits.transmission);
+        (travel <= joint_limits.travel && self.arms_have_way_home(cranks, &arms, distance, travel, lost))
+            .then_some(duration)
     }
 
-    /// Bounds on the way home over this distance, from within `travel` of where the arms are.
-    ///
-    /// A joint's way is its chord but for its second derivative b. So |l'| is no more than b/2
-    /// above the chord. There, g is no more than (|l'|² + |l| b)/4 below its values at the ends.
-    pub(super) fn way(&self, cranks: &Cranks, arms: &Arms, distance: Distance, travel: f64) -> Way {
+    /// True if bounds certify the way home over this distance, from within `travel` of where the
+    /// arms are. Their transmissions become smaller by `lost` there.
+    #[inline(always)]
+    pub(super) fn arms_have_way_home(
+        &self,
+        cranks: &Cranks,
+        arms: &Arms,
+        distance: Distance,
+        travel: f64,
+        lost: f64,
+    ) -> bool {
+        let Some(neutral) = &self.home.arms else { return false };
         let bend = distance.angular * distance.angular * self.radius;
-        let [nearest, farthest] = self.home.joints;
-        let farthest = farthest + distance.joint;
-        let joint =
-            min(arms.farthest_from_neutral(&self.geometry, self.neutral_height) + travel + 0.5 * bend, distance.joint);
-        let neutral_g = nearest * nearest + cranks.arm * cranks.arm - cranks.rod * cranks.rod;
-        let least_g = min(arms.least_g() - 2.0 * farthest * travel, neutral_g);
-        let least_g = least_g - 0.25 * (joint * joint + farthest * bend);
-        Way { square_bend: cranks.square_bend(joint, bend, farthest, least_g), joint, bend, farthest }
+        let way = Way::new(cranks, [arms, neutral], bend, self.home.joints[1] + distance.joint, travel);
+        self.arms_certify_way(&way, [0.0, 1.0], lost)
+    }
+
+    /// True if bounds certify a part of the way home, which begins and ends at these fractions of
+    /// it.
+    #[inline(always)]
+    pub(super) fn arms_certify_way(&self, way: &Way, fractions: [f64; 2], lost: f64) -> bool {
+        let needed = fractions.map(|fraction| self.transmission_needed(way.cranks, fraction));
+        let clearances = fractions.map(|fraction| self.home.joints_margin.map(|clearance| fraction * clearance));
+        way.complies(&self.home.ends, needed, clearances, lost)
+    }
+
+    /// True if the arms in a candidate and where its stop ends certify the stop, and the rates at
+    /// both ends of the transition to it certify that.
+    ///
+    /// At the fraction p of its duration T, the stop is T (p - p²/2) along the way on which the
+    /// velocities stay. At the start of that way arcs have the first derivative q'. The second one
+    /// is at most B. So accelerations are at most B (1 - p + p²/2) + |q'|/T. Speeds are at most
+    /// |q'| + 0.2 B T.
+    pub(super) fn ends_certify_stop(
+        &self,
+        cranks: &Cranks,
+        from: &PlatformState,
+        to: &PlatformState,
+        plan: &StopPlan,
+        step: f64,
+    ) -> bool {
+        let StopDurations { linear, angular: duration } = *plan.durations();
+        let arms = cranks.arms_in(&self.geometry, &to.motion.pose());
+        let [shortest, longest] = to.legs.extremes();
+        if linear != Vector3::repeat(duration)
+            || !(shortest >= self.limits.min && longest <= self.limits.max)
+            || !self.rates_certify_transition(cranks, arms.least_transmission(), from, to, step)
+        {
+            return false;
+        }
+        let end = cranks.arms_in(&self.geometry, &plan.at(duration).motion(self.neutral_height).pose());
+        let speed = Speed::of(&to.coordinates);
+        let turn = 0.5 * duration * speed.angular;
+        let bend = turn * turn * self.radius;
+        let farthest = self.home.joints[1] + Distance::of(&to.coordinates, self.radius).joint + turn * self.radius;
+        let way = Way::new(cranks, [&arms, &end], bend, farthest + 0.5 * duration * speed.linear, 0.0);
+        let rate = to.legs.velocity.iter().fold(0.0, |most, rate| max(rate.abs(), most));
+        let per_time = 1.0 / duration;
+        self.arms_certify_way(&way, [0.0; 2], 0.0)
+            && way.arc_bend(0.5 * duration * rate).is_some_and(|bend| {
+                per_time * (rate + 4.0 * per_time * bend) <= self.limits.acceleration
+                    && rate + 0.8 * per_time * bend <= self.limits.velocity
+            })
+    }
+
+    /// True if the arms keep speed and acceleration within a transition, as their rates at both
+    /// ends show. The candidate has this smallest transmission. The proof is that of
+    /// [`Certifier::rates_comply_with_acceleration_limit`]. Here, the transmission is what is left,
+    /// and rates are the real ones.
+    fn rates_certify_transition(
+        &self,
+        cranks: &Cranks,
+        transmission: f64,
+        from: &PlatformState,
+        to: &PlatformState,
+        step: f64,
+    ) -> bool {
+        let (now, next) = (&from.coordinates, &to.coordinates);
+        let per_step = 1.0 / step;
+        let (change, gap) = change_and_gap(&now.linear, &next.linear, step);
+        let (turn, angle_gap) = change_and_gap(&now.angles, &next.angles, step);
+        let gap = 2.0 * per_step * per_step * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&angle_gap) * self.radius);
+        let (before, after) = (Speed::of(now), Speed::of(next));
+        let turning = max(before.angular, after.angular);
+        let fastest = max(before.of_joints(self.radius), after.of_joints(self.radius)) + 0.5 * step * gap;
+        let assumed = cranks.assumed(transmission);
+        let left = transmission - step * fastest * cranks.transmission_slope(assumed);
+        let accelerations = [per_step * change.norm(), per_step * sum_of_magnitudes(&turn)];
+        let bounds =
+            JointBounds { velocity: fastest, ..JointBounds::new([fastest, turning], accelerations, self.radius) };
+        let gap = gap * (1.0 + step * (fastest * cranks.turning(left) + turning)) / left;
+        let [mut mean, mut rate] = [0.0; 2];
+        for (before, after) in from.legs.velocity.iter().zip(&to.legs.velocity) {
+            mean = max((after - before).abs(), mean);
+            rate = max(max(before.abs(), after.abs()), rate);
+        }
+        let jerk = cranks.arc_jerk(&bounds, left, cranks.rate_after(&bounds, left, rate, step));
+        let acceleration = per_step * mean + gap + step * jerk;
+        left >= assumed
+            && acceleration <= self.limits.acceleration
+            && rate + 0.5 * step * acceleration <= self.limits.velocity
     }
 
     /// True if the rates of the arms at both ends show that accelerations keep their limit within a
@@ -283,27 +403,6 @@ impl Certifier {
         mean + gap
             + step * cranks.arc_jerk(bounds, joint_limits.transmission, bounds.velocity / joint_limits.transmission)
             <= self.limits.acceleration
-    }
-
-    /// True if a part of the way home is certified by its ends, which are at these fractions of the
-    /// way.
-    pub(super) fn cranks_certify_part(
-        &self,
-        cranks: &Cranks,
-        way: &Way,
-        fractions: [f64; 2],
-        points: [&Point; 2],
-    ) -> bool {
-        let part = fractions[1] - fractions[0];
-        let transmissions = points.map(|point| point.transmission);
-        let [left, right] = [0, 1].map(|k: usize| {
-            let needed = self.transmission_needed(cranks, fractions[k]);
-            transmissions[k] * transmissions[k] - needed * needed
-        });
-        let least = 0.5 * way.square_bend * part * part;
-        let complies = left >= 0.0 && right >= 0.0 && left + right >= least;
-        let bend = way.arc_bend(cranks, transmissions, part).filter(|_| complies);
-        bend.is_some_and(|bend| chords_are_clear(&points[0].beyond, &points[1].beyond, [0.5 * bend * part * part; 2]))
     }
 
     /// The smallest transmission that the way home needs at the fraction `s` of it.

@@ -15,13 +15,12 @@
 //! point of a certified way the rest of it is certified as well.
 
 use super::certifier::{Certifier, Home, Speed, sum_of_magnitudes};
-use super::cranks::JointLimits;
+use super::cranks::{JointLimits, Way};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
-use crate::platform::crank::Cranks;
 use crate::platform::{PlatformCoordinates, PlatformState};
 
 /// The largest number of points of a way that are looked at, and the largest number of parts into
@@ -46,19 +45,34 @@ impl Distance {
     }
 }
 
-/// A point of the way home.
-#[derive(Clone, Copy)]
-pub(super) struct Point {
-    /// Clearance of each actuator from either end of its stroke, less the margin there.
-    pub(super) beyond: [[f64; 2]; 6],
-    /// The smallest transmission of the cranks; 1 with legs.
-    pub(super) transmission: f64,
-}
-
 /// True if what the ends of a part have beyond their limits is not negative, and adds up to
 /// `least`.
-pub(super) fn chords_are_clear(left: &[[f64; 2]; 6], right: &[[f64; 2]; 6], least: [f64; 2]) -> bool {
+fn chords_are_clear(left: &[[f64; 2]; 6], right: &[[f64; 2]; 6], least: [f64; 2]) -> bool {
     (0..6).all(|i| (0..2).all(|k| left[i][k] >= 0.0 && right[i][k] >= 0.0 && left[i][k] + right[i][k] >= least[k]))
+}
+
+/// True if a way is certified part by part. `at` gives the point at a fraction of it, `neutral` is
+/// the point at its end, and `keeps` certifies a part between two points.
+#[inline(always)]
+fn divided<T: Copy>(at: impl Fn(f64) -> T, neutral: &T, keeps: impl Fn([f64; 2], [&T; 2]) -> bool) -> bool {
+    let (mut begin, mut left, mut part) = (0.0, at(0.0), 1.0);
+    for _ in 1..MOST_POINTS {
+        let end = begin + part;
+        let right = if end < 1.0 { at(end) } else { *neutral };
+        let certified = keeps([begin, end], [&left, &right]);
+        if certified && end >= 1.0 {
+            return true;
+        }
+        if certified {
+            (begin, left) = (end, right);
+            part = (2.0 * part).min(1.0 - begin);
+        } else if part * MOST_PARTS > 1.0 {
+            part *= 0.5;
+        } else {
+            return false;
+        }
+    }
+    false
 }
 
 impl Certifier {
@@ -67,9 +81,6 @@ impl Certifier {
     /// its speed.
     #[inline(always)]
     pub fn has_way_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
-        if let Some(cranks) = &self.geometry.cranks {
-            return self.cranks_have_way_home_by_bounds(cranks, to, duration);
-        }
         let Home { longest, beyond_margin: [below, above], per_two_lengths, .. } = self.home;
         let speed = Speed::of(&to.coordinates);
         let (travel, turn) = (0.5 * duration * speed.of_joints(self.radius), 0.5 * duration * speed.angular);
@@ -87,60 +98,31 @@ impl Certifier {
     pub fn has_way_home(&self, rest: &PlatformCoordinates) -> bool {
         let distance = Distance::of(rest, self.radius);
         let turning = distance.angular * distance.angular * self.radius;
-        let chord_gap = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
-        let [low, high] = self.home.margin;
-        let cranks = self.geometry.cranks.as_ref();
-        // Beyond the margins, at the fraction s of the way: squares of lengths, and lengths. Arcs of
-        // cranks count as they are.
-        let beyond = |s: f64, lengths: &[f64; 6]| {
-            let shortest = self.limits.min + low * s;
-            let longest = self.limits.max - high * s;
-            let above = |length: f64| match cranks {
-                None => length * length - shortest * shortest,
-                Some(_) => length - shortest,
-            };
-            lengths.map(|length| [above(length), longest - length])
-        };
         let coordinates_at = |s: f64| PlatformCoordinates {
             linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
             angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
         };
-        let arms_at = |s: f64, cranks: &Cranks| {
-            cranks.arms_in(&self.geometry, &coordinates_at(s).motion(self.neutral_height).pose())
-        };
-        let way = cranks.map(|cranks| self.way(cranks, &arms_at(0.0, cranks), distance, 0.0));
-        let at = |s: f64| match cranks {
-            None => Point { beyond: beyond(s, &self.state(coordinates_at(s)).legs.length), transmission: 1.0 },
-            Some(cranks) => {
-                let arms = arms_at(s, cranks);
-                Point { beyond: beyond(s, &cranks.arcs(&arms)), transmission: arms.least_transmission() }
-            }
-        };
-        let neutral = Point { beyond: beyond(1.0, &self.home.length), transmission: self.home.transmission };
-        let (mut begin, mut left, mut part) = (0.0, at(0.0), 1.0);
-        for _ in 1..MOST_POINTS {
-            let end = begin + part;
-            let right = if end < 1.0 { at(end) } else { neutral };
-            let certified = match cranks.zip(way.as_ref()) {
-                None => {
-                    let least = [chord_gap * part * part, 0.5 * turning * part * part];
-                    chords_are_clear(&left.beyond, &right.beyond, least)
-                }
-                Some((cranks, way)) => self.cranks_certify_part(cranks, way, [begin, end], [&left, &right]),
-            };
-            if certified && end >= 1.0 {
-                return true;
-            }
-            if certified {
-                (begin, left) = (end, right);
-                part = (2.0 * part).min(1.0 - begin);
-            } else if part * MOST_PARTS > 1.0 {
-                part *= 0.5;
-            } else {
-                return false;
-            }
+        if let Some((cranks, neutral)) = self.geometry.cranks.as_ref().zip(self.home.arms.as_ref()) {
+            let farthest = self.home.joints[1] + distance.joint;
+            let at = |s: f64| cranks.arms_in(&self.geometry, &coordinates_at(s).motion(self.neutral_height).pose());
+            return divided(at, neutral, |fractions, ends| {
+                let part = fractions[1] - fractions[0];
+                self.arms_certify_way(&Way::new(cranks, ends, turning * part * part, farthest, 0.0), fractions, 0.0)
+            });
         }
-        false
+        let chord_gap = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
+        let [low, high] = self.home.margin;
+        // Beyond the margins, at the fraction s of the way: squares of lengths, and lengths.
+        let beyond = |s: f64, lengths: &[f64; 6]| {
+            let shortest = self.limits.min + low * s;
+            let longest = self.limits.max - high * s;
+            lengths.map(|length| [length * length - shortest * shortest, longest - length])
+        };
+        let at = |s: f64| beyond(s, &self.state(coordinates_at(s)).legs.length);
+        divided(at, &beyond(1.0, &self.home.length), |[begin, end], ends| {
+            let part = end - begin;
+            chords_are_clear(ends[0], ends[1], [chord_gap * part * part, 0.5 * turning * part * part])
+        })
     }
 
     /// The state `step` seconds later on the straight way to neutral. The platform is at rest, or

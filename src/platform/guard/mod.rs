@@ -171,8 +171,9 @@ impl ActuatorGuard {
     ) -> Option<StopPlan> {
         let plan = self.certified(to, held_plan, safety, step)?;
         let [.., duration] = plan.durations().breakpoints();
-        let returns =
-            self.certifier.has_way_home_by_bounds(to, duration) || self.certifier.has_way_home(&plan.at(duration));
+        let cranks = self.certifier.geometry.cranks.is_some();
+        let returns = !cranks && self.certifier.has_way_home_by_bounds(to, duration)
+            || self.certifier.has_way_home(&plan.at(duration));
         returns.then_some(plan)
     }
 
