@@ -105,6 +105,26 @@ fn legs_that_cross_or_are_too_thick_fail_the_check_and_are_drawn() {
     assert!(error.contains("actuator.diameter") && error.contains("is 120 m"), "{error}");
 }
 
+/// A note, as real machines may be so.
+#[test]
+fn exchanged_circles_and_an_acceleration_in_g_are_asked_for_by_the_check() {
+    let directory = tempfile::tempdir().unwrap();
+    let default = fs::read_to_string(rigs().join("default.toml")).unwrap();
+    for (changes, expected) in [
+        (
+            &[("radius = 1.0 ", "radius = 0.5 "), ("radius = 0.85", "radius = 1.0")][..],
+            "are [base] and [platform] exchanged?",
+        ),
+        (&[("accelerationLimit = 15.0", "accelerationLimit = 0.5")], "if the limit is in g, give 4.9 m/s2"),
+    ] {
+        let rig = changes.iter().fold(default.clone(), |rig, (from, to)| rig.replacen(from, to, 1));
+        fs::write(directory.path().join("mine.toml"), rig).unwrap();
+        let output = moris(directory.path(), &["rig", "check", "mine.toml", "--samples", "2000"]);
+        let printed = text(&output.stdout);
+        assert!(printed.contains(expected), "{printed}{}", text(&output.stderr));
+    }
+}
+
 #[test]
 fn a_safety_limit_beyond_the_reach_is_told_by_check_and_simulation_in_the_same_words() {
     let directory = tempfile::tempdir().unwrap();
@@ -314,6 +334,9 @@ fn every_command_has_the_same_exit_statuses() {
     for arguments in [&["rig", "check", "missing.toml"][..], &["frequency-response", "--rig", "missing.toml"]] {
         assert_eq!(status(arguments), Some(1), "{arguments:?}");
     }
+    // What simulate alone can do names the other way.
+    let refused = text(&moris(directory.path(), &["frequency-response", "--washout", "other.fmu"]).stderr);
+    assert!(refused.contains("give these with --measured FILES"), "{refused}");
     let version = text(&moris(directory.path(), &["--version"]).stdout);
     assert!(version.starts_with(concat!("moris ", env!("CARGO_PKG_VERSION"))), "{version}");
 }
