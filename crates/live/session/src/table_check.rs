@@ -464,7 +464,9 @@ impl TableCheck {
             let is_known = relation.count >= CLEAR_WINDOWS && relation.sizes[0] >= least;
             is_known && relation.sizes[1] < NOTHING_PART * relation.sizes[0]
         };
-        if self.has_attitude && is_nothing(&self.surge.relation(), LEAST_CHANGES[0]) {
+        // Gravity may make up for a change of speed, and engines for gravity.
+        let changes = [&self.surge, &self.slopes[0]];
+        if self.has_attitude && changes.iter().all(|sums| is_nothing(&sums.relation(), LEAST_CHANGES[0])) {
             return Some(TableFault::MissingForce);
         }
         let rates = [0, 1, 2].map(|axis| self.rates[axis][axis].relation());
