@@ -23,7 +23,7 @@ use crate::platform::{PlatformCoordinates, PlatformMotion, PlatformState};
 /// Stop plans are divided into cells. The bound on what happens between two points is about this
 /// fraction of the acceleration limit.
 const CELL_ACCELERATION_FRACTION: f64 = 0.05;
-/// The largest number of cells into which the longest piece of a stop plan is divided.
+/// The largest number of cells into which a stop plan is divided; its pieces round up.
 const MOST_CELLS: f64 = 12.0;
 
 impl Certifier {

@@ -125,8 +125,9 @@ impl Cranks {
     }
 }
 
-/// True if a function with these values at the ends of a way stays positive on it. Its second
-/// derivative is at most 2 `bend`, so it stays above its chord less bend s (1 - s).
+/// True if a function with these values at the ends of a way is nowhere negative on it. Its second
+/// derivative is at most 2 `bend`, so it stays above its chord less bend s (1 - s). That parabola
+/// has no zero inside if (bend - start - end)² <= 4 start end.
 #[inline(always)]
 fn stays_positive([start, end]: [f64; 2], bend: f64) -> bool {
     let missing = max(0.0, bend - start - end);
@@ -212,8 +213,8 @@ impl<'a> Way<'a> {
         complies
     }
 
-    /// Bound on |q''| on a way between its ends, where no |q'| is larger than `rate` at its start.
-    /// None if a transmission may come to zero.
+    /// Bound on |q''| on a way that begins at its first end, where no |q'| is larger than `rate` at
+    /// its start. None if a transmission may come to zero.
     fn arc_bend(&self, rate: f64) -> Option<f64> {
         let Way { cranks, ends, joint, bend, .. } = *self;
         let least = (0..6).fold(f64::INFINITY, |least, i| {

@@ -9,7 +9,8 @@
 //!
 //! Take two points of the way, a and b. A function whose second derivative is at most 2 c is no
 //! more than c (s - a)(b - s) below the line between its ends. The function stays above zero if its
-//! values at the ends add up to c (b - a)² or more.
+//! values at the ends add up to c (b - a)² or more. Cranks have a weaker condition, and margins of
+//! squares and transmissions (`cranks.rs`).
 //!
 //! The way is certified if every leg is inside its stroke by at least s times a margin. From any
 //! point of a certified way the rest of it is certified as well.
@@ -76,9 +77,9 @@ fn divided<T: Copy>(at: impl Fn(f64) -> T, neutral: &T, keeps: impl Fn([f64; 2],
 }
 
 impl Certifier {
-    /// True if bounds are enough to certify the way home from the end of a stop that takes this
-    /// duration from the candidate. That stop moves no joint by more than half the duration times
-    /// its speed.
+    /// True if bounds are enough to certify the way home of legs from the end of a stop that
+    /// takes this duration from the candidate. That stop moves no joint by more than half the
+    /// duration times its speed.
     #[inline(always)]
     pub fn has_way_home_by_bounds(&self, to: &PlatformState, duration: f64) -> bool {
         let Home { longest, beyond_margin: [below, above], per_two_lengths, .. } = self.home;
@@ -102,7 +103,8 @@ impl Certifier {
             linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
             angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
         };
-        if let Some((cranks, neutral)) = self.geometry.cranks.as_ref().zip(self.home.arms.as_ref()) {
+        if let Some(cranks) = &self.geometry.cranks {
+            let Some(neutral) = &self.home.arms else { return false };
             let farthest = self.home.joints[1] + distance.joint;
             let at = |s: f64| cranks.arms_in(&self.geometry, &coordinates_at(s).motion(self.neutral_height).pose());
             return divided(at, neutral, |fractions, ends| {
