@@ -29,7 +29,7 @@ BUFFER_SIZES = {"classical": 24 << 10, "predictive": 240 << 10}
 MAX_FLASH = 300_000
 MAX_INSTRUCTIONS = {"classical": 50_000, "default": 150_000, "preview": 380_000}
 """Of a step of 1 ms of the drive, on the Cortex-M7."""
-MAX_STACKS = {"classical": (66_000, 16_000), "default": (136_000, 18_000)}
+MAX_STACKS = {"classical": (66_000, 18_000), "default": (136_000, 18_000)}
 """Bytes to make a washout and to step it, on the Cortex-M7."""
 MAX_SECONDS = 600
 """For a build or a run that hangs."""

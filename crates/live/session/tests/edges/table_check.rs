@@ -42,8 +42,8 @@ fn motorcycle(t: f64) -> Sample {
     Sample { time: Some(t), motion, has_angles: true, ..Sample::default() }
 }
 
-/// An aeroplane that begins to loop at constant speed, with an engine that makes up for gravity; its
-/// angles jump by half a turn at the vertical.
+/// An aeroplane that begins to loop at constant speed, with an engine that makes up for gravity.
+/// Its angles jump by half a turn at the vertical.
 fn aeroplane(t: f64) -> Sample {
     let rate = if t > 2.0 { 0.6 } else { 0.0 };
     let angle = rate * (t - 2.0);
