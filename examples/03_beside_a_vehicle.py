@@ -3,8 +3,8 @@
     cargo build-fmu
     python3 examples/03_beside_a_vehicle.py
 
-The vehicle is a car that accelerates, takes a bend and brakes. Another model replaces the class `Car` if it gives
-specific force and angular velocity at the rider's head, in the head's axes. Draws
+The vehicle is a car that accelerates, takes a bend and brakes. Another model replaces the class `Car` if it gives the
+specific force at the rider's head, in the head's axes, and the vehicle's angular velocity in its own axes. Draws
 `target/examples/03_beside_a_vehicle.svg`.
 """
 

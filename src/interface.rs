@@ -1,7 +1,7 @@
 //! The one table of variables: what goes in, what comes out, what can be set.
 //!
 //! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed:
-//! users and their scripts rely on them. A new variable goes at the end of its group.
+//! users and their scripts rely on them. A new variable goes at the end of its struct.
 //!
 //! ```
 //! use moris_washout::interface::{Input, Parameters, StrategyKind};
@@ -125,7 +125,7 @@ interface! {
         "status.safetyActive" safety_active: bool = false;
         /// True if the actuator guard changed the motion to keep an actuator's or the platform's limits during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
-        /// Smallest distance of an actuator from either end of its stroke.
+        /// Smallest clearance of an actuator: its distance from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0, start_depends_on(&["actuator.", "rig."]);
         /// True if the predictive strategy's last attempt at a new plan failed and the previous plan continues.
         "status.planKept" plan_kept: bool = false;
@@ -249,11 +249,11 @@ enumeration! {
 enumeration! {
     /// Group of parameters that are tuned together.
     pub enum TuningGroup {
-        /// The splitter's break frequencies and dampings, twelve in all
+        /// The splitter's break frequencies and dampings
         "splitter" Splitter,
-        /// The angular channel's break frequencies and dampings, twelve in all
+        /// The angular channel's break frequencies and dampings
         "angular" Angular,
-        /// The scales of specific force and angular velocity, six in all
+        /// The scales of specific force and angular velocity
         "scale" Scale,
         /// The low-passes on the input and on its rates, for recordings with strong vibration
         "cutoff" Cutoff,
@@ -381,7 +381,7 @@ interface! {
     pub struct SoftLimitParameters: Parameter, Tunable {
         /// Rate of approach to a limit: the speed is at most this rate times the remaining distance; 0 is off.
         "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 9.0 } = 5.0;
-        /// Margin kept at either end of an axis and of an actuator's stroke; at most half the distance from neutral to that end.
+        /// Margin kept at either end of an axis and of an actuator's stroke: at most half the distance from neutral, in proportion to a stroke below 0.3 m.
         "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;
     }
 }
@@ -597,7 +597,7 @@ interface! {
         "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 160.0, used_if("predictive.forecast", &["learned"]);
         /// Time constant over which the learned forecast's experts are compared.
         "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 14.0, used_if("predictive.forecast", &["learned"]);
-        /// Margin that a plan keeps at either end of an actuator's stroke.
+        /// Margin that a plan keeps at either end of an actuator's stroke; in proportion to a stroke below 0.3 m.
         "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
     }
 }

@@ -370,7 +370,7 @@ impl Washout {
         let linear = self.strategy.demand(filtered, self.preaction.surge(), &context, &turning, step);
         let coordinates = PlatformCoordinates { linear, angles };
         let mut demand = PlatformState::turning(coordinates, &turning, self.guard.geometry(), rig.neutral_height);
-        // Soft limits, safety units, actuator guard and evaluator: each may change the demand.
+        // Soft limits, safety units and actuator guard: each may change the demand.
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
         self.time_at_rest = if at_rest { self.time_at_rest + step } else { 0.0 };
         let soft = self.soft_limits.enabled() && self.time_at_rest <= SOFT_LIMITS_REST_TIME;
@@ -633,9 +633,8 @@ impl Washout {
 
     /// The time derivative of the output now; the flags in it have no meaning.
     ///
-    /// The derivative is exact where the output holds the derivative of another part of it. The
-    /// derivatives of angular velocities, of the platform's acceleration and of what the rider
-    /// feels are means over the last internal step. Before the first step the means are zero.
+    /// The derivative is exact but for the platform's acceleration and for what the rider feels:
+    /// those are means over the last internal step, zero before the first.
     pub fn output_derivative(&self) -> Output {
         let PlatformState { motion, legs, .. } = self.guard.commanded();
         let accelerations = self.guard.leg_accelerations();

@@ -23,9 +23,10 @@ pub struct AxisShape {
     pub shape: f64,
     /// RMS of felt over RMS of desired.
     pub size: f64,
-    /// Fraction of the time in which the felt force is above the threshold and has the opposite
-    /// sign of the desired one. Verdict, findings and `fit` take the larger of surge's and sway's
-    /// ([`Shape::most_inverted_axis`]); `tune` and the bench take the mean.
+    /// Fraction of the time in which the felt force is above the threshold and has the
+    /// opposite sign of the desired one. Verdict, findings, `fit` and the last check of
+    /// `tune` take the larger of surge's and sway's ([`Shape::most_inverted_axis`]), the
+    /// search and the bench the mean.
     pub inverted: f64,
 }
 
