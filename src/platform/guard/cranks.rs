@@ -406,9 +406,11 @@ impl Certifier {
             <= self.limits.acceleration
     }
 
-    /// The smallest transmission that the way home needs at the fraction `s` of it.
+    /// The smallest transmission that a stop and the way home need at the fraction `s` of that way.
     fn transmission_needed(&self, cranks: &Cranks, s: f64) -> f64 {
-        let least = cranks.least_transmission;
+        // From a rest at the very limit no first step home could be certified.
+        const LEFT_AT_REST: f64 = 1e-9;
+        let least = cranks.least_transmission + LEFT_AT_REST;
         least + HOME_MARGIN_FRACTION * s * (self.home.transmission - least)
     }
 }
