@@ -1,5 +1,17 @@
 //! Two signals that should be equal: their sizes, and how well they go together.
 
+use crate::motion::Sample;
+
+/// Keeps a sample of this time \[s\] as the last one. Returns the interval \[s\] since the one before
+/// and that one; none at first, and where the interval is too short or too long to compare them.
+pub fn compared_sample(last: &mut Option<(f64, Sample)>, time: f64, sample: &Sample) -> Option<(f64, Sample)> {
+    // Shortest and longest time between samples that are compared [s].
+    const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
+    let (earlier, before) = last.replace((time, *sample))?;
+    let interval = time - earlier;
+    (SAMPLE_INTERVAL_RANGE[0]..=SAMPLE_INTERVAL_RANGE[1]).contains(&interval).then_some((interval, before))
+}
+
 /// Sums of two signals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sums {

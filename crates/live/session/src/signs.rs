@@ -8,7 +8,7 @@
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::motion::{Motion, Sample};
-use crate::relation::{Relation, Sums};
+use crate::relation::{Relation, Sums, compared_sample};
 use crate::transitions::named;
 
 named! {
@@ -92,8 +92,6 @@ impl Signs {
     pub fn take(&mut self, time: f64, sample: &Sample) {
         // Time for which samples are taken [s].
         const SAMPLING_TIME: f64 = 60.0;
-        // Shortest and longest time between samples that are compared [s].
-        const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
         // Part of a turn's acceleration that gravity makes up for in a vehicle that leans into it.
         const LEANING_FRACTION: f64 = 0.5;
         // Angles up to which a body's rates are those of its angles, about [rad].
@@ -109,13 +107,10 @@ impl Signs {
         if self.time >= SAMPLING_TIME {
             return;
         }
-        let before = self.last.replace((time, *sample));
-        let Some((earlier, before)) = before else { return };
-        let interval = time - earlier;
-        if !(SAMPLE_INTERVAL_RANGE[0]..=SAMPLE_INTERVAL_RANGE[1]).contains(&interval) {
+        let Some((interval, before)) = compared_sample(&mut self.last, time, sample) else {
             self.window = Window::default();
             return;
-        }
+        };
         self.time += interval;
         let (now, then) = (&sample.motion, &before.motion);
         let mean = Motion(0.5 * (now.0 + then.0));

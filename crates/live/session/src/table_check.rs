@@ -13,7 +13,7 @@ use moris_washout::motion::orientation::Orientation;
 use nalgebra::Vector3;
 
 use crate::motion::{Channels, Motion, Sample};
-use crate::relation::{Relation, Sums};
+use crate::relation::{Relation, Sums, compared_sample};
 
 /// Windows with which two channels are judged.
 const ENOUGH_WINDOWS: f64 = 12.0;
@@ -281,15 +281,10 @@ impl TableCheck {
         const COMPARED_TIME: f64 = 60.0;
         // Time over which samples are averaged before they are compared [s].
         const WINDOW_TIME: f64 = 0.25;
-        // Shortest and longest time between samples that are compared [s].
-        const SAMPLE_INTERVAL: [f64; 2] = [1e-3, 0.2];
-        let before = self.last.replace((time, *sample));
-        let Some((earlier, before)) = before else { return };
-        let interval = time - earlier;
-        if !(SAMPLE_INTERVAL[0]..=SAMPLE_INTERVAL[1]).contains(&interval) {
+        let Some((interval, before)) = compared_sample(&mut self.last, time, sample) else {
             self.window = Window::default();
             return;
-        }
+        };
         self.gravity.take(interval, sample);
         if self.time >= COMPARED_TIME {
             return;
