@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use moris_analysis::tune::cost::{Aim, Cost, Objective, still_channels};
+use moris_analysis::tune::cost::{Aim, Cost, Objective};
 use moris_analysis::tune::error::TuneError;
 use moris_analysis::tune::folds;
 use moris_analysis::tune::search::{Budget, Evaluate, evaluate_here};
@@ -139,11 +139,10 @@ impl PyTuning {
         };
         let observe: Py<PyAny> = observe.clone().unbind();
         let (tuned_on, _) = self.objectives.split_at(self.objectives.len() - self.held_out);
-        let is_still = still_channels(tuned_on.iter().map(Objective::desired_rms));
         let search = || {
             let tuner = Tuner {
                 setup: &self.before,
-                space: Space::new(&self.before.parameters, &self.groups).without_channels(is_still),
+                space: Space::of_recordings(&self.before.parameters, &self.groups, tuned_on),
                 budget: Budget { evaluations, seed },
                 evaluate: elsewhere.as_deref().unwrap_or(&evaluate_here),
                 observe: &note,

@@ -6,7 +6,7 @@ use moris_interface::{Group as _, Kind, Reader, Row, slots_of};
 use moris_washout::Parameters;
 use moris_washout::interface::TuningGroup;
 
-use super::cost::Channels;
+use super::cost::{Channels, Objective, still_channels};
 
 /// The group of this name, in letters of any case.
 pub fn group_named(name: &str) -> Option<TuningGroup> {
@@ -122,9 +122,13 @@ impl Space {
         }
     }
 
-    /// The space without the parameters of channels that are still, as far as others remain. No
-    /// recording tells of them, so they stay as they are.
-    pub fn without_channels(self, is_still: Channels<bool>) -> Self {
+    /// The space of a search on these recordings: parameters of channels on which none of them
+    /// desires a motion stay as they are, as far as others remain.
+    pub fn of_recordings(start: &Parameters, groups: &[TuningGroup], tuned_on: &[Objective]) -> Self {
+        Space::new(start, groups).without_channels(still_channels(tuned_on.iter().map(Objective::desired_rms)))
+    }
+
+    fn without_channels(self, is_still: Channels<bool>) -> Self {
         let is_kept = |k: &usize| self.tuned[*k].channel.is_none_or(|channel| !is_still[channel]);
         let kept: Vec<usize> = (0..self.tuned.len()).filter(is_kept).collect();
         if kept.is_empty() {
@@ -235,7 +239,6 @@ impl Space {
 mod tests {
     use moris_washout::interface::StrategyKind;
 
-    use super::super::cost::still_channels;
     use super::*;
 
     const DEFAULT: [TuningGroup; 3] = [TuningGroup::Splitter, TuningGroup::Angular, TuningGroup::Scale];

@@ -21,7 +21,7 @@ use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE_RESULT;
 use crate::words;
-use cost::{Objective, still_channels};
+use cost::Objective;
 use kept::Kept;
 use moris_analysis::tune::error::TuneError;
 pub use moris_analysis::tune::{cost, folds, search, space, summary, tested, tuner};
@@ -132,8 +132,7 @@ impl Tuning {
         let (begin, is_first) = (Instant::now(), AtomicBool::new(true));
         let tuner = Tuner {
             setup: &before,
-            space: Space::new(&before.parameters, &options.tune)
-                .without_channels(still_channels(tuned_on.iter().map(Objective::desired_rms))),
+            space: Space::of_recordings(&before.parameters, &options.tune, tuned_on),
             budget: Budget { evaluations: options.evaluations, seed: options.seed },
             evaluate: &search::evaluate_here,
             observe: &|_, _, least| {
