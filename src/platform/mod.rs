@@ -53,7 +53,7 @@ pub use location::{LocationFrame, check_torso};
 pub(crate) use state::PlatformState;
 #[cfg(not(feature = "std"))]
 pub(crate) use survey::survey as known_survey;
-pub use survey::{Survey, SurveyFailed, survey};
+pub use survey::{Survey, SurveyFailed, mean_radius, survey};
 
 use crate::interface::Rig;
 use crate::motion::Motion;

@@ -66,11 +66,15 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
 /// counts as well, times the arm.
 pub fn stroke_clearance(rig: &Rig, pose: &Pose) -> f64 {
     let geometry = Geometry::from(rig);
-    let [start, end] = rig.stroke();
-    let lengths = leg_lengths(&geometry, pose);
-    let clearance = lengths.iter().map(|length| (length - start).min(end - length)).fold(f64::INFINITY, f64::min);
+    let clearance = clearance_of_lengths(rig, &leg_lengths(&geometry, pose));
     let Some(cranks) = &geometry.cranks else { return clearance };
     clearance.min(cranks.arm * (cranks.transmission(&geometry, pose) - cranks.least_transmission))
+}
+
+/// The smallest distance of these lengths, or arcs, from either end of their stroke \[m\].
+pub fn clearance_of_lengths(rig: &Rig, lengths: &[f64; 6]) -> f64 {
+    let [start, end] = rig.stroke();
+    lengths.iter().map(|length| (length - start).min(end - length)).fold(f64::INFINITY, f64::min)
 }
 
 /// Lengths of the shortest and of the longest leg at neutral \[m\].

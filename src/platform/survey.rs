@@ -127,8 +127,8 @@ fn follow_leg_lengths(geometry: &Geometry, pose: &Pose, from: &[f64; 6], to: &[f
     Some(pose)
 }
 
-/// The mean distance of the joints from their centroid.
-fn mean_radius(joints: &[Vector3<f64>; 6]) -> f64 {
+/// The mean distance of the joints from their centroid \[m\].
+pub fn mean_radius(joints: &[Vector3<f64>; 6]) -> f64 {
     let centroid = joints.iter().sum::<Vector3<f64>>() / 6.0;
     joints.iter().map(|joint| (joint - centroid).norm()).sum::<f64>() / 6.0
 }

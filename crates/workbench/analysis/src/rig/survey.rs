@@ -5,7 +5,7 @@ use std::fmt;
 use moris_interface::Group;
 use moris_setup::rig_file::RigFile;
 pub use moris_simulation::capabilities::{AxisAlone, Capabilities, Singularities};
-use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::mean_radius;
 use moris_washout::{ParameterError, Rig};
 
 use super::workspace::{Volume, WORKSPACE_TILT, Workspace};
@@ -49,10 +49,7 @@ impl Survey {
 
 /// A sentence on a platform whose joints are farther apart than the base's: few are so built.
 fn larger_platform(rig: &Rig) -> Option<String> {
-    let [base, platform] = [&rig.base, &rig.platform].map(|joints| {
-        let centre = joints.iter().sum::<Vector3<f64>>() / 6.0;
-        joints.iter().map(|joint| (joint - centre).norm()).sum::<f64>() / 6.0
-    });
+    let [base, platform] = [&rig.base, &rig.platform].map(mean_radius);
     (platform > base).then(|| {
         format!(
             "the platform's joints are {platform:.3} m from their middle, those of the base {base:.3} m: few platforms are \

@@ -1,5 +1,6 @@
 //! The actuators' limits, judged on the legs of a foreign motion.
 
+use moris_washout::platform::reach::clearance_of_lengths;
 use moris_washout::{Output, Rig};
 
 use super::differences::mean_derivatives;
@@ -30,13 +31,6 @@ pub enum Limit {
     Speed,
     /// Largest acceleration.
     Acceleration,
-}
-
-/// Distance of the legs from either end of their stroke, the least \[m\].
-pub fn stroke_clearance(lengths: &[f64; 6], rig: &Rig) -> f64 {
-    let [start, end] = rig.stroke();
-    let of = |length: &f64| (length - start).min(end - length);
-    lengths.iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
 /// Writes lengths and clearances of the recording's samples, and whether a limit was exceeded since
@@ -81,7 +75,7 @@ pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) ->
         if rig.has_cranks() {
             output.angle = legs[at].map(|arc| arc / rig.crank_arm);
         }
-        output.stroke_margin = stroke_clearance(&legs[at], rig);
+        output.stroke_margin = clearance_of_lengths(rig, &legs[at]);
         let since = if k == 0 { 0 } else { at - parts + 1 };
         output.actuator_limited = exceeds[since..=at].iter().any(|exceeds| *exceeds);
     }

@@ -16,6 +16,7 @@ mod plausible;
 mod times;
 
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::reach::clearance_of_lengths;
 use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{Input, Output, Parameters};
 use serde::{Deserialize, Serialize};
@@ -157,7 +158,7 @@ fn at_neutral(neutral: &Pose, parameters: &Parameters) -> Output {
         position: neutral.position,
         felt_specific_force: Vector3::new(0.0, 0.0, parameters.structure.gravity),
         length,
-        stroke_margin: limits::stroke_clearance(&length, &parameters.rig),
+        stroke_margin: clearance_of_lengths(&parameters.rig, &length),
         ..Output::default()
     }
 }
