@@ -42,6 +42,12 @@ impl ActingRows {
     pub fn any(&self) -> bool {
         self.0 != [0; ROW_COUNT]
     }
+
+    /// The numbers of the rows that act.
+    #[inline(always)]
+    fn numbers(&self) -> impl Iterator<Item = usize> {
+        self.0.iter().enumerate().filter(|(_, side)| **side != 0).map(|(row, _)| row)
+    }
 }
 
 /// Weight of a violated row's square, beside weights of about 1 of the accelerations. Rows that
@@ -89,13 +95,13 @@ impl Dual<'_> {
     /// The rows' values with these multipliers of the rows that act.
     fn values(&self, multipliers: &RowValues, acting_rows: &ActingRows) -> RowValues {
         let mut moved = RowValues::zeros();
-        for (row, _) in acting_rows.0.iter().enumerate().filter(|(_, side)| **side != 0) {
+        for row in acting_rows.numbers() {
             moved += self.gram.column(row) * multipliers[row];
         }
         self.demanded - moved
     }
 
-    /// Principal pivoting from these acting_rows on. None if it does not end soon.
+    /// Principal pivoting from these acting rows on. None if it does not end soon.
     fn all_at_once(&mut self, acting_rows: &mut ActingRows) -> Option<RowValues> {
         for _ in 0..TRIALS_AT_ONCE {
             let multipliers = self.multipliers_of(acting_rows)?;
@@ -161,7 +167,7 @@ impl Dual<'_> {
             _ => demanded[row] - rows.lower[row],
         });
         let (mut numbers, mut count) = ([0; ROW_COUNT], 0);
-        for (row, _) in acting_rows.0.iter().enumerate().filter(|(_, side)| **side != 0) {
+        for row in acting_rows.numbers() {
             (numbers[count], count) = (row, count + 1);
             if !self.known[row] {
                 self.gram.set_column(row, &(self.rows.normals * self.moved.column(row)));

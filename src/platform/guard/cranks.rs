@@ -129,7 +129,7 @@ impl Cranks {
 /// derivative is at most 2 `bend`, so it stays above its chord less bend s (1 - s). That parabola
 /// has no zero inside if (bend - start - end)² <= 4 start end.
 #[inline(always)]
-fn stays_positive([start, end]: [f64; 2], bend: f64) -> bool {
+fn is_nowhere_negative([start, end]: [f64; 2], bend: f64) -> bool {
     let missing = max(0.0, bend - start - end);
     (start >= 0.0) & (end >= 0.0) & (missing * missing <= 4.0 * start * end)
 }
@@ -202,13 +202,13 @@ impl<'a> Way<'a> {
         for i in 0..6 {
             let left = start.transmission[i] - lost;
             let (from, to) = (left * left - least, end.transmission[i] * end.transmission[i] - least_at_end);
-            complies &= (left >= 0.0) & stays_positive([from, to], 0.5 * self.square_bends[i]);
+            complies &= (left >= 0.0) & is_nowhere_negative([from, to], 0.5 * self.square_bends[i]);
             let [below, above] = start.clear_of(i, range);
             let [below, above] = [below - below_travel - clearances[0][0], above - above_travel - clearances[0][1]];
             let [below_at_end, above_at_end] = end.clear_of(i, range);
             let [below_at_end, above_at_end] = [below_at_end - clearances[1][0], above_at_end - clearances[1][1]];
-            complies &= stays_positive([below, below_at_end], self.squares[i] + turned);
-            complies &= stays_positive([above, above_at_end], turned);
+            complies &= is_nowhere_negative([below, below_at_end], self.squares[i] + turned);
+            complies &= is_nowhere_negative([above, above_at_end], turned);
         }
         complies
     }

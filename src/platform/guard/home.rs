@@ -53,14 +53,14 @@ fn chords_are_clear(left: &[[f64; 2]; 6], right: &[[f64; 2]; 6], least: [f64; 2]
 }
 
 /// True if a way is certified part by part. `at` gives the point at a fraction of it, `neutral` is
-/// the point at its end, and `keeps` certifies a part between two points.
+/// the point at its end, and `certifies` is true of a part between two points that is certified.
 #[inline(always)]
-fn divided<T: Copy>(at: impl Fn(f64) -> T, neutral: &T, keeps: impl Fn([f64; 2], [&T; 2]) -> bool) -> bool {
+fn divided<T: Copy>(at: impl Fn(f64) -> T, neutral: &T, certifies: impl Fn([f64; 2], [&T; 2]) -> bool) -> bool {
     let (mut begin, mut left, mut part) = (0.0, at(0.0), 1.0);
     for _ in 1..MOST_POINTS {
         let end = begin + part;
         let right = if end < 1.0 { at(end) } else { *neutral };
-        let certified = keeps([begin, end], [&left, &right]);
+        let certified = certifies([begin, end], [&left, &right]);
         if certified && end >= 1.0 {
             return true;
         }
