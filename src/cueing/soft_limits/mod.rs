@@ -114,7 +114,8 @@ impl ApproachLimits {
         }
     }
 
-    /// True if a motion towards a limit ends before it at this pace, or is no faster than `slow_speed`.
+    /// True if a motion towards a limit ends before it at this pace, or is no
+    /// faster than `slow_speed`.
     fn stops_in_time(&self, position: f64, velocity: f64, pace: f64, slow_speed: f64) -> bool {
         velocity <= max(pace * (self.max - position), slow_speed)
             && -velocity <= max(pace * (position - self.min), slow_speed)

@@ -2,8 +2,9 @@
 
 use crate::motion::Sample;
 
-/// Keeps a sample of this time \[s\] as the last one. Returns the interval \[s\] since the one before
-/// and that one; none at first, and where the interval is too short or too long to compare them.
+/// Keeps a sample of this time \[s\] as the last one. Returns the interval \[s\] since
+/// the one before and that one; none at first, and where the interval is too short or too
+/// long to compare them.
 pub fn compared_sample(last: &mut Option<(f64, Sample)>, time: f64, sample: &Sample) -> Option<(f64, Sample)> {
     // Shortest and longest time between samples that are compared [s].
     const SAMPLE_INTERVAL_RANGE: [f64; 2] = [1e-3, 0.2];
