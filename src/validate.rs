@@ -269,7 +269,12 @@ pub fn check_rig(rig: &Rig, max_step: f64) -> Result<(), ParameterError> {
     if let Some(cranks) = Cranks::of(rig) {
         check_cranks(rig, &cranks)?;
     }
-    let Rig { min_length, max_length, .. } = *rig;
+    // A rig's file has a key for each, in `RigFile::rig` of the crate `setup`.
+    #[rustfmt::skip]
+    let Rig {
+        neutral_height: _, min_length, max_length, base: _, platform: _, velocity_limit: _, acceleration_limit: _,
+        crank_arm: _, crank_rod: _, crank_heading: _, crank_min_angle: _, crank_max_angle: _, crank_least_transmission: _,
+    } = *rig;
     if min_length >= max_length {
         return refuse(
             "actuator.minLength",

@@ -8,7 +8,8 @@ use crate::cueing::angular::AngularChannel;
 use crate::cueing::automatic_scale::FittingScale;
 use crate::cueing::compensation::{compensated, tangential};
 use crate::cueing::conditioning::{
-    ConditioningGlide, Cue, InputFilter, cue_force, forward_acceleration, scaled_cue, scaled_force,
+    ConditioningGlide, Cue, InputFilter, cue_force, forward_acceleration, gliding, scaled_cue, scaled_force,
+    with_gliding,
 };
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
@@ -152,11 +153,17 @@ impl Washout {
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         check(parameters)?;
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
-        let guard = ActuatorGuard::new(rig, structure.max_step);
+        // The strategy, preaction and the washout location read the others.
+        #[rustfmt::skip]
+        let StructureParameters {
+            gravity, splitter_order, angular_order, max_step, low_pass: _, strategy: _, preaction: _,
+            head_height: _, torso_length: _, washout_location: _, washout_point: _,
+        } = *structure;
+        let guard = ActuatorGuard::new(rig, max_step);
         let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
         let last_input = CuedInput::new(Input::default(), &parameters.conditioning, structure);
-        let at_rest = felt(&guard.commanded().motion, &last_input.head, structure.gravity);
+        let at_rest = felt(&guard.commanded().motion, &last_input.head, gravity);
         Ok(Washout {
             parameters: *parameters,
             conditioning: parameters.conditioning,
@@ -167,10 +174,10 @@ impl Washout {
             last_input,
             scale: FittingScale::new(parameters)?,
             input_filter: InputFilter::default(),
-            preaction: StopPreaction::new(structure.max_step),
+            preaction: StopPreaction::new(max_step),
             strategy,
-            angular: AngularChannel::new(angular, structure.angular_order, structure.max_step),
-            direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
+            angular: AngularChannel::new(angular, angular_order, max_step),
+            direct_linear: DirectLinearMotion::new(splitter, splitter_order, max_step),
             soft_limits,
             time_at_rest: 0.0,
             guard,
@@ -534,20 +541,14 @@ impl Washout {
         self.soft_limits.retune(&self.soft_limit_glide.in_force(parameters), self.strategy.largest_heave());
         let Parameters { conditioning, splitter, angular, structure, .. } = parameters;
         if before.conditioning != *conditioning {
-            let numbers = ConditioningParameters {
-                gravity_removal: before.conditioning.gravity_removal,
-                angular_velocity_frame: before.conditioning.angular_velocity_frame,
-                ..if nothing_cued { *conditioning } else { self.conditioning }
+            let numbers = gliding(if nothing_cued { conditioning } else { &self.conditioning });
+            let cue_by_choices_of = |choices: &ConditioningParameters| {
+                let parameters = with_gliding(choices, numbers);
+                let cue = CuedInput::new(self.last_input.input, &parameters, structure).cue;
+                cue.limited(self.scale.factor(), &parameters)
             };
-            let limited = |cue: &Cue, by: &ConditioningParameters| cue.limited(self.scale.factor(), by);
-            let old = limited(&CuedInput::new(self.last_input.input, &numbers, structure).cue, &numbers);
-            let by_choice = ConditioningParameters {
-                gravity_removal: conditioning.gravity_removal,
-                angular_velocity_frame: conditioning.angular_velocity_frame,
-                ..numbers
-            };
-            let new = limited(&CuedInput::new(self.last_input.input, &by_choice, structure).cue, &by_choice);
-            self.conditioning_glide.begin(&before.conditioning, conditioning, &old.less(&new));
+            let jump = cue_by_choices_of(&before.conditioning).less(&cue_by_choices_of(conditioning));
+            self.conditioning_glide.begin(&before.conditioning, conditioning, &jump);
             if nothing_cued {
                 self.conditioning_glide.end();
             }

@@ -204,7 +204,7 @@ pub fn soft_limit(value: f64, limit: f64) -> f64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ConditioningGlide {
     /// Of scales, logarithms of limits, and time constants of the low-passes.
-    numbers: GlidingOffset<14>,
+    numbers: GlidingOffset<GLIDING_COUNT>,
     /// Of force \[m/s2\] and rates \[rad/s\].
     cue: GlidingOffset<6>,
 }
@@ -239,17 +239,11 @@ impl ConditioningGlide {
             return *target;
         }
         let values = gliding_numbers(target) + self.numbers.values();
-        let three = |first: usize| values.fixed_rows::<3>(first).into_owned();
+        let [force_scale, rate_scale, force_limit, rate_limit] =
+            core::array::from_fn(|k| values.fixed_rows::<3>(3 * k).into_owned());
+        let vectors = [force_scale, rate_scale, force_limit.map(libm::exp), rate_limit.map(libm::exp)];
         let cutoff = |time: f64| if time > SHORTEST_TIME { 1.0 / time } else { 0.0 };
-        ConditioningParameters {
-            force_scale: three(0),
-            rate_scale: three(3),
-            force_limit: three(6).map(libm::exp),
-            rate_limit: three(9).map(libm::exp),
-            cutoff: cutoff(values[12]),
-            rate_cutoff: cutoff(values[13]),
-            ..*target
-        }
+        with_gliding(target, (vectors, core::array::from_fn(|k| cutoff(values[3 * VECTORS + k]))))
     }
 
     /// The cue with the correction.
@@ -264,15 +258,37 @@ const SHORTEST_TIME: f64 = 1e-6;
 /// Longer ones glide as this one \[s\].
 const LONGEST_TIME: f64 = 1e6;
 
+/// Counts of the vectors and cutoffs that glide, and of the numbers in them.
+const VECTORS: usize = 4;
+const CUTOFFS: usize = 2;
+const GLIDING_COUNT: usize = 3 * VECTORS + CUTOFFS;
+/// The parameters that glide.
+type Gliding = ([Vector3<f64>; VECTORS], [f64; CUTOFFS]);
+
+/// The parameters that glide. The others are choices and change at once.
+pub fn gliding(parameters: &ConditioningParameters) -> Gliding {
+    #[rustfmt::skip]
+    let ConditioningParameters {
+        force_scale, rate_scale, force_limit, rate_limit, cutoff, rate_cutoff,
+        gravity_removal: _, compensation: _, angular_velocity_frame: _, reconstruction: _,
+    } = *parameters;
+    ([force_scale, rate_scale, force_limit, rate_limit], [cutoff, rate_cutoff])
+}
+
+/// These choices, with those parameters that glide.
+pub fn with_gliding(choices: &ConditioningParameters, (vectors, cutoffs): Gliding) -> ConditioningParameters {
+    let mut changed = *choices;
+    [changed.force_scale, changed.rate_scale, changed.force_limit, changed.rate_limit] = vectors;
+    [changed.cutoff, changed.rate_cutoff] = cutoffs;
+    changed
+}
+
 /// Numbers that glide linearly.
-fn gliding_numbers(parameters: &ConditioningParameters) -> SVector<f64, 14> {
-    let ConditioningParameters { force_scale, rate_scale, force_limit, rate_limit, .. } = parameters;
-    let time = |cutoff: f64| if cutoff > 0.0 { min(1.0 / cutoff, LONGEST_TIME) } else { 0.0 };
-    let mut numbers = SVector::<f64, 14>::zeros();
-    numbers.fixed_rows_mut::<6>(0).copy_from(&stacked(force_scale, rate_scale));
-    numbers.fixed_rows_mut::<6>(6).copy_from(&stacked(&force_limit.map(libm::log), &rate_limit.map(libm::log)));
-    (numbers[12], numbers[13]) = (time(parameters.cutoff), time(parameters.rate_cutoff));
-    numbers
+fn gliding_numbers(parameters: &ConditioningParameters) -> SVector<f64, GLIDING_COUNT> {
+    let ([force_scale, rate_scale, force_limit, rate_limit], cutoffs) = gliding(parameters);
+    let vectors = [force_scale, rate_scale, force_limit.map(libm::log), rate_limit.map(libm::log)];
+    let times = cutoffs.map(|cutoff| if cutoff > 0.0 { min(1.0 / cutoff, LONGEST_TIME) } else { 0.0 });
+    SVector::from_iterator(vectors.iter().flatten().copied().chain(times))
 }
 
 fn stacked(first: &Vector3<f64>, second: &Vector3<f64>) -> SVector<f64, 6> {

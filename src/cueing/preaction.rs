@@ -100,7 +100,8 @@ impl StopPreaction {
         safety: &SafetyParameters,
         step: f64,
     ) {
-        self.slew = gravity * tilt.rate_limit;
+        let TiltParameters { rate_limit, acceleration_limit: _, angle_limit: _, tracking: _ } = *tilt;
+        self.slew = gravity * rate_limit;
         self.deceleration += (-acceleration - self.deceleration) * (1.0 - libm::exp(-step / SMOOTHING_TIME));
         let braking = -acceleration > LEAST_DECELERATION && self.deceleration > LEAST_DECELERATION && speed > 0.0;
         if braking {
@@ -138,7 +139,8 @@ impl StopPreaction {
     }
 
     fn move_surge(&mut self, force: f64, safety: &SafetyParameters, step: f64) {
-        let farthest = FRACTION_OF_POSITION * safety.position_limit.x;
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
+        let farthest = FRACTION_OF_POSITION * position_limit.x;
         // The recovery covers a third of its time times the present speed.
         let clearance = (self.surge.position + farthest).max(0.0);
         let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * clearance;
@@ -150,10 +152,10 @@ impl StopPreaction {
             Phase::Waiting if launching => {
                 // Both halves together cover acceleration * time^2 / 3, at a speed of at most
                 // acceleration * time / 2.
-                let fastest = FRACTION_OF_VELOCITY * safety.velocity_limit.x;
+                let fastest = FRACTION_OF_VELOCITY * velocity_limit.x;
                 let clearance = FRACTION_OF_CLEARANCE * clearance;
                 let acceleration = (3.0 * clearance / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
-                Phase::Launching { acceleration: acceleration.min(safety.acceleration_limit.x) }
+                Phase::Launching { acceleration: acceleration.min(acceleration_limit.x) }
             }
             phase => phase,
         };

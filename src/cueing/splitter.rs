@@ -42,16 +42,17 @@ impl LowPass {
 }
 
 fn denominators(parameters: &SplitterParameters, order: i32, complementary: bool) -> [Denominator; 3] {
-    if complementary {
-        high_pass_denominators(parameters, order)
-    } else {
-        let (omega, zeta) = (parameters.low_pass_omega, parameters.low_pass_zeta);
-        core::array::from_fn(|axis| Denominator::new(2, omega[axis], zeta[axis], 1.0, 1.0))
-    }
+    let SplitterParameters { omega1, zeta1, omega2, zeta2, low_pass_omega, low_pass_zeta } = parameters;
+    core::array::from_fn(|axis| {
+        if complementary {
+            Denominator::new(order, omega1[axis], zeta1[axis], omega2[axis], zeta2[axis])
+        } else {
+            Denominator::new(2, low_pass_omega[axis], low_pass_zeta[axis], 1.0, 1.0)
+        }
+    })
 }
 
 /// The high-pass filters' D(s), one for each axis of the base frame.
 pub fn high_pass_denominators(parameters: &SplitterParameters, order: i32) -> [Denominator; 3] {
-    let SplitterParameters { omega1, zeta1, omega2, zeta2, .. } = parameters;
-    core::array::from_fn(|axis| Denominator::new(order, omega1[axis], zeta1[axis], omega2[axis], zeta2[axis]))
+    denominators(parameters, order, true)
 }

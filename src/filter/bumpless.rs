@@ -78,6 +78,29 @@ impl<const N: usize> GlidingOffset<N> {
     }
 }
 
+/// Makes the functions of a struct whose numbers glide by their logarithms. The pattern names all
+/// its fields, the list those that glide.
+macro_rules! glide_by_logarithms {
+    ($parameters:ty, $fields:pat => [$($gliding:ident),+]) => {
+        /// Count of the numbers that glide.
+        const GLIDING_COUNT: usize = [$(stringify!($gliding)),+].len();
+
+        /// Logarithms of the numbers that glide.
+        fn logarithms(parameters: &$parameters) -> SVector<f64, GLIDING_COUNT> {
+            let $fields = *parameters;
+            SVector::from([$($gliding),+].map(libm::log))
+        }
+
+        /// The parameters in force on the way to these.
+        fn in_force(parameters: &$parameters, glide: &GlidingOffset<GLIDING_COUNT>) -> $parameters {
+            let mut in_force = *parameters;
+            [$(in_force.$gliding),+] = (logarithms(parameters) + glide.values()).map(libm::exp).into();
+            in_force
+        }
+    };
+}
+pub(crate) use glide_by_logarithms;
+
 /// Time constant of the decay of an offset \[s\].
 const OFFSET_TIME_CONSTANT: f64 = 0.5;
 /// Offsets below this become zero.

@@ -14,7 +14,7 @@ use crate::cueing::strategy::optimal::weighed;
 use crate::cueing::strategy::predictive::preview::{PreviewedCue, TIME_ROUNDING};
 use crate::cueing::strategy::regulator::{AxisModel, Gains, Regulator, State};
 use crate::cueing::strategy::{Unsolvable, at_rest_if_tiny};
-use crate::interface::{AutomaticScaleParameters, Parameters};
+use crate::interface::Parameters;
 use crate::motion::min_max::{max, min};
 
 /// Number of shadows.
@@ -125,7 +125,8 @@ impl Bank {
         &mut self,
         references: [f64; 2],
         force_limit: &Vector3<f64>,
-        tuning: &AutomaticScaleParameters,
+        largest_error: f64,
+        memory: f64,
         step: f64,
     ) -> Option<Goal> {
         self.courses.iter_mut().filter(|course| course.count > 0).for_each(|course| course.advance(step));
@@ -137,26 +138,21 @@ impl Bank {
             return None;
         }
         let references = self.sum.map(|sum| at_rest_if_tiny(sum / self.since));
-        let desired = self.sample(references, force_limit, tuning);
+        let desired = self.sample(references, force_limit, memory);
         (self.sum, self.since) = ([0.0; 2], 0.0);
         let usual = ACTIVE_FRACTION * (self.power[0] + self.power[1]);
         let activity = min(
             (desired[0] * desired[0] + desired[1] * desired[1]) / (usual + ACTIVE_FRACTION * MEAN_SQUARE_FLOOR),
             1.0,
         );
-        Some(Goal { scale: self.fitting(tuning.error), activity })
+        Some(Goal { scale: self.fitting(largest_error), activity })
     }
 
     /// Moves all shadows under these references since the last sample. Returns the references below
     /// [`CUE_FREQUENCY`].
-    fn sample(
-        &mut self,
-        references: [f64; 2],
-        force_limit: &Vector3<f64>,
-        tuning: &AutomaticScaleParameters,
-    ) -> [f64; 2] {
+    fn sample(&mut self, references: [f64; 2], force_limit: &Vector3<f64>, memory: f64) -> [f64; 2] {
         let step = self.since;
-        self.memory = min(self.memory + step, tuning.memory);
+        self.memory = min(self.memory + step, memory);
         let share = 1.0 - libm::exp(-step / self.memory);
         let filter = Coefficients::new(step);
         let is_previewed = is_known(&self.courses);

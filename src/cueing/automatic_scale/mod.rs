@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use self::bank::Bank;
 use crate::cueing::strategy::Unsolvable;
 use crate::cueing::strategy::predictive::preview::PreviewedCue;
-use crate::interface::{AutomaticScale, Parameters};
+use crate::interface::{AutomaticScale, AutomaticScaleParameters, Parameters};
 use crate::motion::min_max::{max, min};
 
 /// The factor, and what it is chosen by.
@@ -102,13 +102,15 @@ impl FittingScale {
     pub fn advance(&mut self, references: [f64; 2], parameters: &Parameters, step: f64) {
         match &mut self.bank {
             Some(bank) => {
-                let tuning = &parameters.automatic_scale;
-                if let Some(goal) = bank.advance(references, &parameters.conditioning.force_limit, tuning, step) {
+                let AutomaticScaleParameters { automatic: _, error, memory, fall_time, rise_time, start: _ } =
+                    parameters.automatic_scale;
+                let force_limit = &parameters.conditioning.force_limit;
+                if let Some(goal) = bank.advance(references, force_limit, error, memory, step) {
                     let distance = libm::log(goal.scale / self.factor);
                     self.rate = if distance < 0.0 {
-                        max(distance / tuning.fall_time, -FASTEST_FALL)
+                        max(distance / fall_time, -FASTEST_FALL)
                     } else {
-                        goal.activity * distance / tuning.rise_time
+                        goal.activity * distance / rise_time
                     };
                 }
                 self.factor = min(self.factor * (1.0 + self.rate * step), 1.0);

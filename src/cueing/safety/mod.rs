@@ -120,8 +120,8 @@ impl SafetyUnits {
     /// The gap between the positions' difference and the mean velocity times the step h counts as
     /// an acceleration of 2 gap/h².
     fn complies_with_limits(&self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> [bool; 3] {
-        let (farthest, fastest) = (lanes(&limits.position_limit), lanes(&limits.velocity_limit));
-        let most = lanes(&limits.acceleration_limit);
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = limits;
+        let (farthest, fastest, most) = (lanes(position_limit), lanes(velocity_limit), lanes(acceleration_limit));
         let (position, velocity) = (lanes(&demand.position), lanes(&demand.velocity));
         let (position_before, velocity_before) = (lanes(&self.motion.position), lanes(&self.motion.velocity));
         let speed = velocity.abs();

@@ -28,7 +28,8 @@ const MIN_PACE: f64 = 1e-3;
 impl SoftLimitGlide {
     /// At these parameters.
     pub fn at(parameters: &Parameters) -> Self {
-        SoftLimitGlide { soft_limit: parameters.soft_limit, position_limit: parameters.safety.position_limit }
+        let SafetyParameters { position_limit, velocity_limit: _, acceleration_limit: _ } = parameters.safety;
+        SoftLimitGlide { soft_limit: parameters.soft_limit, position_limit }
     }
 
     /// True if the parameters in force are these.

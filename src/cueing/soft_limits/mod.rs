@@ -29,7 +29,7 @@ use wide::{CmpGe, f64x2};
 
 use self::nearest::{Accelerations, ActingRows, ROW_COUNT, RowValues, Rows, nearest_accelerations};
 use self::relaxation::Relaxation;
-use crate::interface::{Parameters, Rig};
+use crate::interface::{Parameters, SafetyParameters, SoftLimitParameters};
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
@@ -184,16 +184,18 @@ impl SoftLimits {
     /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
     pub fn new(parameters: &Parameters, heave: f64) -> Self {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
-        let (margin, pace) = (soft_limit.margin * short_stroke_factor(rig), soft_limit.pace);
-        let farthest = |k: usize| if k == 2 { min(safety.position_limit[k], heave) } else { safety.position_limit[k] };
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
+        let SoftLimitParameters { pace, margin } = *soft_limit;
+        let margin = margin * short_stroke_factor(rig);
+        let farthest = |k: usize| if k == 2 { min(position_limit[k], heave) } else { position_limit[k] };
         let geometry = Geometry::from(rig);
         let axes = [0, 1, 2].map(|k: usize| {
             let ends = [-farthest(k), farthest(k)];
-            ApproachLimits::new(ends, [0.0; 2], safety.velocity_limit[k], safety.acceleration_limit[k], margin, pace)
+            ApproachLimits::new(ends, [0.0; 2], velocity_limit[k], acceleration_limit[k], margin, pace)
         });
-        let Rig { velocity_limit, acceleration_limit, .. } = *rig;
         let neutral = neutral_lengths(&geometry, rig.neutral_height);
-        let leg = ApproachLimits::new(clear_stroke(rig), neutral, velocity_limit, acceleration_limit, margin, pace);
+        let leg =
+            ApproachLimits::new(clear_stroke(rig), neutral, rig.velocity_limit, rig.acceleration_limit, margin, pace);
         SoftLimits {
             geometry,
             neutral_height: rig.neutral_height,

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use super::at_rest_if_tiny;
 use super::law::{AxisState, Decision, Jump, Law, LawInput, StepContext, Unsolvable};
 use super::regulator::AxisModel;
-use crate::filter::bumpless::GlidingOffset;
+use crate::filter::bumpless::{GlidingOffset, glide_by_logarithms};
 use crate::interface::{AdaptiveParameters, Parameters};
 
 /// The strategy with its state.
@@ -31,7 +31,7 @@ pub struct Adaptive {
     parameters: AdaptiveParameters,
     axes: [Adaptation; 2],
     /// Logarithms of the adaptation's numbers in force less those set.
-    glide: GlidingOffset<9>,
+    glide: GlidingOffset<GLIDING_COUNT>,
 }
 
 /// The gains of one axis, and the sensitivities to them.
@@ -78,7 +78,7 @@ impl Law for Adaptive {
         self.retune(models, &on_rig(parameters));
         let in_motion = self.axes.iter().any(|axis| axis.to_travel_gain != [0.0; 2]);
         if in_motion && before != self.parameters {
-            self.glide.add(&(adaptation_logarithms(&before) - adaptation_logarithms(&self.parameters)));
+            self.glide.add(&(logarithms(&before) - logarithms(&self.parameters)));
         }
         let less = |state: &AxisState| return_force(&before, state) - return_force(&self.parameters, state);
         Ok(states.map(|state| Jump { force: less(&state), slope: less(&state.coasting()) }))
@@ -129,38 +129,22 @@ impl Adaptive {
             self.axes[k].decide(&self.models[k], &parameters, &states[k], references[k], weight_scale, step)
         })
     }
-}
 
-impl Adaptive {
-    /// The parameters in force after a step. Frequency and damping do not glide: what they change
-    /// at once is a correction of the dropped force.
+    /// The parameters in force after a step.
     #[cold]
     fn gliding(&mut self, step: f64) -> AdaptiveParameters {
         self.glide.advance(step);
-        let [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2] =
-            (adaptation_logarithms(&self.parameters) + self.glide.values()).map(libm::exp).into();
-        AdaptiveParameters {
-            gain1,
-            gain2,
-            nominal1,
-            nominal2,
-            weight_position,
-            weight_velocity,
-            weight_tilt_rate,
-            pull1,
-            pull2,
-            ..self.parameters
-        }
+        in_force(&self.parameters, &self.glide)
     }
 }
 
-/// Logarithms of the numbers of the adaptation.
-fn adaptation_logarithms(parameters: &AdaptiveParameters) -> SVector<f64, 9> {
-    let AdaptiveParameters { gain1, gain2, nominal1, nominal2, pull1, pull2, .. } = *parameters;
-    let AdaptiveParameters { weight_position, weight_velocity, weight_tilt_rate, .. } = *parameters;
-    let numbers = [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2];
-    SVector::from(numbers.map(libm::log))
-}
+// What frequency and damping change at once is a correction of the dropped force.
+glide_by_logarithms!(AdaptiveParameters,
+    AdaptiveParameters {
+        gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2,
+        omega: _, zeta: _,
+    } => [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2]
+);
 
 impl Adaptation {
     fn decide(

@@ -24,7 +24,7 @@ use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
 use crate::cueing::compensation::{centripetal, tangential};
 use crate::filter::bumpless::GlidingOffset;
-use crate::interface::Parameters;
+use crate::interface::{Parameters, SafetyParameters, TiltParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::min;
@@ -127,10 +127,10 @@ impl Coordinated {
         let decisions = decisions
             .unwrap_or(self.dropped_force.map(|dropped_force| Decision { dropped_force, tilt_acceleration: 0.0 }));
         self.offset.advance(step);
-        let tilt = &parameters.tilt;
+        let TiltParameters { angle_limit, rate_limit, acceleration_limit, tracking: _ } = parameters.tilt;
         let max_step = parameters.structure.max_step;
-        let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, max_step);
-        let smooth = TiltLimits::new(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit);
+        let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, max_step);
+        let smooth = TiltLimits::new(angle_limit, rate_limit, acceleration_limit);
         self.limited = false;
         for (k, decision) in decisions.iter().enumerate() {
             let now = self.tilt[k];
@@ -138,8 +138,8 @@ impl Coordinated {
             let demanded = law_weight * decision.tilt_acceleration + (1.0 - law_weight) * returning;
             let acceleration = smooth.nearest_acceleration(&law_input.states[k], demanded, step);
             let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
-            self.limited |= next.position.abs() >= LIMITED_FRACTION * tilt.angle_limit;
-            self.limited |= next.velocity.abs() >= LIMITED_FRACTION * tilt.rate_limit;
+            self.limited |= next.position.abs() >= LIMITED_FRACTION * angle_limit;
+            self.limited |= next.velocity.abs() >= LIMITED_FRACTION * rate_limit;
             self.tilt[k] = without_tiny_components(&next);
             self.dropped_force[k] = decision.dropped_force;
         }
@@ -203,16 +203,18 @@ impl StepContext<'_> {
 /// The strategies' models of surge and sway.
 pub(in crate::cueing) fn models(parameters: &Parameters) -> [AxisModel; 2] {
     let Parameters { tilt, safety, structure, rig, .. } = parameters;
+    let TiltParameters { angle_limit, rate_limit, acceleration_limit, tracking: _ } = *tilt;
+    let SafetyParameters { position_limit, velocity_limit, acceleration_limit: _ } = safety;
     let reach = horizontal_reach(rig);
     let head_height = LocationFrame::new(structure, 0.0).point.z;
     [0, 1].map(|k: usize| AxisModel {
         head_height,
         gravity: structure.gravity,
-        position_limit: min(safety.position_limit[k], reach[k]),
-        velocity_limit: safety.velocity_limit[k],
-        angle_limit: tilt.angle_limit,
-        rate_limit: tilt.rate_limit,
-        acceleration_limit: tilt.acceleration_limit,
+        position_limit: min(position_limit[k], reach[k]),
+        velocity_limit: velocity_limit[k],
+        angle_limit,
+        rate_limit,
+        acceleration_limit,
     })
 }
 

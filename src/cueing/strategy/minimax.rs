@@ -88,12 +88,13 @@ mod tests {
     use nalgebra::{Matrix2, SVector};
 
     use super::*;
+    use crate::cueing::strategy::optimal::Tuning;
     use crate::cueing::strategy::regulator::dynamics;
     use crate::cueing::strategy::regulator::tests::MODEL;
     use crate::interface::Parameters;
 
     fn weights() -> Weights {
-        (&Parameters::default().robust).into()
+        Tuning::from(&Parameters::default().robust).weights
     }
 
     const DISTURBANCE: Disturbance = Disturbance { attenuation: 1.08, fast: 121.0 };

@@ -35,8 +35,14 @@ pub struct Tuning {
 }
 
 impl From<&OptimalParameters> for Tuning {
+    #[rustfmt::skip]
     fn from(parameters: &OptimalParameters) -> Self {
-        Tuning { weights: parameters.into(), split_time: parameters.split_time, disturbance: None }
+        let OptimalParameters {
+            weight_position: position, weight_velocity: velocity, weight_tilt_rate: tilt_rate,
+            weight_tilt_acceleration: tilt_acceleration, slow_pole, fast_pole, split_time,
+        } = *parameters;
+        let weights = Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole };
+        Tuning { weights, split_time, disturbance: None }
     }
 }
 

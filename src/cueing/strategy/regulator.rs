@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use super::law::Unsolvable;
 use super::smooth_tilt::TiltLimits;
-use crate::interface::{OptimalParameters, PredictiveParameters, RobustParameters};
 use crate::riccati;
 
 /// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast
@@ -50,26 +49,6 @@ pub struct Weights {
     pub slow_pole: f64,
     pub fast_pole: f64,
 }
-
-/// The weights among a strategy's parameters, which have the same names in each.
-macro_rules! weights_from {
-    ($($parameters:ty),+) => { $(
-        impl From<&$parameters> for Weights {
-            fn from(parameters: &$parameters) -> Self {
-                Weights {
-                    position: parameters.weight_position,
-                    velocity: parameters.weight_velocity,
-                    tilt_rate: parameters.weight_tilt_rate,
-                    tilt_acceleration: parameters.weight_tilt_acceleration,
-                    slow_pole: parameters.slow_pole,
-                    fast_pole: parameters.fast_pole,
-                }
-            }
-        }
-    )+ };
-}
-
-weights_from!(OptimalParameters, RobustParameters, PredictiveParameters);
 
 /// A regulator: (dropped force, tilt acceleration) = -gains * state, at a cost to come
 /// of state' cost state.

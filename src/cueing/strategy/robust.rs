@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::law::{AxisState, Decision, Jump, Law, LawInput, Unsolvable};
 use super::minimax::Disturbance;
 use super::optimal::{Optimal, Tuning};
-use super::regulator::AxisModel;
+use super::regulator::{AxisModel, Weights};
 use crate::interface::{Parameters, RobustParameters};
 
 /// The strategy: the optimal one with the gains of this regulator.
@@ -36,11 +36,13 @@ impl Law for Robust {
 }
 
 impl From<&RobustParameters> for Tuning {
+    #[rustfmt::skip]
     fn from(parameters: &RobustParameters) -> Self {
-        Tuning {
-            weights: parameters.into(),
-            split_time: parameters.split_time,
-            disturbance: Some(Disturbance { attenuation: parameters.attenuation, fast: parameters.fast_disturbance }),
-        }
+        let RobustParameters {
+            weight_position: position, weight_velocity: velocity, weight_tilt_rate: tilt_rate,
+            weight_tilt_acceleration: tilt_acceleration, slow_pole, fast_pole, attenuation, fast_disturbance, split_time,
+        } = *parameters;
+        let weights = Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole };
+        Tuning { weights, split_time, disturbance: Some(Disturbance { attenuation, fast: fast_disturbance }) }
     }
 }

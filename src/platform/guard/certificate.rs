@@ -74,6 +74,7 @@ impl Certifier {
         safety: &SafetyParameters,
         step: f64,
     ) -> Option<f64> {
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
         let (now, next) = (&from.coordinates, &to.coordinates);
         let per_step = 1.0 / step;
         let bend = 2.0 * per_step * per_step;
@@ -94,8 +95,8 @@ impl Certifier {
         let mut duration = joint_speed * joint_limits.stop_time_per_speed;
         for k in 0..3 {
             let speed = next.linear.velocity[k].abs();
-            if speed >= safety.acceleration_limit[k] * duration {
-                duration = speed / safety.acceleration_limit[k];
+            if speed >= acceleration_limit[k] * duration {
+                duration = speed / acceleration_limit[k];
             }
         }
         let time = 0.5 * duration + step;
@@ -118,13 +119,13 @@ impl Certifier {
             && greatest + moved <= self.limits.max
             && (!CRANKS || reach <= joint_limits.travel);
         let axis_complies = |k: usize| {
-            let most = safety.acceleration_limit[k];
+            let most = acceleration_limit[k];
             let ends = max(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
             let fastest = ends + per_step * gap[k].abs();
             change[k].abs() * per_step + bend * gap[k].abs() <= most
                 && next.linear.acceleration[k].abs() <= most
-                && fastest <= safety.velocity_limit[k]
-                && next.linear.position[k].abs() + fastest * time <= safety.position_limit[k]
+                && fastest <= velocity_limit[k]
+                && next.linear.position[k].abs() + fastest * time <= position_limit[k]
         };
         (legs_comply && (0..3).all(axis_complies)).then_some(duration)
     }
@@ -340,6 +341,7 @@ pub fn axes_comply_with_limits(
     safety: &SafetyParameters,
     step: f64,
 ) -> bool {
+    let SafetyParameters { position_limit: _, velocity_limit, acceleration_limit } = safety;
     let (now, next) = (&from.linear, &to.linear);
     let Transition { start, end, gap } = Transition::new(now, next, step);
     let mut complies = true;
@@ -347,11 +349,11 @@ pub fn axes_comply_with_limits(
         let (before, after) = (now.velocity[k], next.velocity[k]);
         let gap = gap[k].abs();
         let turned = turning_point(now.position[k], before, after, start.acceleration[k]);
-        let most = safety.acceleration_limit[k] * WITH_ROUNDING;
+        let most = acceleration_limit[k] * WITH_ROUNDING;
         complies &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
         complies &= next.acceleration[k].abs() <= most;
         // Beyond a tightened limit an axis may become slower, not faster.
-        let fastest = max(safety.velocity_limit[k] * WITH_ROUNDING, before.abs());
+        let fastest = max(velocity_limit[k] * WITH_ROUNDING, before.abs());
         complies &= max(before.abs(), after.abs()) + gap / step <= fastest;
         let (lowest, highest) = reachable(from, safety, k);
         let (arrived, shown) = (end.position[k], next.position[k]);

@@ -143,11 +143,12 @@ impl Certifier {
         let max_step = self.limits.max_step;
         let mut hardest = 0.25 * acceleration;
         let mut fastest = min(0.5 * velocity, square_root(0.1 * acceleration * turning_length));
+        let SafetyParameters { position_limit: _, velocity_limit, acceleration_limit } = safety;
         for k in 0..3 {
             // The joints' travel for each metre on this axis.
             let ratio = 0.5 * distance / max(now.linear.position[k].abs(), f64::MIN_POSITIVE);
-            hardest = min(safety.acceleration_limit[k] * ratio, hardest);
-            fastest = min(safety.velocity_limit[k] * ratio, fastest);
+            hardest = min(acceleration_limit[k] * ratio, hardest);
+            fastest = min(velocity_limit[k] * ratio, fastest);
         }
         let along = Limits::symmetric(f64::INFINITY, fraction * fastest, fraction * hardest, max_step);
         let travelled =

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::horizon::{BLOCKS, Horizon};
 use super::program::Nodes;
 use crate::cueing::strategy::law::StepContext;
-use crate::interface::Parameters;
+use crate::interface::{AngularParameters, Parameters, SplitterParameters};
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 use crate::platform::reach::{neutral_lengths, short_stroke_factor};
 use crate::platform::{Geometry, Pose, lengths_with_jacobian};
@@ -74,6 +74,9 @@ impl<'a> LegContext<'a> {
     pub fn of(context: &StepContext<'a>) -> Self {
         let StepContext { parameters, guard, angles, .. } = *context;
         let Parameters { rig, predictive, angular, splitter, .. } = parameters;
+        let SplitterParameters { omega1: heave, zeta1: _, omega2: _, zeta2: _, low_pass_omega: _, low_pass_zeta: _ } =
+            splitter;
+        let AngularParameters { omega1: frequencies, zeta1: _, omega2: _, zeta2: _ } = angular;
         let linear = &guard.commanded().coordinates.linear;
         LegContext {
             geometry: guard.geometry(),
@@ -83,10 +86,10 @@ impl<'a> LegContext<'a> {
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,
             heave_bound: LARGEST_HEAVE,
-            heave_frequency: splitter.omega1.z,
+            heave_frequency: heave.z,
             angles: angles.position,
             angle_rates: angles.velocity,
-            frequencies: Vector3::new(angular.omega1.roll, angular.omega1.pitch, angular.omega1.yaw),
+            frequencies: frequencies.to_vector(),
         }
     }
 

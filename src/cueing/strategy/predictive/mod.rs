@@ -36,7 +36,7 @@ use self::program::{
 };
 use super::law::{AxisState, Decision, Jump, Law, LawInput, PlanStatus, Previewing, Unsolvable};
 use super::regulator::{AxisModel, Weights};
-use crate::filter::bumpless::GlidingOffset;
+use crate::filter::bumpless::{GlidingOffset, glide_by_logarithms};
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
 
 /// Iterations of an internal step of up to [`REFERENCE_STEP`] seconds; longer steps
@@ -86,7 +86,7 @@ pub struct Predictive {
     dropped_forces: [f64; 2],
     idle_return: [IdleReturn; 2],
     /// Logarithms of the weights and poles in force less those set.
-    glide: GlidingOffset<6>,
+    glide: GlidingOffset<GLIDING_COUNT>,
     /// Time until the programs follow the glide again \[s\].
     until_followed: f64,
 }
@@ -109,12 +109,14 @@ pub struct Plan {
 }
 
 impl From<&PredictiveParameters> for Tuning {
+    #[rustfmt::skip]
     fn from(parameters: &PredictiveParameters) -> Self {
-        Tuning {
-            weights: parameters.into(),
-            forecast: parameters.forecast,
-            memory: Memory { fit: parameters.memory, selection: parameters.selection },
-        }
+        let PredictiveParameters {
+            weight_position: position, weight_velocity: velocity, weight_tilt_rate: tilt_rate,
+            weight_tilt_acceleration: tilt_acceleration, slow_pole, fast_pole, forecast, memory, selection, leg_margin: _,
+        } = *parameters;
+        let weights = Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole };
+        Tuning { weights, forecast, memory: Memory { fit: memory, selection } }
     }
 }
 
@@ -242,11 +244,8 @@ impl Predictive {
     /// Makes the programs with the weights in force.
     fn follow_glide(&mut self) {
         if !self.glide.is_over() {
-            let [position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole] =
-                (logarithms(&self.tuning.weights) + self.glide.values()).map(libm::exp).into();
-            let weights = Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole };
             // Weights on the way may be unusable where both ends are not: the next ones follow.
-            let _ = self.programs.retune(&self.models, &weights);
+            let _ = self.programs.retune(&self.models, &in_force(&self.tuning.weights, &self.glide));
         }
         self.until_followed = FOLLOW_TIME;
     }
@@ -418,11 +417,10 @@ impl Predictive {
     }
 }
 
-/// Logarithms of weights and poles.
-fn logarithms(weights: &Weights) -> SVector<f64, 6> {
-    let Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole } = *weights;
-    SVector::from([position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole].map(libm::log))
-}
+glide_by_logarithms!(Weights,
+    Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole }
+    => [position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole]
+);
 
 impl Plan {
     /// Dropped forces of an axis at the nodes, and tilt accelerations relative to their limit.
