@@ -602,7 +602,7 @@ impl Washout {
             acceleration: motion.acceleration,
             orientation: motion.orientation.angles,
             angular_velocity: motion.angular_velocity,
-            length: legs.length,
+            length: legs.position,
             leg_velocity: legs.velocity,
             felt_specific_force: self.felt.specific_force,
             felt_angular_velocity: self.felt.angular_velocity,
@@ -628,7 +628,7 @@ impl Washout {
     #[inline(never)]
     fn crank_outputs(&self, cranks: &Cranks) -> (Legs, [[f64; 6]; 2]) {
         let PlatformState { motion, legs, .. } = self.guard.commanded();
-        let angles = [legs.length, legs.velocity].map(|values| values.map(|value| value / cranks.arm));
+        let angles = [legs.position, legs.velocity].map(|values| values.map(|value| value / cranks.arm));
         (joint_distances(self.guard.geometry(), motion), angles)
     }
 

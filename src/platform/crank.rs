@@ -215,7 +215,7 @@ impl Cranks {
                 + (arms.joint.z[i] - self.arm * arms.sin[i]) * (v.z + (w.x * at.y[i] - w.y * at.x[i]));
             legs.velocity[i] = along / (self.rod * arms.divisor[i]);
         }
-        legs.length = self.arcs(&arms);
+        legs.position = self.arcs(&arms);
         legs
     }
 
@@ -225,7 +225,7 @@ impl Cranks {
         let arms = self.arms(&geometry.base, &at, &motion.position);
         let [n, _] = self.rows(&arms, &at);
         let [velocity, acceleration] = self.rates(&arms, &at, &n, motion);
-        LegMotion { length: self.arcs(&arms), velocity, acceleration, transmission: arms.least_transmission() }
+        LegMotion { position: self.arcs(&arms), velocity, acceleration, transmission: arms.least_transmission() }
     }
 
     /// Accelerations of the arms for a motion of the platform, and the Jacobian there.

@@ -116,7 +116,7 @@ pub fn motion_of_legs(
     accelerations: &[f64; 6],
     guess: &Pose,
 ) -> Result<PlatformMotion, NotConverged> {
-    let pose = forward_kinematics(geometry, &legs.length, guess)?;
+    let pose = forward_kinematics(geometry, &legs.position, guess)?;
     let lu = jacobian(geometry, &pose).lu();
     let solve = |rates: &[f64; 6]| lu.solve(&Vector6::from(*rates)).unwrap_or_else(Vector6::zeros);
     let velocity = solve(&legs.velocity);

@@ -7,19 +7,19 @@ use super::{Geometry, PlatformMotion, Pose};
 use crate::motion::min_max::{max, min};
 use crate::motion::square_root::square_root;
 
-/// The six legs: length \[m\] and rate \[m/s\]. With cranks, the length is the arc of an arm's end
-/// from its heading, positive up.
+/// The six actuators: position \[m\] and rate \[m/s\]. A leg's position is its length; a crank's is
+/// the arc of the arm's end from its heading, positive up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Legs {
-    pub length: [f64; 6],
+    pub position: [f64; 6],
     pub velocity: [f64; 6],
 }
 
 impl Legs {
-    /// The least and the greatest length \[m\], of lengths that are numbers.
+    /// The least and the greatest position \[m\], of positions that are numbers.
     #[inline(always)]
     pub fn extremes(&self) -> [f64; 2] {
-        let [a, b, c, d, e, f] = self.length;
+        let [a, b, c, d, e, f] = self.position;
         [min(min(min(a, c), e), min(min(b, d), f)), max(max(max(a, c), e), max(max(b, d), f))]
     }
 }
@@ -27,7 +27,7 @@ impl Legs {
 /// A leg shorter than this has no direction; no rig that is accepted comes near it \[m\].
 const MIN_LEG_LENGTH: f64 = 1e-9;
 
-/// Lengths and rates of the legs for a motion of the platform.
+/// Positions and rates of the actuators for a motion of the platform.
 ///
 /// ```
 /// use moris_washout::Rig;
@@ -51,7 +51,7 @@ pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs 
     }
 }
 
-/// Distances of the joints and their rates, whether legs or cranks are between them.
+/// Distances of the joints as positions, and their rates, whether legs or cranks are between them.
 #[inline(always)]
 pub(crate) fn joint_distances(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
     let Geometry { base, platform, .. } = geometry;
@@ -65,23 +65,23 @@ pub(crate) fn joint_distances(geometry: &Geometry, motion: &PlatformMotion) -> L
             + y * (v.y + (w.z * arm.x[i] - w.x * arm.z[i]))
             + z * (v.z + (w.x * arm.y[i] - w.y * arm.x[i]));
         let length = square_root(x * x + y * y + z * z);
-        legs.length[i] = length;
+        legs.position[i] = length;
         legs.velocity[i] = along / length.max(MIN_LEG_LENGTH);
     }
     legs
 }
 
-/// The six legs with their accelerations: length \[m\], rate \[m/s\] and acceleration \[m/s2\].
+/// As [`Legs`], with accelerations \[m/s2\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LegMotion {
-    pub length: [f64; 6],
+    pub position: [f64; 6],
     pub velocity: [f64; 6],
     pub acceleration: [f64; 6],
     /// The smallest transmission of the cranks; 1 with legs.
     pub transmission: f64,
 }
 
-/// Lengths, rates and accelerations of the legs for a motion of the platform.
+/// Positions, rates and accelerations of the actuators for a motion of the platform.
 #[inline]
 pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
     let Geometry { base, platform, cranks } = geometry;
@@ -105,7 +105,7 @@ pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
         let by = a.y + (turn.z * ax - turn.x * az) + (w.z * tx - w.x * tz);
         let bz = a.z + (turn.x * ay - turn.y * ax) + (w.x * ty - w.y * tx);
         let rate = nx * vx + ny * vy + nz * vz;
-        legs.length[i] = length;
+        legs.position[i] = length;
         legs.velocity[i] = rate;
         // The part of the joint's velocity across the leg turns it, which lengthens it as well.
         let turning = (vx * vx + vy * vy + vz * vz - rate * rate) / length;
@@ -114,7 +114,7 @@ pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
     legs
 }
 
-/// Accelerations of the legs' lengths \[m/s2\] for a motion of the platform.
+/// Accelerations of the actuators \[m/s2\] for a motion of the platform.
 ///
 /// ```
 /// use moris_washout::Rig;
@@ -191,7 +191,7 @@ mod tests {
             for i in 0..6 {
                 let rate = (after[i] - before[i]) / (2.0 * H);
                 let acceleration = (after[i] - 2.0 * now[i] + before[i]) / (H * H);
-                for length in [legs.length[i], all.length[i]] {
+                for length in [legs.position[i], all.position[i]] {
                     assert!((length - now[i]).abs() < 1e-15, "leg {i}: {length} m, not {} m", now[i]);
                 }
                 for velocity in [legs.velocity[i], all.velocity[i]] {

@@ -59,11 +59,11 @@ fn a_mirrored_motion_moves_the_mirrored_legs_alike() {
     };
     let near = |a: &[f64; 6], b: &[f64; 6]| assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12), "{a:?} {b:?}");
     let [above, under] = [inverse_kinematics(&geometry, &motion), inverse_kinematics(&mirror, &reflected)];
-    near(&above.length, &under.length);
+    near(&above.position, &under.position);
     near(&above.velocity, &under.velocity);
     near(&leg_accelerations(&geometry, &motion), &leg_accelerations(&mirror, &reflected));
 
-    let found = forward_kinematics(&mirror, &above.length, &Pose::neutral(&below)).expect("found");
+    let found = forward_kinematics(&mirror, &above.position, &Pose::neutral(&below)).expect("found");
     assert!((found.position - reflected.position).norm() < 1e-9, "{:?}", found.position);
     assert!((found.orientation.rotation - other.rotation).norm() < 1e-9);
 }

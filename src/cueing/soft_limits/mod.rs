@@ -243,7 +243,7 @@ impl SoftLimits {
         let axes =
             (0..3).all(|k| self.axis_limits[k].stops_in_time(linear.position[k], linear.velocity[k], pace, slow_speed));
         axes && (0..6)
-            .all(|i| self.leg_limits.stops_in_time(state.legs.length[i], state.legs.velocity[i], pace, slow_speed))
+            .all(|i| self.leg_limits.stops_in_time(state.legs.position[i], state.legs.velocity[i], pace, slow_speed))
     }
 
     /// The demand at the step's end, changed so that it approaches no limit faster than it may.
@@ -280,7 +280,7 @@ impl SoftLimits {
         let of_legs = |pair: [usize; 2]| {
             let velocity = two(&state.legs.velocity, pair);
             let acceleration = (two(&demand.legs.velocity, pair) - velocity) * per_step;
-            self.leg_pair.is_within(two(&state.legs.length, pair), velocity, acceleration, self.pace)
+            self.leg_pair.is_within(two(&state.legs.position, pair), velocity, acceleration, self.pace)
         };
         let within = axes(0, [0, 1]) & axes(1, [2, 2]) & of_legs([0, 1]) & of_legs([2, 3]) & of_legs([4, 5]);
         within.move_mask() == 0b11
@@ -338,7 +338,7 @@ impl SoftLimits {
             (lower[k], upper[k]) = range(k, &self.axis_limits[k], [linear.position[k], linear.velocity[k]]);
         }
         for i in 0..6 {
-            let (least, most) = range(3 + i, &self.leg_limits, [state.legs.length[i], state.legs.velocity[i]]);
+            let (least, most) = range(3 + i, &self.leg_limits, [state.legs.position[i], state.legs.velocity[i]]);
             (lower[3 + i], upper[3 + i]) = (least - remaining[i], most - remaining[i]);
         }
         Rows { normals, lower, upper }

@@ -198,7 +198,7 @@ impl Certifier {
         // The gap at the end as accelerations: one from lengths, one from rates.
         let rounding = ROUNDING / right.transmission;
         let gaps = core::array::from_fn(|i| {
-            let length = without_rounding(to.legs.length[i] - right.length[i], rounding).abs();
+            let length = without_rounding(to.legs.position[i] - right.position[i], rounding).abs();
             let rate = without_rounding(to.legs.velocity[i] - right.velocity[i], rounding).abs();
             2.0 * length / (step * step) + rate / step
         });
@@ -220,7 +220,7 @@ impl Certifier {
             let start = self.leg_motion_of(plan.start());
             let least = self.geometry.cranks.map_or(0.0, |cranks| cranks.least_transmission);
             return start.transmission >= least
-                && start.length.iter().all(|length| (self.limits.min..=self.limits.max).contains(length));
+                && start.position.iter().all(|length| (self.limits.min..=self.limits.max).contains(length));
         }
         let mut begin = 0.0;
         for end in stops {
@@ -282,7 +282,7 @@ impl Certifier {
         let least = |lengths: &[f64; 6]| lengths.iter().fold(f64::INFINITY, |a, &b| a.min(b));
         let spread = match &self.geometry.cranks {
             None => {
-                let length = least(&left.length).min(least(&right.length)) - bounds.velocity * half;
+                let length = least(&left.position).min(least(&right.position)) - bounds.velocity * half;
                 if length.is_nan() || length <= 0.0 {
                     return false;
                 }
@@ -303,8 +303,8 @@ impl Certifier {
             let beyond = 0.5 * acceleration * half * half;
             complies &= acceleration + gap <= self.limits.acceleration;
             complies &= speed + gap * half <= self.limits.velocity;
-            complies &= left.length[i].min(right.length[i]) - beyond >= shortest;
-            complies &= left.length[i].max(right.length[i]) + beyond <= longest;
+            complies &= left.position[i].min(right.position[i]) - beyond >= shortest;
+            complies &= left.position[i].max(right.position[i]) + beyond <= longest;
         }
         complies
     }

@@ -120,7 +120,7 @@ impl Certifier {
             let longest = self.limits.max - high * s;
             lengths.map(|length| [length * length - shortest * shortest, longest - length])
         };
-        let at = |s: f64| beyond(s, &self.state(coordinates_at(s)).legs.length);
+        let at = |s: f64| beyond(s, &self.state(coordinates_at(s)).legs.position);
         divided(at, &beyond(1.0, &self.home.length), |[begin, end], ends| {
             let part = end - begin;
             chords_are_clear(ends[0], ends[1], [chord_gap * part * part, 0.5 * turning * part * part])

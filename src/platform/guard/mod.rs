@@ -186,7 +186,7 @@ impl ActuatorGuard {
         let (now, linear) = (&self.commanded.coordinates.linear, &demand.coordinates.linear);
         let apart = |before: f64, after: f64, v: f64, w: f64| (after - before - 0.5 * (v + w) * step).abs();
         (0..6).all(|i| {
-            apart(legs.length[i], next.length[i], legs.velocity[i], next.velocity[i])
+            apart(legs.position[i], next.position[i], legs.velocity[i], next.velocity[i])
                 <= near * self.pursuit.acceleration
         }) && (0..3).all(|k| {
             apart(now.position[k], linear.position[k], now.velocity[k], linear.velocity[k])
@@ -238,8 +238,8 @@ impl ActuatorGuard {
 
     /// Each leg's distance from each end of its stroke, and the rate of it.
     fn clearances(&self) -> impl Iterator<Item = (f64, f64)> {
-        let Legs { length, velocity } = self.commanded.legs;
-        (0..6)
-            .flat_map(move |i| [(length[i] - self.stroke[0], velocity[i]), (self.stroke[1] - length[i], -velocity[i])])
+        let Legs { position, velocity } = self.commanded.legs;
+        let [start, end] = self.stroke;
+        (0..6).flat_map(move |i| [(position[i] - start, velocity[i]), (end - position[i], -velocity[i])])
     }
 }

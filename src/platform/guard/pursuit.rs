@@ -88,8 +88,8 @@ impl ActuatorGuard {
     fn each_leg_pursued(&self, target: &Legs, step: f64) -> [f64; 6] {
         let legs = &self.commanded.legs;
         core::array::from_fn(|i| {
-            let leg = Motion { position: legs.length[i], velocity: legs.velocity[i], acceleration: 0.0 };
-            let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };
+            let leg = Motion { position: legs.position[i], velocity: legs.velocity[i], acceleration: 0.0 };
+            let goal = Motion { position: target.position[i], velocity: target.velocity[i], acceleration: 0.0 };
             self.pursuit.follow(&leg, &goal, CATCH_UP_FRACTION * self.pursuit.acceleration, step).velocity
         })
     }

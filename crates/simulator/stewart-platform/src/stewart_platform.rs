@@ -243,7 +243,7 @@ impl StewartPlatform {
         let Instant { motion, legs, .. } = self.now;
         let drive = Drive::new(&self.parameters, step);
         let targets: [DriveTarget; 6] =
-            std::array::from_fn(|i| drive.target(legs.length[i], legs.velocity[i], command.from[i], command.to[i]));
+            std::array::from_fn(|i| drive.target(legs.position[i], legs.velocity[i], command.from[i], command.to[i]));
         let next = self.free_step(&targets, step).unwrap_or_else(|| self.constrained_step(&targets, step));
 
         let geometry = Geometry::from(&self.parameters.rig);
@@ -289,7 +289,7 @@ impl StewartPlatform {
         let force = self.dynamics(&motion_ahead(&self.now.motion, 0.5 * step)).forces(&mean);
         (force.amax() <= self.parameters.actuators.force_limit).then(|| Next {
             legs: Legs {
-                length: targets.map(|target| target.motion.position),
+                position: targets.map(|target| target.motion.position),
                 velocity: targets.map(|target| target.motion.velocity),
             },
             force: None,
@@ -302,19 +302,20 @@ impl StewartPlatform {
     /// body's.
     fn constrained_step(&self, targets: &[DriveTarget; 6], step: f64) -> Next {
         let ([start, end], limit) = (self.parameters.rig.stroke(), self.parameters.actuators.force_limit);
-        let Legs { length, velocity } = self.now.legs;
+        let Legs { position, velocity } = self.now.legs;
         let dynamics = self.dynamics(&motion_ahead(&self.now.motion, 0.5 * step));
         let free = Vector6::from(velocity) + step * dynamics.leg_accelerations(&Vector6::zeros());
         let demand: [Leg; 6] = std::array::from_fn(|i| Leg {
             demand: targets[i].motion.velocity,
             // A stop is inelastic: the leg ends the step at rest there.
-            slowest: (2.0 * (start - length[i]) / step - velocity[i]).min(0.0),
-            fastest: (2.0 * (end - length[i]) / step - velocity[i]).max(0.0),
+            slowest: (2.0 * (start - position[i]) / step - velocity[i]).min(0.0),
+            fastest: (2.0 * (end - position[i]) / step - velocity[i]).max(0.0),
         });
         let Outcome { velocity: reached, force } = solve(&free, &(step * dynamics.leg_mobility()), &demand, limit);
-        let length = std::array::from_fn(|i| (length[i] + 0.5 * step * (velocity[i] + reached[i])).clamp(start, end));
+        let position =
+            std::array::from_fn(|i| (position[i] + 0.5 * step * (velocity[i] + reached[i])).clamp(start, end));
         Next {
-            legs: Legs { length, velocity: reached.into() },
+            legs: Legs { position, velocity: reached.into() },
             force: Some(force),
             force_limited: force.amax() >= limit,
             at_stop: force.amax() > limit,
@@ -362,7 +363,7 @@ impl StewartPlatform {
             orientation: orientation.angles,
             angular_velocity,
             angular_acceleration,
-            length: lengths.length,
+            length: lengths.position,
             leg_velocity: lengths.velocity,
             leg_acceleration,
             force: drive.into(),
@@ -371,7 +372,7 @@ impl StewartPlatform {
             felt_specific_force: felt.specific_force,
             felt_angular_velocity: felt.angular_velocity,
             stroke_margin: self.stroke_clearance(legs).0,
-            angle: self.angles(&legs.length),
+            angle: self.angles(&legs.position),
             angular_rate: self.angles(&legs.velocity),
             ..Output::default()
         }
@@ -387,9 +388,9 @@ impl StewartPlatform {
     /// The smallest distance of a leg from an end of its stroke \[m\], and its rate \[m/s\].
     fn stroke_clearance(&self, legs: &Legs) -> (f64, f64) {
         let [start, end] = self.parameters.rig.stroke();
-        let clearances = legs.length.iter().zip(&legs.velocity);
+        let clearances = legs.position.iter().zip(&legs.velocity);
         let clearances =
-            clearances.flat_map(|(&length, &velocity)| [(length - start, velocity), (end - length, -velocity)]);
+            clearances.flat_map(|(&position, &velocity)| [(position - start, velocity), (end - position, -velocity)]);
         clearances.fold((f64::INFINITY, 0.0), |nearest, next| if next.0 < nearest.0 { next } else { nearest })
     }
 }
@@ -411,7 +412,7 @@ impl Instant {
         let dynamics = Dynamics::new(&geometry, &Body::new(&parameters.masses), &motion, parameters.setting.gravity);
         Instant {
             motion,
-            legs: Legs { length: neutral_lengths(&parameters.rig), velocity: [0.0; 6] },
+            legs: Legs { position: neutral_lengths(&parameters.rig), velocity: [0.0; 6] },
             acceleration: Vector6::zeros(),
             force: dynamics.forces(&Vector6::zeros()),
             lean: 0.0,

@@ -153,7 +153,7 @@ impl Conditions {
         let needed = c.norm() + r * sum(&e) + g + g * h / 2.0 * (fastest / self.shortest + turning);
         let duration = self.stop_duration(speed(next));
         let time = duration / 2.0 + h;
-        let legs = self.legs(next).length;
+        let legs = self.legs(next).position;
         let a = self.rig.acceleration_limit;
         let legs_comply = curvature <= 0.4 * a
             && curvature + needed <= a
@@ -261,7 +261,7 @@ impl Conditions {
         let ends = [self.legs(&start), self.legs(&end)];
         let reached = self.legs(next);
         let gaps = std::array::from_fn(|i| {
-            2.0 * size(reached.length[i] - ends[1].length[i]) / (h * h)
+            2.0 * size(reached.position[i] - ends[1].position[i]) / (h * h)
                 + size(reached.velocity[i] - ends[1].velocity[i]) / h
         });
         self.interval_complies(&ends, &self.bounds(&start, &end), *h, None, gaps)
@@ -317,7 +317,7 @@ impl Conditions {
         gaps: [f64; 6],
     ) -> bool {
         let half = duration / 2.0;
-        let shortest = left.length.iter().chain(&right.length).copied().reduce(f64::min).unwrap() - g1 * half;
+        let shortest = left.position.iter().chain(&right.position).copied().reduce(f64::min).unwrap() - g1 * half;
         if shortest <= 0.0 {
             return false;
         }
@@ -330,7 +330,7 @@ impl Conditions {
             let inside = most(middle[0].abs(), middle[1].abs()) + jerk * half * half;
             let velocity = most(inside, most(left.velocity[i].abs(), right.velocity[i].abs()));
             let beyond = acceleration * half * half / 2.0;
-            let lengths = [left.length[i], right.length[i]];
+            let lengths = [left.position[i], right.position[i]];
             acceleration + gaps[i] <= self.rig.acceleration_limit
                 && velocity + gaps[i] * half <= self.rig.velocity_limit
                 && stroke.is_none_or(|(shortest, longest)| {
@@ -448,10 +448,10 @@ fn points_on_the_way_certify_a_stop_in_pieces_as_their_conditions_say() {
 fn an_interval_in_which_a_leg_could_vanish_is_refused() {
     let certifier =
         Certifier::new(&Limits([1e-9, 1e9, 1e9, 1e9, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]).rig(), 1e-9);
-    let legs = LegMotion { length: [1.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6], transmission: 1.0 };
+    let legs = LegMotion { position: [1.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6], transmission: 1.0 };
     let complies = |speed: f64, length: f64| {
         let bounds = JointBounds { velocity: speed, acceleration: 0.0, jerk: 0.0 };
-        let legs = LegMotion { length: [length; 6], ..legs };
+        let legs = LegMotion { position: [length; 6], ..legs };
         certifier.interval_complies_with_leg_limits(
             &legs,
             &legs,

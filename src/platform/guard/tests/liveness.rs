@@ -102,10 +102,10 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     let geometry = Geometry::from(&rig);
     let now = PlatformState::new(rest, &geometry, rig.neutral_height);
     let legs = now.legs;
-    let shortest = legs.length.into_iter().fold(f64::INFINITY, f64::min);
+    let shortest = legs.position.into_iter().fold(f64::INFINITY, f64::min);
     let neutral = leg_lengths(&geometry, &Pose::neutral(&rig)).into_iter().fold(f64::INFINITY, f64::min);
     rig.min_length = shortest - step_margin(&rig, STEP);
-    rig.max_length = rig.max_length.max(legs.length.into_iter().fold(0.0, f64::max) + 0.05);
+    rig.max_length = rig.max_length.max(legs.position.into_iter().fold(0.0, f64::max) + 0.05);
     let mut safety = SafetyParameters::default();
     safety.position_limit.y = rest.linear.position.y.abs();
     let mut guard = ActuatorGuard::new(&rig, STEP);

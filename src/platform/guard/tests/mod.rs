@@ -78,7 +78,7 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
             let radius = rig.platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
             let length = |time: f64| {
                 let motion = coordinates_after(&start, time).motion(rig.neutral_height);
-                leg_motion(&geometry, &motion).length[i]
+                leg_motion(&geometry, &motion).position[i]
             };
             let [l, h] = [length(0.0), 2e-3];
             if l < 0.4 {
@@ -192,7 +192,7 @@ fn complies_with_limits(certifier: &Certifier, coordinates: &PlatformCoordinates
     let legs = leg_motion(&certifier.geometry, &coordinates.motion(certifier.neutral_height));
     const ROUNDING: f64 = 1.0 + 1e-9;
     (0..6).all(|i| {
-        (certifier.limits.min - 1e-12..=certifier.limits.max + 1e-12).contains(&legs.length[i])
+        (certifier.limits.min - 1e-12..=certifier.limits.max + 1e-12).contains(&legs.position[i])
             && legs.velocity[i].abs() <= certifier.limits.velocity * ROUNDING
             && legs.acceleration[i].abs() <= certifier.limits.acceleration * ROUNDING
     })
@@ -410,8 +410,8 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
                 (0..=points).fold([f64::MIN; 4], |largest, k| {
                     let legs = at(k as f64 / points as f64 * duration);
                     (0..6).fold(largest, |[a, v, short, long], i| {
-                        let longer = long.max(legs.length[i]);
-                        let shorter = short.max(-legs.length[i]);
+                        let longer = long.max(legs.position[i]);
+                        let shorter = short.max(-legs.position[i]);
                         [a.max(legs.acceleration[i].abs()), v.max(legs.velocity[i].abs()), shorter, longer]
                     })
                 })
@@ -486,10 +486,10 @@ fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
         guard.has_caught_up(&guard.state(demand), &safety, step)
     };
     // Surge changes the leg that lies along it most by this much a metre.
-    let neutral = guard.commanded.legs.length;
+    let neutral = guard.commanded.legs.position;
     let mut moved = PlatformCoordinates::default();
     moved.linear.position.x = 1e-6;
-    let moved = guard.state(moved).legs.length;
+    let moved = guard.state(moved).legs.position;
     let leg = (0..6).map(|i| (moved[i] - neutral[i]).abs() / 1e-6).fold(0.0, f64::max);
     let of_legs = 0.01 * rig.acceleration_limit * step * step / leg;
     assert!(joins(0.999 * of_legs, 1e3) && !joins(1.001 * of_legs, 1e3));

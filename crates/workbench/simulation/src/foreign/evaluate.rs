@@ -55,7 +55,7 @@ impl Evaluation {
         let motions: Vec<PlatformMotion> = (0..poses.len()).map(motion).collect();
         let geometry = Geometry::from(&parameters.rig);
         let legs = motions.iter().map(|motion| inverse_kinematics(&geometry, motion));
-        let (legs, leg_rates) = legs.map(|legs| (legs.length, legs.velocity)).unzip();
+        let (legs, leg_rates) = legs.map(|legs| (legs.position, legs.velocity)).unzip();
         let head = |sample: usize| {
             let (before, part) = (sample / parts, sample % parts);
             let lean = match part {
