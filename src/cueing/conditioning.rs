@@ -243,7 +243,7 @@ impl ConditioningGlide {
             core::array::from_fn(|k| values.fixed_rows::<3>(3 * k).into_owned());
         let vectors = [force_scale, rate_scale, force_limit.map(libm::exp), rate_limit.map(libm::exp)];
         let cutoff = |time: f64| if time > SHORTEST_TIME { 1.0 / time } else { 0.0 };
-        with_gliding(target, (vectors, core::array::from_fn(|k| cutoff(values[3 * VECTORS + k]))))
+        with_gliding(target, (vectors, core::array::from_fn(|k| cutoff(values[3 * VECTOR_COUNT + k]))))
     }
 
     /// The cue with the correction.
@@ -259,11 +259,11 @@ const SHORTEST_TIME: f64 = 1e-6;
 const LONGEST_TIME: f64 = 1e6;
 
 /// Counts of the vectors and cutoffs that glide, and of the numbers in them.
-const VECTORS: usize = 4;
-const CUTOFFS: usize = 2;
-const GLIDING_COUNT: usize = 3 * VECTORS + CUTOFFS;
+const VECTOR_COUNT: usize = 4;
+const CUTOFF_COUNT: usize = 2;
+const GLIDING_COUNT: usize = 3 * VECTOR_COUNT + CUTOFF_COUNT;
 /// The parameters that glide.
-type Gliding = ([Vector3<f64>; VECTORS], [f64; CUTOFFS]);
+type Gliding = ([Vector3<f64>; VECTOR_COUNT], [f64; CUTOFF_COUNT]);
 
 /// The parameters that glide. The others are choices and change at once.
 pub fn gliding(parameters: &ConditioningParameters) -> Gliding {
@@ -275,7 +275,7 @@ pub fn gliding(parameters: &ConditioningParameters) -> Gliding {
     ([force_scale, rate_scale, force_limit, rate_limit], [cutoff, rate_cutoff])
 }
 
-/// These choices, with those parameters that glide.
+/// Choices of these parameters, with the given ones that glide.
 pub fn with_gliding(choices: &ConditioningParameters, (vectors, cutoffs): Gliding) -> ConditioningParameters {
     let mut changed = *choices;
     [changed.force_scale, changed.rate_scale, changed.force_limit, changed.rate_limit] = vectors;
