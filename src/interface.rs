@@ -125,7 +125,7 @@ interface! {
         "status.safetyActive" safety_active: bool = false;
         /// True if the actuator guard changed the motion to keep an actuator's or the platform's limits during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
-        /// Smallest clearance of an actuator: its distance from either end of its stroke.
+        /// Smallest clearance of an actuator from either end of its stroke; with cranks, along the circle of the arm's end.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0, start_depends_on(&["actuator.", "rig."]);
         /// True if the predictive strategy's last attempt at a new plan failed and the previous plan continues.
         "status.planKept" plan_kept: bool = false;
@@ -326,9 +326,9 @@ interface! {
 interface! {
     /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
-        /// Scale of the specific force after gravity removal; a negative one inverts the cue.
+        /// Scale of the specific force after gravity removal; below 0 the cue's sign changes.
         "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0), usual(USUAL_SCALES), tuning_group("scale"), heading("Scales"), importance_rank(2);
-        /// Scale of the angular rates (x of roll, y of pitch, z of yaw); a negative one inverts the cue.
+        /// Scale of the angular rates (x of roll, y of pitch, z of yaw); below 0 the cue's sign changes.
         "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9), usual(USUAL_SCALES), tuning_group("scale"), heading("Scales"), importance_rank(3);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(4.5, 5.0, 8.0);

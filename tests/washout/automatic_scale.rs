@@ -34,8 +34,8 @@ fn ridden(parameters: &Parameters, duration: f64, force: impl Fn(f64) -> [f64; 2
         .collect()
 }
 
-/// The share of the time in which the felt sway has the wrong sign.
-fn inverted(ride: &[([f64; 2], Output)]) -> f64 {
+/// Fraction of the time in which the felt sway exceeds the threshold with the wrong sign.
+fn wrong_sign_fraction(ride: &[([f64; 2], Output)]) -> f64 {
     let wrong = |(force, output): &&([f64; 2], Output)| {
         let felt = output.felt_specific_force.y;
         felt.abs() > 0.17 && felt * force[1] < 0.0
@@ -48,9 +48,9 @@ fn what_is_too_hard_is_felt_smaller_with_the_right_sign() {
     for set in ["", presets::OPTIMAL, presets::ROBUST] {
         let off = ridden(&presets::parameters(set), 40.0, slalom(4.5));
         let on = ridden(&automatic(set), 40.0, slalom(4.5));
-        let (off, late) = (inverted(&off[1000..]), &on[1000..]);
+        let (off, late) = (wrong_sign_fraction(&off[1000..]), &on[1000..]);
         let factor = late.last().unwrap().1.scale_factor;
-        assert!(off > 0.03 && inverted(late) < 0.5 * off, "{set:?}: {off}, {}", inverted(late));
+        assert!(off > 0.03 && wrong_sign_fraction(late) < 0.5 * off, "{set:?}: {off}, {}", wrong_sign_fraction(late));
         assert!((0.1..0.5).contains(&factor), "{set:?}: {factor}");
     }
 }
@@ -175,7 +175,7 @@ fn what_is_foreseen_is_felt_larger_and_what_is_foreseen_wrong_smaller() {
     let without = unknown.iter().map(|(_, output)| output.scale_factor).sum::<f64>() / unknown.len() as f64;
     let (ride, known) = previewed(1.0);
     assert!(known > 1.5 * without, "{known} {without}");
-    assert!(inverted(&ride) < 0.06, "{}", inverted(&ride));
+    assert!(wrong_sign_fraction(&ride) < 0.06, "{}", wrong_sign_fraction(&ride));
     let (_, wrong) = previewed(-1.0);
     assert!(wrong < 0.7 * without, "{wrong} {without}");
 }

@@ -97,7 +97,7 @@ interface! {
         "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0), start_depends_on(&["gravity", "rider.lean"]);
         /// Angular velocity of the rider's head on the real motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
-        /// True if a commanded length was outside the stroke during the last communication step; the previous command is then kept.
+        /// True if a commanded length or angle was outside the stroke during the last communication step; the previous command is then kept.
         "status.commandRefused" command_refused: bool = false;
         /// True if a drive was limited by speed or acceleration, or braked ahead of an end of the stroke, during the last communication step.
         "status.driveLimited" drive_limited: bool = false;
@@ -105,7 +105,7 @@ interface! {
         "status.forceLimited" force_limited: bool = false;
         /// True if a stop at an end of the stroke held an actuator during the last communication step.
         "status.atStop" at_stop: bool = false;
-        /// Smallest distance of an actuator from either end of its stroke.
+        /// Smallest clearance of an actuator from either end of its stroke; with cranks, along the circle of the arm's end.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0, start_depends_on(&["actuator.", "rig."]);
         /// Angle of the crank's arm above its heading; 0 with legs.
         "actuator[#].angle" angle: [f64; 6] [RAD] = [0.0; 6], start_depends_on(&["crank.", "rig."]);
