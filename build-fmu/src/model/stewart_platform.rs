@@ -35,16 +35,6 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
             "<code>command[1].velocity</code> to <code>command[6].velocity</code>",
             "the six elements of <code>command.velocity</code>",
         ),
-        Wording::names(
-            "angles",
-            "<code>command[1].angle</code> to <code>command[6].angle</code>",
-            "those of <code>command.angle</code>",
-        ),
-        Wording::names(
-            "angularRates",
-            "<code>command[1].angularVelocity</code> to <code>command[6].angularVelocity</code>",
-            "those of <code>command.angularVelocity</code>",
-        ),
         Wording::fmi2_only(
             "slopes",
             " Where the host gives the lengths' derivatives (<code>fmi2SetRealInputDerivatives</code>), those count instead.",

@@ -29,11 +29,6 @@ pub const WASHOUT: FmuModel = FmuModel {
             "<code>actuator[1].length</code> to <code>actuator[6].length</code>",
             "the six elements of <code>actuator.length</code>",
         ),
-        Wording::names(
-            "angles",
-            "<code>actuator[1].angle</code> to <code>actuator[6].angle</code>",
-            "those of <code>actuator.angle</code>",
-        ),
         Wording::fmi2_only(
             "slopes",
             ", or followed linearly where the host gives their derivatives (<code>fmi2SetRealInputDerivatives</code>)",

@@ -75,7 +75,8 @@ impl Law for Adaptive {
         states: &[AxisState; 2],
     ) -> Result<[Jump; 2], Unsolvable> {
         let before = self.parameters;
-        self.retune(models, &on_rig(parameters));
+        // The gains continue from where they are.
+        (self.models, self.parameters) = (*models, on_rig(parameters));
         let in_motion = self.axes.iter().any(|axis| axis.to_travel_gain != [0.0; 2]);
         if in_motion && before != self.parameters {
             self.glide.add(&(logarithms(&before) - logarithms(&self.parameters)));
@@ -106,11 +107,6 @@ impl Adaptive {
         let gains = [parameters.nominal1, parameters.nominal2];
         let axis = Adaptation { gains, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: [0.0; 2] };
         Adaptive { models: *models, parameters: *parameters, axes: [axis; 2], glide: GlidingOffset::default() }
-    }
-
-    /// Changes the parameters. The gains continue from where they are.
-    pub fn retune(&mut self, models: &[AxisModel; 2], parameters: &AdaptiveParameters) {
-        (self.models, self.parameters) = (*models, *parameters);
     }
 
     /// Decision for a step of `step` seconds. The step begins in these states and has these
@@ -440,12 +436,12 @@ mod tests {
 
     #[test]
     fn retuning_keeps_the_gains() {
-        let before = fixed([0.7, 0.2]);
-        let after = AdaptiveParameters { weight_position: 3.0, nominal1: 0.4, ..before };
-        let mut adaptive = Adaptive::new(&[FREE; 2], &before);
+        let mut adaptive = Adaptive::new(&[FREE; 2], &fixed([0.7, 0.2]));
         let axes = adaptive.axes;
         let model = AxisModel { gravity: 9.0, ..FREE };
-        adaptive.retune(&[model; 2], &after);
-        assert_eq!(adaptive, Adaptive { models: [model; 2], parameters: after, axes, glide: GlidingOffset::default() });
+        let parameters = Parameters { adaptive: fixed([0.4, 0.2]), ..Parameters::default() };
+        adaptive.set_parameters(&[model; 2], &parameters, &[AxisState::default(); 2]).unwrap();
+        let parameters = on_rig(&parameters);
+        assert_eq!(adaptive, Adaptive { models: [model; 2], parameters, axes, glide: GlidingOffset::default() });
     }
 }
