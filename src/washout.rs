@@ -566,7 +566,8 @@ impl Washout {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let turning = RotationalMotion::new(&self.guard.demand().angles);
         let arm = turning.orientation.rotation * self.last_input.head.point;
-        compensated(conditioning.compensation, &turning, arm, &self.strategy.tilt_angles(), structure.gravity)
+        let [roll, pitch] = self.strategy.tilt().map(|tilt| tilt.position);
+        compensated(conditioning.compensation, &turning, arm, &Tilt { roll, pitch }, structure.gravity)
     }
 
     /// The parameters, as last set.

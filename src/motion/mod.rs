@@ -26,6 +26,12 @@ impl Motion {
     pub fn at_rest(position: f64) -> Self {
         Motion { position, velocity: 0.0, acceleration: 0.0 }
     }
+
+    /// The function of position, velocity and acceleration each.
+    pub(crate) fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        let [position, velocity, acceleration] = [self.position, self.velocity, self.acceleration].map(function);
+        Motion { position, velocity, acceleration }
+    }
 }
 
 impl Motion<Vector3<f64>> {

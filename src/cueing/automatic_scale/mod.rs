@@ -104,8 +104,8 @@ impl FittingScale {
             Some(bank) => {
                 let AutomaticScaleParameters { automatic: _, error, memory, fall_time, rise_time, start: _ } =
                     parameters.automatic_scale;
-                let force_limit = &parameters.conditioning.force_limit;
-                if let Some(goal) = bank.advance(references, force_limit, error, memory, step) {
+                if let Some(goal) = bank.advance(references, &parameters.conditioning.force_limit, error, memory, step)
+                {
                     let distance = libm::log(goal.scale / self.factor);
                     self.rate = if distance < 0.0 {
                         max(distance / fall_time, -FASTEST_FALL)

@@ -56,13 +56,8 @@ impl SoftLimitGlide {
         let before = self.soft_limit;
         let factor = 1.0 + PACE_RATE * step;
         let pace = match (before.pace, pace) {
-            (now, 0.0) => {
-                if idle {
-                    0.0
-                } else {
-                    now
-                }
-            }
+            (_, 0.0) if idle => 0.0,
+            (now, 0.0) => now,
             (now, target) if now < MIN_PACE || target < MIN_PACE => target,
             (now, target) => max(min(target, now * factor), now / factor),
         };

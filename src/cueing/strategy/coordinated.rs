@@ -109,8 +109,7 @@ impl Coordinated {
     /// Roll and pitch of the tilt.
     pub fn tilt(&self) -> [Motion; 2] {
         let [surge, sway] = self.tilt;
-        let pitch = Motion { position: -surge.position, velocity: -surge.velocity, acceleration: -surge.acceleration };
-        [sway, pitch]
+        [sway, surge.map(|value| -value)]
     }
 
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
@@ -140,7 +139,7 @@ impl Coordinated {
             let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
             self.limited |= next.position.abs() >= LIMITED_FRACTION * angle_limit;
             self.limited |= next.velocity.abs() >= LIMITED_FRACTION * rate_limit;
-            self.tilt[k] = without_tiny_components(&next);
+            self.tilt[k] = next.map(at_rest_if_tiny);
             self.dropped_force[k] = decision.dropped_force;
         }
         self.law_weight = law_weight;
@@ -175,17 +174,8 @@ impl Coordinated {
         [0, 1].map(|k: usize| {
             let now = now.axis(k);
             let limits = Limits::safety(&parameters.safety, k, parameters.structure.max_step);
-            without_tiny_components(&limits.at_velocity(&now, now.velocity + accelerations[k] * step, step))
+            limits.at_velocity(&now, now.velocity + accelerations[k] * step, step).map(at_rest_if_tiny)
         })
-    }
-}
-
-/// The motion, with components that are too small to matter set to zero.
-fn without_tiny_components(motion: &Motion) -> Motion {
-    Motion {
-        position: at_rest_if_tiny(motion.position),
-        velocity: at_rest_if_tiny(motion.velocity),
-        acceleration: at_rest_if_tiny(motion.acceleration),
     }
 }
 
@@ -499,7 +489,7 @@ mod tests {
     #[test]
     fn tiny_motions_are_none() {
         let tiny = |value: f64| Motion { position: value, velocity: -value, acceleration: value };
-        assert_eq!(without_tiny_components(&tiny(1e-31)), Motion::default());
-        assert_eq!(without_tiny_components(&tiny(1e-29)), tiny(1e-29));
+        assert_eq!(tiny(1e-31).map(at_rest_if_tiny), Motion::default());
+        assert_eq!(tiny(1e-29).map(at_rest_if_tiny), tiny(1e-29));
     }
 }

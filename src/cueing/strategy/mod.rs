@@ -32,7 +32,6 @@ use self::coordinated::Coordinated;
 pub use self::law::{AxisState, Decision, Unsolvable};
 use self::law::{PlanStatus, Previewing, StepContext};
 use crate::cueing::direct_linear::DirectLinearMotion;
-use crate::cueing::gravitational::Tilt;
 use crate::interface::{Compensation, Parameters};
 use crate::motion::Motion;
 use crate::motion::orientation::RotationalMotion;
@@ -142,12 +141,6 @@ impl Strategy {
             Strategy::Classical(classical) => [classical.tilt().roll, classical.tilt().pitch],
             Strategy::Coordinated(coordinated) => coordinated.tilt(),
         }
-    }
-
-    /// Roll and pitch of the tilt, without their motion.
-    pub fn tilt_angles(&self) -> Tilt {
-        let [roll, pitch] = self.tilt();
-        Tilt { roll: roll.position, pitch: pitch.position }
     }
 
     /// The plan that is carried out, of a strategy that plans.

@@ -389,8 +389,7 @@ impl StewartPlatform {
     fn stroke_clearance(&self, legs: &Legs) -> (f64, f64) {
         let [start, end] = self.parameters.rig.stroke();
         let clearances = legs.position.iter().zip(&legs.velocity);
-        let clearances =
-            clearances.flat_map(|(&position, &velocity)| [(position - start, velocity), (end - position, -velocity)]);
+        let clearances = clearances.flat_map(|(&at, &rate)| [(at - start, rate), (end - at, -rate)]);
         clearances.fold((f64::INFINITY, 0.0), |nearest, next| if next.0 < nearest.0 { next } else { nearest })
     }
 }

@@ -74,7 +74,7 @@ impl<'a> LegContext<'a> {
     pub fn of(context: &StepContext<'a>) -> Self {
         let StepContext { parameters, guard, angles, .. } = *context;
         let Parameters { rig, predictive, angular, splitter, .. } = parameters;
-        let SplitterParameters { omega1: heave, zeta1: _, omega2: _, zeta2: _, low_pass_omega: _, low_pass_zeta: _ } =
+        let SplitterParameters { omega1, zeta1: _, omega2: _, zeta2: _, low_pass_omega: _, low_pass_zeta: _ } =
             splitter;
         let AngularParameters { omega1: frequencies, zeta1: _, omega2: _, zeta2: _ } = angular;
         let linear = &guard.commanded().coordinates.linear;
@@ -86,7 +86,7 @@ impl<'a> LegContext<'a> {
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,
             heave_bound: LARGEST_HEAVE,
-            heave_frequency: heave.z,
+            heave_frequency: omega1.z,
             angles: angles.position,
             angle_rates: angles.velocity,
             frequencies: frequencies.to_vector(),
