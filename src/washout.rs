@@ -284,7 +284,7 @@ impl Washout {
                 Some(end.sanitized())
             }
         };
-        let start = self.last_input;
+        let start = self.last_input.input;
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited_by = LimitedBy::default();
@@ -299,17 +299,13 @@ impl Washout {
                 self.conditioning_glide.advance(internal_step);
                 self.conditioning = self.conditioning_glide.in_force(&self.parameters.conditioning);
             }
-            if let Some(end) = &end {
-                let next = self.cued(start.input.towards(end, done / count));
-                self.internal_step(&next, internal_step);
-                self.last_input = next;
-            } else if glides {
-                let next = self.cued(start.input);
-                self.internal_step(&next, internal_step);
-                self.last_input = next;
-            } else {
-                self.internal_step(&start, internal_step);
-            }
+            let next = match &end {
+                Some(end) => self.cued(start.towards(end, done / count)),
+                None if glides => self.cued(start),
+                None => self.last_input,
+            };
+            self.internal_step(&next, internal_step);
+            self.last_input = next;
             observe(&self.felt.specific_force);
         }
     }
