@@ -333,21 +333,23 @@ impl Washout {
         let head_at_end = &end.head;
         // (1) Strategy splitter: scale, limits and low-pass of the cue. Its high- and low-pass are in
         // the strategy and in the chain of (3).
-        let (cue_start, cue_end) = self.limited_cues(end, step);
-        let (mut cue_start, mut cue_end) =
-            self.conditioned_cues(cue_start, cue_end, self.last_input.input.engaged, step);
+        let engagement_before = self.engagement();
+        let (cue_start, cue_end) = self.limited_cues(end, engagement_before, step);
+        self.engage(self.last_input.input.engaged, &cue_end.force, step);
+        let engagement = self.engagement();
+        let (cue_start, cue_end) = (cue_start.scaled(engagement_before), cue_end.scaled(engagement));
+        let (mut cue_start, mut cue_end) = self.input_filter.advance(cue_start, cue_end, &self.conditioning, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
-        let rotation = self.motion().orientation.rotation;
         let rotation_at_end = self.motion().rotation_after(step);
-        let force_start = rotation * self.last_input.head.to_platform_axes(cue_start.force);
+        let force_start = self.motion().orientation.rotation * self.last_input.head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
         // (5), (6) Angular channel.
         let channel_angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // (2) Gravitational strategy: tilt. Disengaged, the platform does not make up for the rider's
         // lean either.
-        let lean = head_at_end.lean * self.engagement();
+        let lean = head_at_end.lean * engagement;
         let context = StepContext {
             parameters: &self.parameters,
             guard: &self.guard,
@@ -355,7 +357,7 @@ impl Washout {
             force: cue_end.force,
             angles: &channel_angles,
             lean,
-            engagement: self.engagement(),
+            engagement,
             time_to_stop: self.preaction.time_left(),
         };
         self.strategy.advance_tilt([force_start, force_end], &rotation_at_end, &context, step);
@@ -449,9 +451,8 @@ impl Washout {
     }
 
     /// The cue at the step's start and end, times the automatic scale there, and limited.
-    fn limited_cues(&mut self, end: &CuedInput, step: f64) -> (Cue, Cue) {
+    fn limited_cues(&mut self, end: &CuedInput, engagement: f64, step: f64) -> (Cue, Cue) {
         let before = self.scale.factor();
-        let engagement = self.engagement();
         // Disengaged, there is nothing to choose a scale by.
         if engagement > 0.0 {
             let references = [engagement * end.cue.force.x, engagement * end.cue.force.y];
@@ -464,15 +465,6 @@ impl Washout {
         } else {
             (self.conditioning_glide.corrected(start), self.conditioning_glide.corrected(end))
         }
-    }
-
-    /// The cue at the step's start and end as the channels receive it: filtered, and faded while
-    /// the washout is being engaged or disengaged.
-    fn conditioned_cues(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
-        let before = self.engagement();
-        self.engage(engaged, &end.force, step);
-        let (start, end) = (start.scaled(before), end.scaled(self.engagement()));
-        self.input_filter.advance(start, end, &self.conditioning, step)
     }
 
     /// Advances the fraction of the time to engage on the way to `engaged`, under a cue with this

@@ -48,19 +48,6 @@ impl StopPlan {
         StopPlan { start: *start, durations, elapsed: 0.0 }
     }
 
-    /// Replaces the plan by [`StopPlan::new`], in place.
-    #[inline(always)]
-    pub fn restart(&mut self, start: &PlatformCoordinates, durations: StopDurations) {
-        self.start = *start;
-        self.durations = durations;
-        self.elapsed = 0.0;
-    }
-
-    /// The plan of a platform at rest.
-    pub fn rest() -> Self {
-        StopPlan::new(&PlatformCoordinates::default(), StopDurations::common(0.0))
-    }
-
     /// The state from which the plan starts.
     pub fn start(&self) -> &PlatformCoordinates {
         &self.start

@@ -40,10 +40,16 @@ pub struct ActuatorGuard {
     /// The limits within which each leg pursues its demand.
     pursuit: Limits,
     commanded: PlatformState,
-    /// The certified way to rest. The plan starts at the present state, unless the
-    /// last step followed it.
-    plan: StopPlan,
+    plan: CertifiedStop,
     deviation: Option<Deviation>,
+}
+
+/// The certified way to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+enum CertifiedStop {
+    /// From the commanded state, all coordinates in this duration \[s\].
+    Straight(f64),
+    Plan(StopPlan),
 }
 
 /// The rest of the state while the platform is kept from its demand.
@@ -74,7 +80,7 @@ impl ActuatorGuard {
             stroke: rig.stroke(),
             pursuit: certifier.pursuit_limits(),
             commanded: certifier.state(PlatformCoordinates::default()),
-            plan: StopPlan::rest(),
+            plan: CertifiedStop::Straight(0.0),
             deviation: None,
         }
     }
@@ -98,7 +104,7 @@ impl ActuatorGuard {
             && let Some(duration) = self.certifier.certify_home_by_bounds(&self.commanded, demand, safety, step)
         {
             self.commanded = *demand;
-            self.plan.restart(&demand.coordinates, StopDurations::common(duration));
+            self.plan = CertifiedStop::Straight(duration);
         } else {
             self.advance_uncertified(demand, safety, resting, step);
         }
@@ -108,10 +114,10 @@ impl ActuatorGuard {
     #[cold]
     fn advance_uncertified(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
         let may_join = self.deviation.is_none() || self.has_caught_up(demand, safety, step);
-        let held_plan = self.plan.advanced(step);
+        let held_plan = self.plan().advanced(step);
         let plan = if may_join { self.certified_with_way_home(demand, &held_plan, safety, step) } else { None };
         if let Some(plan) = plan {
-            (self.commanded, self.plan, self.deviation) = (*demand, plan, None);
+            (self.commanded, self.plan, self.deviation) = (*demand, CertifiedStop::Plan(plan), None);
             return;
         }
         let before = self.commanded.legs;
@@ -123,13 +129,23 @@ impl ActuatorGuard {
             if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
         });
         let (next, plan) = found.unwrap_or_else(|| (self.state_on_plan(&held_plan, step), held_plan));
-        (self.commanded, self.plan) = (next, plan);
+        (self.commanded, self.plan) = (next, CertifiedStop::Plan(plan));
         self.deviation = Some(Deviation {
             demand: demand.coordinates,
             leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
             resting,
             homing_fraction,
         });
+    }
+
+    /// The certified way to rest. It starts at the commanded state, unless the last step followed it.
+    fn plan(&self) -> StopPlan {
+        match self.plan {
+            CertifiedStop::Straight(duration) => {
+                StopPlan::new(&self.commanded.coordinates, StopDurations::common(duration))
+            }
+            CertifiedStop::Plan(plan) => plan,
+        }
     }
 
     /// Time for which the input has been at rest, `step` seconds later. Once that is longer

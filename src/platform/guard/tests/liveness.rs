@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
-use crate::platform::guard::{ActuatorGuard, Deviation, REST_BEFORE_RETURN};
-use crate::platform::stop_plan::{StopDurations, StopPlan};
+
+use crate::platform::guard::{ActuatorGuard, CertifiedStop, Deviation, REST_BEFORE_RETURN};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, step_margin};
 
 const STEP: f64 = 0.005;
@@ -110,7 +110,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     safety.position_limit.y = rest.linear.position.y.abs();
     let mut guard = ActuatorGuard::new(&rig, STEP);
     guard.commanded = now;
-    guard.plan = StopPlan::new(&rest, StopDurations::common(0.0));
+    guard.plan = CertifiedStop::Straight(0.0);
     guard.deviation = Some(Deviation {
         demand: PlatformCoordinates::default(),
         leg_accelerations: [0.0; 6],

@@ -70,7 +70,7 @@ fn rides() -> impl Strategy<Value = Ride> {
 
 /// Steps until an axis keeps its limit of velocity if the guard follows the plan that it holds.
 fn steps_on_plan(ride: &Ride, axis: usize, limit: f64) -> usize {
-    let mut plan = ride.guard.plan;
+    let mut plan = ride.guard.plan();
     let mut steps = 0;
     while plan.coordinates().linear.velocity[axis].abs() > limit * ROUNDING {
         plan = plan.advanced(ride.step);
