@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
-
 use crate::platform::guard::{ActuatorGuard, CertifiedStop, Deviation, REST_BEFORE_RETURN};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformState, Pose, leg_lengths, step_margin};
 
