@@ -602,7 +602,7 @@ impl Washout {
             tilt_limited: self.limited_by.tilt,
             safety_active: self.limited_by.safety,
             actuator_limited: self.limited_by.actuator,
-            stroke_margin: self.guard.stroke_clearance(),
+            stroke_margin: self.guard.actuator_clearance(),
             plan_kept,
             plan_age,
             plan_iterations,
@@ -656,7 +656,7 @@ impl Washout {
             tilt_pitch: tilt_pitch.velocity,
             tilt_roll_rate: tilt_roll.acceleration,
             tilt_pitch_rate: tilt_pitch.acceleration,
-            stroke_margin: self.guard.stroke_clearance_rate(),
+            stroke_margin: self.guard.actuator_clearance_rate(),
             plan_age: f64::from(self.strategy.plan().is_some()),
             scale_factor: self.scale.factor_rate(),
             ..Output::default()

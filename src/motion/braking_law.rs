@@ -62,7 +62,7 @@ impl Limits {
         // motion that cannot stop within it, the motion brakes beyond it: a stop at it would be a blow.
         let inside = (self.min..=self.max).contains(&position);
         let kept = arrived.clamp(self.min, self.max);
-        let is_rounding = (arrived - kept).abs() <= REJOIN_DISTANCE * self.acceleration * step * step;
+        let is_rounding = (arrived - kept).abs() <= REJOIN_TOLERANCE * self.acceleration * step * step;
         Motion {
             position: if inside && is_rounding { kept } else { arrived },
             velocity: next,
@@ -106,7 +106,7 @@ pub fn approach_velocity(distance: f64, acceleration: f64, step: f64) -> f64 {
 /// A motion that has caught up joins its target when it is at most this times a h^2 away from where
 /// its velocity takes it. Here a is the acceleration limit and h the step. Such a distance is far
 /// below what can be measured.
-pub const REJOIN_DISTANCE: f64 = 0.01;
+pub const REJOIN_TOLERANCE: f64 = 0.01;
 /// Factor on a limit that allows for rounding.
 pub const WITH_ROUNDING: f64 = 1.0 + 1e-9;
 /// Largest rounding error of a difference of positions \[m\].

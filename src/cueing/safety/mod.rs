@@ -10,7 +10,7 @@ use wide::{CmpGe, f64x4};
 
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
-use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, REJOIN_DISTANCE, ROUNDING, WITH_ROUNDING};
+use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, REJOIN_TOLERANCE, ROUNDING, WITH_ROUNDING};
 use crate::motion::lanes::lanes;
 
 /// One safety unit for each axis of the base frame.
@@ -106,10 +106,10 @@ impl SafetyUnits {
     }
 
     /// True if the motion on this axis can join the demanded one. Their positions must differ from
-    /// what the velocities account for by at most [`REJOIN_DISTANCE`] a h², with the limit of
+    /// what the velocities account for by at most [`REJOIN_TOLERANCE`] a h², with the limit of
     /// acceleration a and the step h.
     fn has_caught_up(&self, k: usize, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> bool {
-        let near = REJOIN_DISTANCE * limits.acceleration_limit[k] * step * step;
+        let near = REJOIN_TOLERANCE * limits.acceleration_limit[k] * step * step;
         let expected = self.motion.position[k] + 0.5 * (self.motion.velocity[k] + demand.velocity[k]) * step;
         (demand.position[k] - expected).abs() <= near
     }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::SafetyUnits;
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
-use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
+use crate::motion::braking_law::{Limits, REJOIN_TOLERANCE};
 
 const STEP: f64 = 0.001;
 const LONGEST_STEP: f64 = 0.004;
@@ -214,7 +214,7 @@ fn an_axis_joins_its_demand_within_a_hundredth_of_a_step_s_acceleration() {
                 let mut units = SafetyUnits::new(LONGEST_STEP);
                 units.continue_from(&on_axis(k, motion(0.05, velocity, 0.0)));
                 let changed = velocity + 0.3 * most * STEP;
-                let apart = sign * factor * REJOIN_DISTANCE * most * STEP * STEP;
+                let apart = sign * factor * REJOIN_TOLERANCE * most * STEP * STEP;
                 let demand = on_axis(k, reached(motion(0.05, velocity, 0.0), changed, apart, STEP));
                 units.advance(&demand, &limits(), STEP);
                 assert_eq!(*units.motion() == demand, joins, "axis {k}, {factor}");

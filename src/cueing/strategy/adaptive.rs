@@ -88,7 +88,7 @@ impl Law for Adaptive {
     fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
         let StepContext { parameters, guard, .. } = law_input.context;
         let longer = (parameters.rig.stroke_length() / NEAR_END_STROKE).max(1.0);
-        let scaled_clearance = guard.stroke_clearance() / longer;
+        let scaled_clearance = guard.actuator_clearance() / longer;
         Some(self.decide(&law_input.states, law_input.references, scaled_clearance, step))
     }
 }

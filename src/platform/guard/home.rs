@@ -129,7 +129,7 @@ impl Certifier {
 
     /// The state `step` seconds later on the straight way to neutral. The platform is at rest, or
     /// moves along that way already. `fraction` reduces speed and acceleration.
-    pub fn homing_fraction(
+    pub fn step_towards_neutral(
         &self,
         now: &PlatformCoordinates,
         safety: &SafetyParameters,

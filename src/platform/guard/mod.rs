@@ -6,7 +6,7 @@
 //! does one of two things:
 //!
 //! 1. The guard accepts a candidate state. Both the transition to it and a stop plan from it are
-//!    certified; that plan is stored. So is the straight way to neutral from the plan's end.
+//!    certified, and so is the straight path to neutral from the plan's end. The plan is stored.
 //! 2. The guard follows the stored plan, which needs no check.
 //!
 //! The first candidate is the demand itself; others lie between the plan's next state and a
@@ -28,7 +28,7 @@ use self::certifier::{Certifier, Speed};
 use super::stop_plan::{StopDurations, StopPlan};
 use super::{Geometry, Legs, PlatformCoordinates, PlatformState, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::braking_law::{Limits, REJOIN_DISTANCE, WITH_ROUNDING};
+use crate::motion::braking_law::{Limits, REJOIN_TOLERANCE, WITH_ROUNDING};
 use crate::motion::min_max::min;
 
 /// The guard with the state that the platform is commanded.
@@ -59,7 +59,7 @@ struct Deviation {
     /// Accelerations of the legs over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
     /// Time for which the input has been at rest meanwhile \[s\].
-    resting: f64,
+    time_at_rest: f64,
     /// The fraction of its speed with which the platform goes straight home, if it does.
     homing_fraction: Option<f64>,
 }
@@ -96,23 +96,23 @@ impl ActuatorGuard {
     }
 
     /// Advances by `step` seconds, at whose end the platform is to be in the state `demand`.
-    /// `safety` are the limits of surge, sway and heave in force. `resting` tells that the input
+    /// `safety` are the limits of surge, sway and heave in force. `is_at_rest` tells that the input
     /// asks for no motion.
     #[inline(always)]
-    pub fn advance(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
+    pub fn advance(&mut self, demand: &PlatformState, safety: &SafetyParameters, is_at_rest: bool, step: f64) {
         if self.deviation.is_none()
             && let Some(duration) = self.certifier.certify_home_by_bounds(&self.commanded, demand, safety, step)
         {
             self.commanded = *demand;
             self.plan = CertifiedStop::Straight(duration);
         } else {
-            self.advance_uncertified(demand, safety, resting, step);
+            self.advance_uncertified(demand, safety, is_at_rest, step);
         }
     }
 
     /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
-    fn advance_uncertified(&mut self, demand: &PlatformState, safety: &SafetyParameters, resting: bool, step: f64) {
+    fn advance_uncertified(&mut self, demand: &PlatformState, safety: &SafetyParameters, is_at_rest: bool, step: f64) {
         let may_join = self.deviation.is_none() || self.has_caught_up(demand, safety, step);
         let held_plan = self.plan().advanced(step);
         let plan = if may_join { self.certified_with_way_home(demand, &held_plan, safety, step) } else { None };
@@ -121,9 +121,9 @@ impl ActuatorGuard {
             return;
         }
         let before = self.commanded.legs;
-        let (resting, homing_fraction) = self.rest_time(resting, step);
+        let (time_at_rest, homing_fraction) = self.rest_time(is_at_rest, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
-        let stops = resting > REST_BEFORE_RETURN && homing_fraction.is_none();
+        let stops = time_at_rest > REST_BEFORE_RETURN && homing_fraction.is_none();
         let found = if stops { None } else { self.nearest(demand, &held_plan, homing_fraction, safety, step) };
         let homing_fraction = homing_fraction.map(|fraction| {
             if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
@@ -133,7 +133,7 @@ impl ActuatorGuard {
         self.deviation = Some(Deviation {
             demand: demand.coordinates,
             leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
-            resting,
+            time_at_rest,
             homing_fraction,
         });
     }
@@ -152,12 +152,13 @@ impl ActuatorGuard {
     /// than [`REST_BEFORE_RETURN`], the platform stops. From rest it goes straight home,
     /// and the fraction of its speed is given. The way ends where the platform joins its
     /// demand or the input moves.
-    fn rest_time(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
-        let Some(Deviation { resting: before, homing_fraction, .. }) = self.deviation.filter(|_| resting) else {
+    fn rest_time(&self, is_at_rest: bool, step: f64) -> (f64, Option<f64>) {
+        let Some(Deviation { time_at_rest: before, homing_fraction, .. }) = self.deviation.filter(|_| is_at_rest)
+        else {
             return (0.0, None);
         };
-        let at_rest = Speed::of(&self.commanded.coordinates) == Speed::default();
-        (before + step, homing_fraction.or_else(|| (before > REST_BEFORE_RETURN && at_rest).then_some(1.0)))
+        let stands = Speed::of(&self.commanded.coordinates) == Speed::default();
+        (before + step, homing_fraction.or_else(|| (before > REST_BEFORE_RETURN && stands).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
@@ -194,10 +195,10 @@ impl ActuatorGuard {
     }
 
     /// True if the platform may join the demand. The positions must differ from what the
-    /// velocities account for by at most [`REJOIN_DISTANCE`] a h², with the limit of
+    /// velocities account for by at most [`REJOIN_TOLERANCE`] a h², with the limit of
     /// acceleration a and the step h.
     fn has_caught_up(&self, demand: &PlatformState, safety: &SafetyParameters, step: f64) -> bool {
-        let near = REJOIN_DISTANCE * step * step;
+        let near = REJOIN_TOLERANCE * step * step;
         let (legs, next) = (&self.commanded.legs, &demand.legs);
         let (now, linear) = (&self.commanded.coordinates.linear, &demand.coordinates.linear);
         let apart = |before: f64, after: f64, v: f64, w: f64| (after - before - 0.5 * (v + w) * step).abs();
@@ -241,14 +242,14 @@ impl ActuatorGuard {
     }
 
     /// The smallest distance of a leg from either end of its stroke \[m\].
-    pub fn stroke_clearance(&self) -> f64 {
+    pub fn actuator_clearance(&self) -> f64 {
         let [shortest, longest] = self.stroke;
         let [least, greatest] = self.commanded.legs.extremes();
         min(least - shortest, longest - greatest)
     }
 
-    /// The time derivative of [`ActuatorGuard::stroke_clearance`] \[m/s\].
-    pub fn stroke_clearance_rate(&self) -> f64 {
+    /// The time derivative of [`ActuatorGuard::actuator_clearance`] \[m/s\].
+    pub fn actuator_clearance_rate(&self) -> f64 {
         self.clearances().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, rate)| rate)
     }
 

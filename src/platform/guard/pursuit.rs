@@ -29,7 +29,7 @@ impl ActuatorGuard {
         let now = &self.commanded.coordinates;
         let on_plan = held_plan.coordinates();
         let pursued = match homing_fraction {
-            Some(fraction) => self.certifier.homing_fraction(now, safety, fraction, step),
+            Some(fraction) => self.certifier.step_towards_neutral(now, safety, fraction, step),
             None => self.pursued(now, &demand.legs, safety, step),
         };
         farthest_certified(|fraction| {

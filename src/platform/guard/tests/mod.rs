@@ -535,7 +535,7 @@ fn a_trajectory_that_ends_beyond_a_position_limit_is_refused() {
 }
 
 #[test]
-fn the_rate_of_the_stroke_clearance_is_its_derivative() {
+fn the_rate_of_the_actuator_clearance_is_its_derivative() {
     let (rig, step) = (Rig::default(), 1e-4);
     let mut guard = ActuatorGuard::new(&rig, step);
     let at = |time: f64| {
@@ -551,8 +551,8 @@ fn the_rate_of_the_stroke_clearance_is_its_derivative() {
     for k in 1..=15_000 {
         let demand = at(f64::from(k) * step);
         guard.advance(&guard.state(demand), &SafetyParameters::default(), false, step);
-        clearances.push(guard.stroke_clearance());
-        rates.push(guard.stroke_clearance_rate());
+        clearances.push(guard.actuator_clearance());
+        rates.push(guard.actuator_clearance_rate());
     }
     assert!(!guard.limited());
     let wrong = (1..clearances.len() - 1)
