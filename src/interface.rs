@@ -125,7 +125,7 @@ interface! {
         "status.safetyActive" safety_active: bool = false;
         /// True if the actuator guard changed the motion to keep an actuator's or the platform's limits during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
-        /// Smallest clearance of an actuator from either end of its stroke; with cranks, along the circle of the arm's end.
+        /// Smallest clearance of an actuator: distance from either end of its stroke; with cranks, of its arc, whatever the transmission.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0, start_depends_on(&["actuator.", "rig."]);
         /// True if the predictive strategy's last attempt at a new plan failed and the previous plan continues.
         "status.planKept" plan_kept: bool = false;
@@ -455,7 +455,7 @@ interface! {
         "crank.minAngle" crank_min_angle: f64 [RAD] { -2.0 ..= 2.0 } = -1.0;
         /// Highest angle of a crank's arm above its heading.
         "crank.maxAngle" crank_max_angle: f64 [RAD] { -2.0 ..= 2.0 } = 1.0;
-        /// Smallest transmission of a crank: the sine of the angle between rod and arm, in the arm's plane and with the rod's slant.
+        /// Smallest transmission of a crank: the component of the rod's direction along the circle of the arm's end; 0 at a dead centre.
         "crank.leastTransmission" crank_least_transmission: f64 { 0.05 ..= 0.99 } = 0.3;
         /// Joint of the actuator on the base, in the base frame.
         "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE_JOINTS;

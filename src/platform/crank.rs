@@ -46,7 +46,8 @@ pub struct Cranks {
     pub arm: f64,
     /// Length of a rod \[m\].
     pub rod: f64,
-    /// Smallest transmission that is allowed, the sine of the transmission angle.
+    /// Smallest transmission that is allowed: the component of a rod's direction along the
+    /// tangent at its arm's end.
     pub least_transmission: f64,
     /// Cosines and sines of the headings.
     heading: [[f64; 6]; 2],

@@ -81,8 +81,8 @@ impl Geometry {
         self.cranks.map_or(*self, |cranks| cranks.rods(self, &leg_lengths(self, pose)))
     }
 
-    /// The smallest transmission of the cranks in a pose, the sine of the angle between rod and
-    /// arm; 0 where a rod does not reach, and 1 for legs.
+    /// The smallest transmission of the cranks in a pose: the rod's direction along the circle of
+    /// the arm's end, 1 at best. 0 where a rod does not reach, and 1 for legs.
     pub fn transmission(&self, pose: &Pose) -> f64 {
         self.cranks.as_ref().map_or(1.0, |cranks| cranks.transmission(self, pose))
     }

@@ -84,8 +84,8 @@ pub fn neutral_lengths(geometry: &Geometry, neutral_height: f64) -> [f64; 2] {
     [f64::min, f64::max].map(|pick| lengths.iter().copied().fold(lengths[0], pick))
 }
 
-/// The ends of the stroke for what keeps away from them \[m\]. Those of cranks are no farther than
-/// the arcs at which a transmission comes to its limit while the platform heaves.
+/// The stroke that the soft limits use \[m\]. That of cranks ends no farther than at the arcs at
+/// which a transmission comes to its limit while the platform heaves.
 pub(crate) fn clear_stroke(rig: &Rig) -> [f64; 2] {
     let [start, end] = rig.stroke();
     let geometry = Geometry::from(rig);

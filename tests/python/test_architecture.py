@@ -1,4 +1,4 @@
-"""ARCHITECTURE.md's rule of rings and its table of uses, held against the manifests, and what is compiled once for all."""
+"""ARCHITECTURE.md's rule of blocks and its table of uses, held against the manifests, and what is compiled once for all."""
 
 import re
 import subprocess

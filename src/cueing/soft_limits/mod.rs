@@ -1,8 +1,8 @@
 //! Soft limits: the platform approaches a limit like a critically damped system, long before the
 //! safety units or the actuator guard would have to brake.
 //!
-//! For surge, sway, heave and the six legs' lengths q in \[lo, hi\] the acceleration towards hi is
-//! kept within
+//! For surge, sway, heave and the six legs' lengths, or cranks' arcs, q in \[lo, hi\] the
+//! acceleration towards hi is kept within
 //!
 //! ```text
 //!     q''  <=  psi(p (hi - m - q) - q') - p q'
@@ -55,7 +55,8 @@ pub struct SoftLimits {
     relaxation: Relaxation,
 }
 
-/// Weights of the changed accelerations' squares: surge, sway, heave, and the angles \[m2\].
+/// Weights of the changed accelerations' squares: of surge, sway and heave, and
+/// of the angles \[m2\].
 const CHANGE_WEIGHTS: [f64; 6] = [1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
 /// Fraction of a limit of acceleration that demands may use.
 const ACCELERATION_FRACTION: f64 = 0.95;
@@ -181,7 +182,8 @@ impl ApproachLimitPair {
 }
 
 impl SoftLimits {
-    /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
+    /// The soft limits for these parameters. The strategy wants at most `heave` \[m\]: the
+    /// predictive one little, the others any.
     pub fn new(parameters: &Parameters, heave: f64) -> Self {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
         let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
@@ -309,7 +311,7 @@ impl SoftLimits {
         Some(PlatformCoordinates { linear: after(linear, 0), angles: after(angles, 3) })
     }
 
-    /// The ranges of the accelerations. A leg's is J c and what remains without accelerations.
+    /// The ranges of the accelerations. A leg's acceleration is J c plus the terms of velocities.
     fn rows(&self, state: &PlatformState) -> Rows {
         let PlatformCoordinates { linear, angles } = &state.coordinates;
         let coasting = PlatformCoordinates {

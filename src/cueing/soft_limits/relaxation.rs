@@ -80,8 +80,8 @@ impl Relaxation {
         let to_fourth = 1.0 + (part * part) * (part * part);
         let root = square_root(square_root(to_fourth));
         let slope = 1.0 / (to_fourth * root);
-        let bend = -5.0 * (part * part * part) / largest * slope / to_fourth;
-        let along = slope * acceleration + bend * velocity * velocity;
+        let second_slope = -5.0 * (part * part * part) / largest * slope / to_fourth;
+        let along = slope * acceleration + second_slope * velocity * velocity;
         let (least, most) = ends.range(q - position / root, v - slope * velocity, pace);
         let upper = min(upper, most + along);
         (min(max(lower, least + along), upper), upper)

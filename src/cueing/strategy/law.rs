@@ -86,9 +86,9 @@ pub trait Law {
     where
         Self: Sized;
 
-    /// Takes other parameters, and continues from its state. Returns by how much less the dropped
-    /// forces are for them, where the axes are in these states \[m/s2\], and the slope of that
-    /// \[m/s3\].
+    /// Takes other parameters, and continues from its state. Returns the jump of each
+    /// dropped force, old less new, where the axes are in these states \[m/s2\], and the
+    /// jump's slope \[m/s3\].
     ///
     /// # Errors
     /// The weights cannot be used. Nothing has changed then.

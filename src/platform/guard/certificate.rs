@@ -23,15 +23,16 @@ use crate::platform::{PlatformCoordinates, PlatformMotion, PlatformState};
 /// Stop plans are divided into cells. The bound on what happens between two points is about this
 /// fraction of the acceleration limit.
 const CELL_ACCELERATION_FRACTION: f64 = 0.05;
-/// The largest number of cells into which a stop plan is divided; its pieces round up.
+/// Number of cells into which a stop plan is divided at most; rounding up in its four
+/// pieces makes at most 15.
 const MOST_CELLS: f64 = 12.0;
 
 impl Certifier {
-    /// Duration of a certified stop from the candidate, if bounds on the whole way there and to
-    /// rest are enough to certify it. No point of the way is evaluated.
+    /// Duration of a certified stop from the candidate, if bounds on the transition and the stop
+    /// are enough to certify it. No point between is evaluated.
     ///
-    /// The whole way lies within (stop duration/2 + step) times the largest
-    /// speed in the transition.
+    /// No joint moves farther from the present state than (stop duration/2 + step) times the
+    /// largest speed in the transition.
     #[inline(always)]
     pub fn certify_by_bounds(
         &self,
@@ -77,10 +78,10 @@ impl Certifier {
         let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
         let (now, next) = (&from.coordinates, &to.coordinates);
         let per_step = 1.0 / step;
-        let bend = 2.0 * per_step * per_step;
+        let gap_factor = 2.0 * per_step * per_step;
         let (change, gap) = change_and_gap(&now.linear, &next.linear, step);
         let (turn, angle_gap) = change_and_gap(&now.angles, &next.angles, step);
-        let gap_acceleration = bend * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&angle_gap) * self.radius);
+        let gap_acceleration = gap_factor * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&angle_gap) * self.radius);
         let (before, speed) = (Speed::of(now), Speed::of(next));
         let rate = max(speed.angular, before.angular);
         let joint_speed = speed.of_joints(self.radius);
@@ -122,7 +123,7 @@ impl Certifier {
             let most = acceleration_limit[k];
             let ends = max(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
             let fastest = ends + per_step * gap[k].abs();
-            change[k].abs() * per_step + bend * gap[k].abs() <= most
+            change[k].abs() * per_step + gap_factor * gap[k].abs() <= most
                 && next.linear.acceleration[k].abs() <= most
                 && fastest <= velocity_limit[k]
                 && next.linear.position[k].abs() + fastest * time <= position_limit[k]

@@ -134,8 +134,8 @@ fn is_nowhere_negative([start, end]: [f64; 2], bend: f64) -> bool {
     (start >= 0.0) & (end >= 0.0) & (missing * missing <= 4.0 * start * end)
 }
 
-/// A straight way of all coordinates between two poses, with bounds on it as functions of the
-/// fraction of the way.
+/// A straight path of all coordinates between two poses, with bounds on it as functions of the
+/// fraction of the path.
 ///
 /// A joint's vector l is its chord but for its second derivative b. So |l'| is no more than b/2
 /// above the chord. |g''|/2 is no more than h = |l'|² + |l| b. On the way g is no more than h/4
@@ -143,7 +143,7 @@ fn is_nowhere_negative([start, end]: [f64; 2], bend: f64) -> bool {
 pub(super) struct Way<'a> {
     cranks: &'a Cranks,
     ends: [&'a Arms; 2],
-    /// Distance from the first end within which the way begins \[m\].
+    /// Distance from the first end within which the path begins \[m\].
     travel: f64,
     /// Bounds on the joints' second derivative, and on their distance from the axles \[m\].
     bend: f64,

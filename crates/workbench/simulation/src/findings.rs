@@ -198,7 +198,7 @@ fn shape_finding(outcome: &Evaluated) -> Option<Finding> {
     };
     let shapes = of_axes(&|axis| format!("{:.2}", axis.shape));
     let sizes = of_axes(&|axis| format!("{:.0} %", 100.0 * axis.size));
-    if inverted >= MAX_INVERTED_FRACTION {
+    if inverted > MAX_INVERTED_FRACTION {
         let text = format!(
             "{} is felt the wrong way round for {} of the time. Shape: {shapes}; size: {sizes}.",
             FORCE_AXIS_NAMES[most],

@@ -35,7 +35,7 @@ impl Default for Aims {
 }
 
 impl Aims {
-    /// Distance from the aims; at most 1 where both are reached.
+    /// Distance from the aims; at most 1 where all are reached.
     pub fn distance(&self, shape: &Shape) -> f64 {
         let inverted = shape.most_inverted_axis().map_or(0.0, |(_, inverted)| inverted);
         let least = shape.least_shape().unwrap_or(1.0);

@@ -149,7 +149,7 @@ fn write_files(
 ) -> Result<Vec<PathBuf>> {
     // Explanation of the figures in a parameter file.
     const FIGURES_EXPLAINED: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
-        inverted the largest fraction of the time with the wrong sign, size that of the vehicle's force.";
+        inverted the largest part of the time in which it is felt the wrong way round, size that of the vehicle's force.";
     fs::create_dir_all(directory).with_context(|| format!("cannot make {}", directory.display()))?;
     let mut files = Vec::new();
     let mut write = |name: String, text: String| {

@@ -38,8 +38,8 @@ struct SetResult {
     rig: String,
     /// Name of the parameters.
     parameters: String,
-    /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
-    /// the time; null for another washout's motion without poses and legs.
+    /// False if a safety unit or the actuator guard was active; null for another washout's motion
+    /// without poses and legs.
     fits: Option<bool>,
     /// False if a channel has a larger error than on a platform at rest, which is also sensed as
     /// false.
