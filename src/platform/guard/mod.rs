@@ -138,8 +138,8 @@ impl ActuatorGuard {
         });
     }
 
-    /// The certified way to rest. It starts at the commanded state, unless the
-    /// last step followed it.
+    /// The certified way to rest, which starts at the commanded state unless the last step
+    /// followed it.
     fn plan(&self) -> StopPlan {
         match self.plan {
             CertifiedStop::Straight(duration) => {
