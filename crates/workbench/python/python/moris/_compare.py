@@ -36,7 +36,8 @@ class Comparison(list[Simulation]):
         return plot_felt(self, figure)
 
     def __str__(self) -> str:
-        rows = [["recording", "washout", *(f"{axis} {name}" for axis in ("surge", "sway") for name in SHOWN)]]
+        shown = [f"{name} %" if name == "inverted" else name for name in SHOWN]
+        rows = [["recording", "washout", *(f"{axis} {name}" for axis in ("surge", "sway") for name in shown)]]
         for one in self:
             values = [one.measures[f"specific force {axis} {name}"] for axis in "xy" for name in SHOWN]
             rows.append([one.recording.name, one.name, *("-" if value is None else f"{value:.3g}" for value in values)])
