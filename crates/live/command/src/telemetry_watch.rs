@@ -7,33 +7,19 @@ use moris_live::signs::{Check, Verdict};
 use super::event_log::Note;
 
 /// The lines that have been told.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct TelemetryWatch {
     signs: [Verdict; Check::ALL.len()],
-    fault: Option<TelemetryFault>,
+    /// Kind of the fault of the table.
+    fault: Option<&'static str>,
     /// Samples, and dropped ones of them, at the last line, and its time \[s\].
     counts: [u64; 2],
-    dropped_at: f64,
+    dropped_at: Option<f64>,
     /// Samples, and repeated ones of them, at the last look, and its time \[s\].
     looked: [u64; 2],
     looked_at: f64,
     is_repetition_reported: bool,
     delay: Option<f64>,
-}
-
-impl Default for TelemetryWatch {
-    fn default() -> Self {
-        TelemetryWatch {
-            signs: [Verdict::Unknown; Check::ALL.len()],
-            fault: None,
-            counts: [0; 2],
-            dropped_at: f64::NEG_INFINITY,
-            looked: [0; 2],
-            looked_at: 0.0,
-            is_repetition_reported: false,
-            delay: None,
-        }
-    }
 }
 
 impl TelemetryWatch {
@@ -50,12 +36,11 @@ impl TelemetryWatch {
             }
         }
         let fault = session.telemetry_fault();
-        if let Some(TelemetryFault::Table(fault)) = fault
-            && !self.fault.is_some_and(|known| is_of_kind(&known, &TelemetryFault::Table(fault)))
-        {
+        let fault = if let Some(TelemetryFault::Table(fault)) = fault { Some(fault) } else { None };
+        let before = std::mem::replace(&mut self.fault, fault.map(|fault| fault.kind()));
+        if let Some(fault) = fault.filter(|fault| before != Some(fault.kind())) {
             note(Note::Table(now, fault));
         }
-        self.fault = fault;
         self.check_dropped(session, now, &mut note);
         self.check_repeated(session, now, &mut note);
         let delay = session.delay();
@@ -74,14 +59,14 @@ impl TelemetryWatch {
         const DROPPED_SAMPLE_INTERVAL: f64 = 5.0;
         let counts = session.source().counts();
         let [received, dropped] = [counts.received - self.counts[0], counts.dropped() - self.counts[1]];
-        if now - self.dropped_at < DROPPED_SAMPLE_INTERVAL {
+        if self.dropped_at.is_some_and(|at| now - at < DROPPED_SAMPLE_INTERVAL) {
             return;
         }
         if let Some(reason) = session.source().dropped()
             && dropped >= LEAST_DROPPED
             && dropped as f64 >= DROPPED_PART * received as f64
         {
-            self.dropped_at = now;
+            self.dropped_at = Some(now);
             note(Note::SamplesDropped(now, [received, dropped], reason));
         }
         self.counts = [counts.received, counts.dropped()];
@@ -106,17 +91,6 @@ impl TelemetryWatch {
             self.is_repetition_reported = true;
             note(Note::SamplesRepeated(now, [received, same]));
         }
-    }
-}
-
-/// True for two faults of one kind, whatever their numbers.
-fn is_of_kind(one: &TelemetryFault, other: &TelemetryFault) -> bool {
-    match (one, other) {
-        (TelemetryFault::Table(one), TelemetryFault::Table(other)) => {
-            std::mem::discriminant(one) == std::mem::discriminant(other)
-        }
-        (TelemetryFault::Sign(one), TelemetryFault::Sign(other)) => one == other,
-        _ => false,
     }
 }
 

@@ -332,7 +332,7 @@ impl Session {
 
     /// The reason for which the telemetry is not cued, whether or not the settings ignore it.
     pub fn telemetry_fault(&self) -> Option<TelemetryFault> {
-        let pace = self.source.wrong_pace().map(TableFault::Time);
+        let pace = self.source.wrong_pace().map(TableFault::of_pace);
         let table = pace.or_else(|| self.table_check.fault()).map(TelemetryFault::Table);
         table.or_else(|| self.signs.contradiction().map(TelemetryFault::Sign))
     }

@@ -28,9 +28,10 @@ named! {
 }
 
 /// Result of a check.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Verdict {
     /// Too little motion, or the channels are missing.
+    #[default]
     Unknown,
     /// The signs agree.
     Agrees,

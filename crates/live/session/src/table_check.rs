@@ -5,8 +5,10 @@
 //! What a unit, an exchanged axis or the gravity of the table explains is a [`TableFault`],
 //! with the line to change.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
+use std::sync::LazyLock;
 
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;
@@ -46,183 +48,89 @@ const GRAVITY_HELD: f64 = 1.5;
 
 /// A table that contradicts its telemetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TableFault {
-    /// The clock advances by so many seconds in a second.
-    Time(f64),
+pub struct TableFault {
+    /// Name of its sentence in `table_faults.toml`.
+    name: &'static str,
+    /// The number that shows it.
+    value: f64,
+    /// Its axis, and that with which it is exchanged.
+    axes: [usize; 2],
+}
+
+/// Sentences by the names of faults.
+static SENTENCES: LazyLock<BTreeMap<String, String>> =
+    LazyLock::new(|| toml::from_str(include_str!("table_faults.toml")).expect("a test reads the sentences"));
+
+impl TableFault {
+    fn new(name: &'static str, value: f64) -> Self {
+        TableFault { name, value, axes: [0; 2] }
+    }
+
+    /// A clock that advances by so many seconds in a second.
+    pub fn of_pace(pace: f64) -> Self {
+        let name = match pace {
+            300.0..3000.0 => "time-ms",
+            3e-4..3e-3 => "time-s",
+            _ => "time-scale",
+        };
+        TableFault::new(name, pace)
+    }
+
     /// Rates so many times the derivatives of the angles, or those of bends.
-    Rates(f64),
-    /// Rates that no head has.
-    FastRates,
-    /// Roll or pitch reach so many radians.
-    Angles(f64),
-    /// A mean vertical force \[m/s2\] of this kind.
-    Gravity(GravityFault, f64),
-    /// The force along x or y is so many times that of the speed.
-    Force(Horizontal, f64),
-    /// The rate about the first axis is that of the second one.
-    Exchanged(usize, usize),
-    /// The force along y is this part of that of bends.
-    Bends(f64),
-    /// The force along y changes the speed, or follows the yaw rate along x.
-    ExchangedForces,
-    /// The forces change the speed once they are taken from the world's axes to the vehicle's.
-    WorldForces,
-    /// Roll, 0, or pitch, 1, has the wrong sign, as gravity tells.
-    Attitude(usize),
-    /// Roll and pitch turn the vehicle upside down.
-    UpsideDown,
-    /// The force along x is nothing while the speed changes.
-    MissingForce,
-    /// The rate about this axis is nothing while its angle changes.
-    MissingRate(usize),
-}
+    fn of_rates(ratio: f64) -> Self {
+        TableFault::new(if ratio > 1.0 { "rates-large" } else { "rates-small" }, ratio)
+    }
 
-/// Axis of a horizontal force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Horizontal {
-    /// Forward, by the change of speed.
-    Forward,
-    /// To the left, by speed and yaw rate.
-    Left,
-}
-
-/// A vertical force that is not gravity's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GravityFault {
-    /// The force is in units of g.
-    InG,
-    /// There is none.
-    Missing,
-    /// Gravity is there twice.
-    Twice,
-    /// Gravity points down.
-    Down,
-    /// Gravity is along x, 0, or y, 1.
-    Along(usize),
-    /// The force is much larger.
-    Large,
+    /// Kind of the fault, whatever its remedy.
+    pub fn kind(&self) -> &'static str {
+        self.name.split('-').next().unwrap_or_default()
+    }
 }
 
 impl Display for TableFault {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         const RATE_NAMES: [&str; 3] = ["wx", "wy", "wz"];
         const ANGLE_NAMES: [&str; 3] = ["roll", "pitch", "yaw"];
-        match *self {
-            TableFault::Time(pace) => {
-                write!(f, "the packets' clock advances by {pace:.3} s in a second: in the line of time set ")?;
-                match pace {
-                    300.0..3000.0 => write!(f, "unit = \"ms\""),
-                    3e-4..3e-3 => write!(f, "unit = \"s\""),
-                    _ => write!(f, "scale = {:.1e}, or leave it out", 1.0 / pace),
-                }
-            }
-            TableFault::Rates(ratio) if ratio > 1.0 => write!(
-                f,
-                "wx, wy and wz are {ratio:.0} times as large as angles, or bends, say: in their lines set unit = \
-                 \"deg/s\" (or unit = \"rad\" in those of roll, pitch and yaw)"
-            ),
-            TableFault::Rates(ratio) => write!(
-                f,
-                "wx, wy and wz are {:.0} times as small as the angles say: in their lines set unit = \"rad/s\"",
-                1.0 / ratio
-            ),
-            TableFault::FastRates => write!(
-                f,
-                "wx, wy and wz are beyond {FASTEST_RATE:.0} rad/s for much of the time: in their lines set unit = \"deg/s\""
-            ),
-            TableFault::Angles(angle) => {
-                write!(
-                    f,
-                    "roll, pitch or yaw reach {angle:.0} rad: in the lines of roll, pitch and yaw set unit = \"deg\""
-                )
-            }
-            TableFault::Gravity(fault, force) => {
-                write!(f, "the vertical force is {force:.1} m/s2 in the mean and not 9.8: ")?;
-                match fault {
-                    GravityFault::InG => write!(f, "in the lines of ax, ay and az set unit = \"g\""),
-                    GravityFault::Missing => write!(f, "if az has no gravity, set gravity = \"removed\""),
-                    GravityFault::Twice => write!(f, "az has gravity already, set gravity = \"included\""),
-                    GravityFault::Down => write!(
-                        f,
-                        "z points down: turn the scale in the line of az, and in those of ay, wy, wz, pitch and yaw if y \
-                         points to the right"
-                    ),
-                    GravityFault::Along(axis) => {
-                        let name = ["ax", "ay"][axis];
-                        write!(f, "gravity is in {name}: exchange `at` of {name} and az")
-                    }
-                    GravityFault::Large => {
-                        let scale = STANDARD_GRAVITY / force;
-                        write!(f, "in the lines of ax, ay and az set their unit, or multiply scale by {scale:.4}")
-                    }
-                }
-            }
-            TableFault::Force(axis, ratio) => {
-                let (name, of) = match axis {
-                    Horizontal::Forward => ("ax", "the change of speed"),
-                    Horizontal::Left => ("ay", "speed times wz"),
-                };
-                write!(f, "{name} is {ratio:.2} times {of}: ")?;
-                match unit_of_force(ratio) {
-                    Some(remedy) => write!(f, "{remedy}"),
-                    None => write!(f, "check the units of ax, ay and speed"),
-                }
-            }
-            TableFault::Exchanged(rate, angle) => write!(
-                f,
-                "{} is the rate of {}, and {} is not: exchange `at` of {} and {}",
-                RATE_NAMES[rate], ANGLE_NAMES[angle], RATE_NAMES[angle], RATE_NAMES[rate], RATE_NAMES[angle]
-            ),
-            TableFault::Bends(part) => write!(
-                f,
-                "the lateral force of bends is missing: ay is {part:.2} times speed times wz. In the line of ay name the \
-                 accelerometer's column, not the change of a velocity in the vehicle's axes"
-            ),
-            TableFault::ExchangedForces => {
-                write!(f, "the force along y changes the speed, not that along x: exchange `at` of ax and ay")
-            }
-            TableFault::WorldForces => {
-                write!(f, "the speed follows the forces along fixed axes: set force-axes = \"world\"")
-            }
-            TableFault::Attitude(axis) => {
-                let (angle, rate) = (ANGLE_NAMES[axis], RATE_NAMES[axis]);
-                write!(
-                    f,
-                    "gravity pulls as with the opposite {angle}: turn the scale in its line, and in that of {rate} if \
-                     their signs agree"
-                )
-            }
-            TableFault::UpsideDown => write!(
-                f,
-                "roll and pitch turn the vehicle upside down, as those of axes that point down: leave roll, pitch and \
-                 yaw out, or send them without the half turn"
-            ),
-            TableFault::MissingForce => {
-                write!(f, "ax is nothing while the speed changes: in its line name the column of the force")
-            }
-            TableFault::MissingRate(axis) => {
-                let (angle, rate) = (ANGLE_NAMES[axis], RATE_NAMES[axis]);
-                write!(f, "{rate} is nothing while {angle} changes: in its line name the column of the rate")
-            }
+        let TableFault { name, value, axes: [axis, other] } = *self;
+        let sentence = SENTENCES.get(name).map_or(name, String::as_str);
+        for (k, part) in sentence.split(['{', '}']).enumerate() {
+            match part {
+                "value:.0" => write!(f, "{value:.0}"),
+                "value:.1" => write!(f, "{value:.1}"),
+                "value:.2" => write!(f, "{value:.2}"),
+                "value:.3" => write!(f, "{value:.3}"),
+                "inverse:.0" => write!(f, "{:.0}", 1.0 / value),
+                "inverse:.1e" => write!(f, "{:.1e}", 1.0 / value),
+                "gravity / value:.4" => write!(f, "{:.4}", STANDARD_GRAVITY / value),
+                "rate" => f.write_str(RATE_NAMES[axis]),
+                "angle" => f.write_str(ANGLE_NAMES[axis]),
+                "other rate" => f.write_str(RATE_NAMES[other]),
+                "other angle" => f.write_str(ANGLE_NAMES[other]),
+                "force" => f.write_str(["ax", "ay"][axis]),
+                "cause" => f.write_str(["the change of speed", "speed times wz"][axis]),
+                _ if k % 2 == 0 => f.write_str(part),
+                _ => write!(f, "{{{part}}}"),
+            }?;
         }
+        Ok(())
     }
 }
 
-/// The line to change for a force so many times that of the speed.
-fn unit_of_force(ratio: f64) -> Option<&'static str> {
+/// The fault of a force so many times that of the speed.
+fn unit_of_force(ratio: f64) -> Option<TableFault> {
     // Largest factor between a ratio and that of a unit that explains it: units of force are near
     // to each other.
     const NEAR_UNIT_FACTOR: f64 = 1.2;
     const UNITS: [(f64, &str); 6] = [
-        (1.0 / STANDARD_GRAVITY, "in the lines of ax, ay and az set unit = \"g\""),
-        (STANDARD_GRAVITY, "in the lines of ax, ay and az set unit = \"m/s2\""),
-        (1.0 / 3.6, "in the line of speed set unit = \"km/h\""),
-        (3.6, "in the line of speed set unit = \"m/s\""),
-        (0.44704, "in the line of speed set unit = \"mph\""),
-        (1.0 / 0.44704, "in the line of speed set unit = \"m/s\""),
+        (1.0 / STANDARD_GRAVITY, "force-g"),
+        (STANDARD_GRAVITY, "force-si"),
+        (1.0 / 3.6, "force-km"),
+        (3.6, "force-m"),
+        (0.44704, "force-mile"),
+        (1.0 / 0.44704, "force-m"),
     ];
     let is_near = |unit: f64| (1.0 / NEAR_UNIT_FACTOR..NEAR_UNIT_FACTOR).contains(&(ratio / unit));
-    UNITS.into_iter().find(|(unit, _)| is_near(*unit)).map(|(_, remedy)| remedy)
+    UNITS.into_iter().find(|(unit, _)| is_near(*unit)).map(|(_, name)| TableFault::new(name, ratio))
 }
 
 /// The comparison so far.
@@ -391,7 +299,7 @@ impl TableCheck {
         // car rolls a little in bends.
         const LEANING_PART: f64 = 0.67;
         if self.windows >= ENOUGH_WINDOWS && self.upside_down_windows == self.windows {
-            return Some(TableFault::UpsideDown);
+            return Some(TableFault::new("upside_down", 0.0));
         }
         let is_wrong = |[right, level, opposite]: [&Sums; 3]| {
             let [right, level, opposite] = [right, level, opposite].map(|sums| sums.relation());
@@ -399,13 +307,14 @@ impl TableCheck {
             let is_clear = others >= LEAST_WRONG_FORCE && opposite.difference() < CLEAR_PART * others;
             level.count >= CLEAR_WINDOWS && is_clear
         };
+        let attitude = |axis: usize| TableFault { axes: [axis; 2], ..TableFault::new("attitude", 0.0) };
         let leaning = self.leaning.relation();
         let may_be_scale = leaning.correlation.abs() > SAME_CORRELATION && leaning.ratio < LEANING_PART;
         let [level, opposite] = &self.slopes;
         if is_wrong([&self.surge, level, opposite]) {
-            return Some(TableFault::Attitude(1));
+            return Some(attitude(1));
         }
-        (!may_be_scale && is_wrong(self.banks.each_ref())).then_some(TableFault::Attitude(0))
+        (!may_be_scale && is_wrong(self.banks.each_ref())).then(|| attitude(0))
     }
 
     fn world_forces(&self) -> Option<TableFault> {
@@ -418,7 +327,7 @@ impl TableCheck {
             let is_large = relation.count >= CLEAR_WINDOWS && relation.sizes[0] >= LEAST_FORCE;
             is_large && relation.difference() < CLEAR_PART * others.min(relation.sizes[0])
         };
-        self.world.iter().any(is_clear).then_some(TableFault::WorldForces)
+        self.world.iter().any(is_clear).then(|| TableFault::new("world_forces", 0.0))
     }
 
     fn exchanged_forces(&self) -> Option<TableFault> {
@@ -429,7 +338,7 @@ impl TableCheck {
             && crossed.is_near(1.0, UNIT_FACTOR, SAME_CORRELATION)
             && is_other;
         let by_bends = self.is_speed_of_bends(&self.yaw_surge) && self.has_other_bends(2);
-        (by_speed || by_bends).then_some(TableFault::ExchangedForces)
+        (by_speed || by_bends).then(|| TableFault::new("exchanged_forces", 0.0))
     }
 
     /// True for a rate and a force whose ratio is the speed of bends, where the source has none.
@@ -462,12 +371,12 @@ impl TableCheck {
         // Gravity may make up for a change of speed, and engines for gravity.
         let changes = [&self.surge, &self.slopes[0]];
         if self.has_attitude && changes.iter().all(|sums| is_nothing(&sums.relation(), LEAST_CHANGES[0])) {
-            return Some(TableFault::MissingForce);
+            return Some(TableFault::new("missing_force", 0.0));
         }
         let rates = [0, 1, 2].map(|axis| self.rates[axis][axis].relation());
         let has_rates = rates.iter().any(|relation| relation.sizes[1] >= LEAST_OTHER_RATE);
         let missing = (0..3).find(|&axis| has_rates && is_nothing(&rates[axis], LEAST_CHANGES[1]));
-        missing.map(TableFault::MissingRate)
+        missing.map(|axis| TableFault { axes: [axis; 2], ..TableFault::new("missing_rate", 0.0) })
     }
 
     fn units_of_rates(&self) -> Option<TableFault> {
@@ -494,9 +403,9 @@ impl TableCheck {
             let is_angle = self.largest_angle > LARGEST_ANGLE || axis == 2 && self.largest_yaw > WHOLE_TURN;
             let is_large = relation.sizes[usize::from(is_angle)] >= LEAST_RATE;
             if is_large && is_near(DEGREE) && is_angle {
-                Some(TableFault::Angles(self.largest_angle.max(self.largest_yaw)))
+                Some(TableFault::new("angles", self.largest_angle.max(self.largest_yaw)))
             } else {
-                (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then_some(TableFault::Rates(relation.ratio))
+                (is_large && (is_near(DEGREE) || is_near(1.0 / DEGREE))).then(|| TableFault::of_rates(relation.ratio))
             }
         });
         let is_lateral = |relation: &Relation| is_enough(relation, DEGREE) && relation.sizes[1] >= LEAST_FORCE;
@@ -504,15 +413,18 @@ impl TableCheck {
             // Angles in degrees as well leave no level bends.
             let mut all = [self.bends[2], self.turns].into_iter().map(|sums| sums.relation()).filter(is_lateral);
             let bends = all.find(|bends| bends.is_near(DEGREE, UNIT_FACTOR, SAME_CORRELATION))?;
-            Some(TableFault::Rates(1.0 / bends.ratio))
+            Some(TableFault::of_rates(1.0 / bends.ratio))
         };
         let by_radius = || {
             let yaw = Some(self.sways[2].relation()).filter(is_lateral)?;
             let is_tight = yaw.correlation > SAME_CORRELATION && yaw.ratio < TIGHTEST_RADIUS * yaw.sizes[0];
-            (self.fastest < NO_SPEED && is_tight).then_some(TableFault::Rates(1.0 / DEGREE))
+            (self.fastest < NO_SPEED && is_tight).then(|| TableFault::of_rates(1.0 / DEGREE))
         };
         let is_fast = self.windows >= ENOUGH_WINDOWS && self.fast_windows > FAST_PART * self.windows;
-        by_angles.or_else(by_bends).or_else(by_radius).or_else(|| is_fast.then_some(TableFault::FastRates))
+        by_angles
+            .or_else(by_bends)
+            .or_else(by_radius)
+            .or_else(|| is_fast.then(|| TableFault::new("fast", FASTEST_RATE)))
     }
 
     /// A rate that is that of another angle, or of bends, while the right one is neither.
@@ -543,16 +455,17 @@ impl TableCheck {
         let by_sways = |rate: usize| self.is_speed_of_bends(&self.sways[rate]) && self.has_other_bends(2);
         let by_bends =
             || (0..2).find(|&rate| is_bend(rate) && is_other(&bends[2]) || by_sways(rate)).map(|rate| (rate, 2));
-        by_angles.or_else(by_bends).map(|(rate, angle)| TableFault::Exchanged(rate, angle))
+        let pair = by_angles.or_else(by_bends)?;
+        Some(TableFault { axes: pair.into(), ..TableFault::new("exchanged", 0.0) })
     }
 
     fn units_of_forces(&self) -> Option<TableFault> {
-        let all = [(Horizontal::Forward, self.surge), (Horizontal::Left, self.bends[2])];
-        all.into_iter().map(|(axis, sums)| (axis, sums.relation())).find_map(|(axis, relation)| {
+        [self.surge, self.bends[2]].iter().enumerate().find_map(|(axis, sums)| {
+            let relation = sums.relation();
             let is_known = relation.count >= ENOUGH_WINDOWS
                 && relation.sizes[0].max(relation.sizes[1]) >= LEAST_FORCE
                 && relation.correlation > STRICT_CORRELATION;
-            (is_known && unit_of_force(relation.ratio).is_some()).then_some(TableFault::Force(axis, relation.ratio))
+            Some(TableFault { axes: [axis; 2], ..unit_of_force(relation.ratio).filter(|_| is_known)? })
         })
     }
 
@@ -567,7 +480,7 @@ impl TableCheck {
             && relation.count >= CLEAR_WINDOWS
             && relation.sizes[0] >= LEAST_BENDS
             && relation.sizes[1] < MISSING_PART * relation.sizes[0];
-        is_missing.then_some(TableFault::Bends(relation.ratio))
+        is_missing.then(|| TableFault::new("bends", relation.ratio))
     }
 }
 
@@ -576,7 +489,8 @@ impl TableCheck {
 struct MeanForce {
     force: Vector3<f64>,
     time: f64,
-    kind: Option<GravityFault>,
+    /// Name of the fault, and the axis of gravity.
+    kind: Option<(&'static str, usize)>,
     held: f64,
     agrees: bool,
 }
@@ -605,20 +519,40 @@ impl MeanForce {
     }
 
     fn fault(&self) -> Option<TableFault> {
-        let fault = self.kind.filter(|_| self.held >= GRAVITY_HELD)?;
-        Some(TableFault::Gravity(fault, self.force.z))
+        let (name, axis) = self.kind.filter(|_| self.held >= GRAVITY_HELD)?;
+        Some(TableFault { name, value: self.force.z, axes: [axis; 2] })
     }
 }
 
-/// The fault of a mean force; none that is about gravity's, or of no kind.
-fn kind_of_gravity(force: &Vector3<f64>) -> Option<GravityFault> {
+/// The fault of a mean force, and the axis of gravity; none for gravity's, or of no kind.
+fn kind_of_gravity(force: &Vector3<f64>) -> Option<(&'static str, usize)> {
     let is_gravity = |value: f64| (0.87..1.13).contains(&(value.abs() / STANDARD_GRAVITY));
     match force.z {
-        z if (0.5..1.5).contains(&z) && force.norm() < 1.7 => Some(GravityFault::InG),
-        -3.0..3.0 => Some((0..2).find(|k| is_gravity(force[*k])).map_or(GravityFault::Missing, GravityFault::Along)),
-        16.0..25.0 => Some(GravityFault::Twice),
-        25.0.. => Some(GravityFault::Large),
-        ..-6.0 => Some(GravityFault::Down),
+        z if (0.5..1.5).contains(&z) && force.norm() < 1.7 => Some(("gravity-in-g", 0)),
+        -3.0..3.0 => {
+            let axis = (0..2).find(|k| is_gravity(force[*k]));
+            Some(axis.map_or(("gravity-missing", 0), |axis| ("gravity-along", axis)))
+        }
+        16.0..25.0 => Some(("gravity-twice", 0)),
+        25.0.. => Some(("gravity-large", 0)),
+        ..-6.0 => Some(("gravity-down", 0)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each name in this file has its sentence, whose places are all filled.
+    #[test]
+    fn each_fault_has_a_sentence() {
+        let used = |name: &str| include_str!("table_check.rs").contains(&format!("\"{name}\""));
+        for name in SENTENCES.keys() {
+            assert!(used(name), "{name} is not used");
+            let fault = TableFault::new(Box::leak(name.clone().into_boxed_str()), 2.0);
+            assert!(!fault.to_string().contains(['{', '}']), "{fault}");
+        }
+        assert_eq!(SENTENCES.len(), 26);
     }
 }
