@@ -60,7 +60,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, bail, ensure};
 use moris_analysis::host::check_predictive;
 use moris_laps::Laps;
-use moris_live::frame::{Encoder, Values};
+use moris_live::frame::{self, Encoder, Values};
 use moris_live::{STEP, Session, Settings, log, moog};
 use moris_setup::Setup;
 use moris_washout::interface::AutomaticScale;
@@ -480,7 +480,7 @@ fn line_interval(sink: &Sink, encoder: &Encoder, interval: f64, time_out: Option
     // With as many digits as numbers of a frame have.
     let values = Values { time: 1000.0, length: [1.234567; 6], pose: [-0.123456; 6], ..Values::default() };
     let mut frame = Vec::new();
-    encoder.frame(&values, &mut frame);
+    encoder.write(frame::Part::Frame, &values, &mut frame);
     let line_time = sink.line_time(frame.len());
     if line_time <= interval {
         return Ok(interval);
@@ -545,7 +545,7 @@ fn replay(options: &Options, text: &str, out: &mut dyn Write) -> Result<ExitCode
             lines += &format!("{}\n", event_log::state_line(commands.time, commands.state));
         }
         if options.dry && ((commands.time / STEP).round() as u64).is_multiple_of(100) {
-            encoder.frame(&Values::from(commands), &mut bytes);
+            encoder.write(frame::Part::Frame, &Values::from(commands), &mut bytes);
             lines += &frames::shown(&bytes);
         }
     })?;

@@ -181,16 +181,8 @@ impl Record {
         let forecast: [f64; FORECAST_POINTS] =
             core::array::from_fn(|k| passes[k] + self.fits[k].carried(lasting_part(k)) * difference);
         let forces = COMPARED_ELEMENTS.map(|k| forecast[k]);
-        self.made[self.latest] = Made {
-            is_known: true,
-            is_made: true,
-            is_given: false,
-            passes: *passes,
-            difference,
-            forces,
-            present,
-            waves,
-        };
+        let made = &mut self.made[self.latest];
+        *made = Made { is_made: true, passes: *passes, difference, forces, ..*made };
         Some(forecast)
     }
 

@@ -9,12 +9,18 @@ use crate::line::{Line, MAX_POINTS, Point};
 use crate::pass::{MAX_PASSES, Pass, UNKNOWN_PASS_ERROR, pace_weight};
 use crate::search::{LEAST_AGE, MIN_PASS_DISTANCE, Search};
 use crate::smooth::{LAG_TICKS, LATEST_LAG, Smooth};
-use crate::ticks::{Sample, TICK, Ticks};
+use crate::ticks::{Sample, TICK, Tick, Ticks};
 
 /// A memory of the road, and the preview by it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Laps {
     ticks: Ticks,
+    memory: Memory,
+}
+
+/// All but the ticks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Memory {
     smooth: Smooth,
     line: Line,
     passes: [Option<Pass>; MAX_PASSES],
@@ -38,57 +44,47 @@ impl Laps {
         let mut run = None;
         for point in points {
             if run.replace(point.run).is_some_and(|run| run != point.run) {
-                laps.line.interrupt();
+                laps.memory.line.interrupt();
             }
-            laps.line.push(point);
+            laps.memory.line.push(point);
         }
-        laps.line.interrupt();
+        laps.memory.line.interrupt();
         laps
     }
 
     /// The remembered points, the oldest first.
     pub fn points(&self) -> impl Iterator<Item = &Point> {
-        self.line.points()
+        self.memory.line.points()
     }
 
     /// Takes a sample.
     pub fn step(&mut self, sample: &Sample) {
-        let (ticks, mut whole) = self.parts();
-        if !ticks.push(sample, |tick| {
-            whole.smooth.push(tick);
-            whole.tick();
-        }) {
-            whole.interrupt();
+        if !self.ticks.push(sample, |tick| self.memory.tick(tick)) {
+            self.memory.interrupt();
         }
     }
 
     /// Says that the next sample has nothing to do with those before: another place or ride.
     pub fn interrupt(&mut self) {
-        let (ticks, mut whole) = self.parts();
-        *ticks = Ticks::default();
-        whole.interrupt();
-    }
-
-    fn parts(&mut self) -> (&mut Ticks, Whole<'_>) {
-        let Laps { ticks, smooth, line, passes, forecast, records, search, account, is_given } = self;
-        (ticks, Whole { smooth, line, passes, forecast, records, search, account, is_given })
+        self.ticks = Ticks::default();
+        self.memory.interrupt();
     }
 
     /// Number of earlier passes of this place that are followed.
     pub fn passes(&self) -> usize {
-        self.passes.iter().flatten().count()
+        self.memory.passes.iter().flatten().count()
     }
 
     /// Trust in the preview, from 0 to 1; 0 without one.
     pub fn trust(&self) -> f64 {
-        if self.is_given { overall_trust(&self.records) } else { 0.0 }
+        if self.memory.is_given { overall_trust(&self.memory.records) } else { 0.0 }
     }
 
     /// The force of the next 4 s; without elements where nothing is known.
     pub fn preview(&self) -> Preview {
         let mut preview = Preview::default();
-        let Some([surge, sway]) = &self.forecast else { return preview };
-        if !self.is_given {
+        let Some([surge, sway]) = &self.memory.forecast else { return preview };
+        if !self.memory.is_given {
             return preview;
         }
         let elements = preview.surge.len();
@@ -111,36 +107,25 @@ fn overall_trust(records: &[Record; 2]) -> f64 {
     sum[0] / sum[1]
 }
 
-/// All but the ticks.
-struct Whole<'a> {
-    smooth: &'a mut Smooth,
-    line: &'a mut Line,
-    passes: &'a mut [Option<Pass>; MAX_PASSES],
-    forecast: &'a mut Option<[[f64; FORECAST_POINTS]; 2]>,
-    records: &'a mut [Record; 2],
-    search: &'a mut Search,
-    account: &'a mut Account,
-    is_given: &'a mut bool,
-}
-
-impl Whole<'_> {
+impl Memory {
     fn interrupt(&mut self) {
-        *self.smooth = Smooth::default();
+        self.smooth = Smooth::default();
         self.line.interrupt();
-        *self.passes = [None; MAX_PASSES];
-        *self.search = Search::default();
-        *self.is_given = false;
-        *self.forecast = None;
-        for record in self.records.iter_mut() {
+        self.passes = [None; MAX_PASSES];
+        self.search = Search::default();
+        self.is_given = false;
+        self.forecast = None;
+        for record in &mut self.records {
             record.interrupt();
         }
     }
 
-    fn tick(&mut self) {
+    fn tick(&mut self, tick: &Tick) {
         // Below this speed there is no line to follow [m/s].
         const LEAST_SPEED: f64 = 1.0;
         // Trust from which on there is a preview, and below which there is none any more.
         const PREVIEW_TRUST_THRESHOLDS: [f64; 2] = [0.5, 0.2];
+        self.smooth.push(tick);
         if !self.smooth.is_full() {
             return;
         }
@@ -152,31 +137,31 @@ impl Whole<'_> {
         } else {
             self.line.interrupt();
         }
-        for slot in self.passes.iter_mut() {
-            if slot.as_mut().is_some_and(|pass| !is_moving || !pass.advance(self.line, &place)) {
+        for slot in &mut self.passes {
+            if slot.as_mut().is_some_and(|pass| !is_moving || !pass.advance(&self.line, &place)) {
                 *slot = None;
             }
         }
         self.drop_doubles();
         for pass in self.passes.iter_mut().flatten() {
-            pass.compare(self.line, point.force);
+            pass.compare(&self.line, point.force);
         }
         if !is_moving {
-            *self.search = Search::default();
-        } else if let Some(number) = self.search.tick(self.line, &place, self.passes) {
+            self.search = Search::default();
+        } else if let Some(number) = self.search.tick(&self.line, &place, &self.passes) {
             self.follow(number);
         }
         let held = self.smooth.latest();
         let known = self.by_passes();
         let of_axis = |axis: usize| known.as_ref().map(|(ahead, now)| (&ahead[axis], now[axis]));
-        let [surge, sway] = &mut *self.records;
+        let [surge, sway] = &mut self.records;
         let surge = surge.tick(point.force[0], held[0], of_axis(0));
         let sway = sway.tick(point.force[1], held[1], of_axis(1));
-        *self.forecast = surge.zip(sway).map(|(surge, sway)| [surge, sway]);
+        self.forecast = surge.zip(sway).map(|(surge, sway)| [surge, sway]);
         self.account.tick(point.force, [self.records[0].gain(), self.records[1].gain()]);
-        let is_trusted = overall_trust(self.records) > PREVIEW_TRUST_THRESHOLDS[usize::from(*self.is_given)];
-        *self.is_given = self.forecast.is_some() && is_trusted && self.account.allows(*self.is_given);
-        if *self.is_given {
+        let is_trusted = overall_trust(&self.records) > PREVIEW_TRUST_THRESHOLDS[usize::from(self.is_given)];
+        self.is_given = self.forecast.is_some() && is_trusted && self.account.allows(self.is_given);
+        if self.is_given {
             self.records.iter_mut().for_each(Record::give);
         }
     }
@@ -244,11 +229,11 @@ impl Whole<'_> {
         for pass in self.passes.iter().flatten() {
             let mut forces = [[0.0; 2]; FORECAST_POINTS];
             let is_known = forces.iter_mut().enumerate().all(|(k, force)| {
-                let there = pass.force_ahead(self.line, time_ahead(k), fades[k]);
+                let there = pass.force_ahead(&self.line, time_ahead(k), fades[k]);
                 *force = there.unwrap_or_default();
                 there.is_some()
             });
-            let Some(present) = pass.force_ago(self.line, LATEST_LAG).filter(|_| is_known) else { continue };
+            let Some(present) = pass.force_ago(&self.line, LATEST_LAG).filter(|_| is_known) else { continue };
             let difference = (pass.pace - 1.0) / HALF_WEIGHT_PACE_DIFFERENCE;
             let alike = 1.0 / (1.0 + difference * difference);
             for axis in 0..2 {

@@ -1,7 +1,7 @@
 //! Bytes to a device: a template that is filled in, or packets of a motion base that answers.
 
 use moris_live::Event;
-use moris_live::frame::{Encoder, Values};
+use moris_live::frame::{Encoder, Part, Values};
 use moris_live::moog::Moog;
 use moris_washout::Rig;
 
@@ -35,26 +35,19 @@ impl Device {
         }
     }
 
-    /// Number of times that a message is sent: an answering base has no time-out that is known,
-    /// and a packet may be lost.
-    pub fn copies(&self, message: Message) -> usize {
-        if self.answers() && message == Message::Stop { 3 } else { 1 }
-    }
-
     /// Replaces `out` by the bytes for a message. A fault, if the device is silent.
     pub fn bytes(&mut self, message: Message, values: &Values, out: &mut Vec<u8>) -> Option<Event> {
         match self {
             Device::Template(encoder, count) => {
                 let values = &Values { count: *count, ..*values };
-                match message {
-                    Message::Start | Message::Begin => encoder.start(values, out),
-                    Message::Frame => {
-                        encoder.frame(values, out);
-                        *count = count.wrapping_add(1);
-                    }
-                    Message::Park => encoder.park(values, out),
-                    Message::Stop => encoder.stop(values, out),
-                }
+                let part = match message {
+                    Message::Start | Message::Begin => Part::Start,
+                    Message::Frame => Part::Frame,
+                    Message::Park => Part::Park,
+                    Message::Stop => Part::Stop,
+                };
+                encoder.write(part, values, out);
+                *count = count.wrapping_add(u32::from(message == Message::Frame));
                 None
             }
             Device::Moog { moog, is_up } => {
@@ -72,27 +65,6 @@ impl Device {
                 out.extend(packet);
                 fault
             }
-        }
-    }
-
-    /// True if it can be asked for the legs' lengths.
-    pub fn asks(&self) -> bool {
-        matches!(self, Device::Template(encoder, _) if encoder.asks())
-    }
-
-    /// Replaces `out` by the question for the legs' lengths; nothing if it has none.
-    pub fn ask(&self, out: &mut Vec<u8>) {
-        out.clear();
-        if let Device::Template(encoder, _) = self {
-            encoder.ask(out);
-        }
-    }
-
-    /// Positions of the actuators that a template's controller has answered \[m\].
-    pub fn reported(&self, answer: &[u8]) -> Option<[f64; 6]> {
-        match self {
-            Device::Template(encoder, _) => encoder.reported(answer),
-            Device::Moog { .. } => None,
         }
     }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use moris_live::Event;
-use moris_live::frame::Values;
+use moris_live::frame::{Part, Values};
 use rtrb::{Consumer, Producer};
 
 use super::super::actuator_limits::{Actuators, FrameLimiter};
@@ -15,7 +15,7 @@ use super::super::lateness::Lateness;
 use super::super::lines::Lines;
 use super::super::page::Order;
 use super::super::signals::Signals;
-use super::super::thread_monitor::Part;
+use super::super::thread_monitor;
 use super::super::{Shared, loop_clock};
 use super::{Device, Loss, Message, Sending, Sink};
 
@@ -106,7 +106,7 @@ impl<'a> Sender<'a> {
             if catch_unwind(AssertUnwindSafe(|| self.work())).is_ok() {
                 break;
             }
-            self.shared.failed.add(Part::Frames);
+            self.shared.failed.add(thread_monitor::Part::Frames);
         }
         self.sent
     }
@@ -223,7 +223,9 @@ impl<'a> Sender<'a> {
     fn deliver(&mut self, message: Message, values: &Values) -> Option<Event> {
         let fault = self.device.bytes(message, values, &mut self.bytes);
         let mut taken = Ok(());
-        for _ in 0..self.device.copies(message) {
+        // An answering base has no time-out that is known, and a packet may be lost.
+        let copies = if self.device.answers() && message == Message::Stop { 3 } else { 1 };
+        for _ in 0..copies {
             taken = taken.and(self.sink.send(&self.bytes));
         }
         self.sent.sent += u64::from(taken.is_ok() && !self.bytes.is_empty());
@@ -246,14 +248,15 @@ impl<'a> Sender<'a> {
     fn ask(&mut self, packet: &mut [u8]) {
         // Time between questions for the legs' lengths.
         const POSITION_REQUEST_INTERVAL: Duration = Duration::from_millis(200);
-        if !self.device.asks() {
+        let Device::Template(encoder, _) = &self.device else { return };
+        if !encoder.asks() {
             return;
         }
         let now = loop_clock::now();
         if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= POSITION_REQUEST_INTERVAL) {
             self.asked = Some(now);
             self.sink.reopen();
-            self.device.ask(&mut self.bytes);
+            encoder.write(Part::Ask, &Values::default(), &mut self.bytes);
             // A controller that is not there is seen by its frames.
             let _ = self.sink.send(&self.bytes);
         }
@@ -261,7 +264,7 @@ impl<'a> Sender<'a> {
         let mut newest = None;
         for _ in 0..MOST_ANSWERS {
             let Some(answer) = self.sink.receive(packet) else { break };
-            let mut take = |answer: &[u8]| newest = self.device.reported(answer).or(newest);
+            let mut take = |answer: &[u8]| newest = encoder.reported(answer).or(newest);
             if is_line { self.answers.take(answer, take) } else { take(answer) }
         }
         if let Some(lengths) = newest {

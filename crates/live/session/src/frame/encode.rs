@@ -73,50 +73,41 @@ impl Values {
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
     Bytes(Vec<u8>),
-    /// Bytes of an actuator's number, the most significant first.
-    Binary {
-        leg: usize,
-        whole: Whole,
-        sent: Range<usize>,
-    },
-    /// A quantity times a factor as a whole number.
-    Scaled {
-        place: usize,
-        factor: f64,
-        whole: Whole,
-    },
+    Number(Source, Form),
+}
+
+/// What a number of a frame says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Source {
+    /// An actuator's position in its stroke, spread over the range.
+    Leg(usize),
+    /// A quantity by its place, times a factor.
+    Quantity(usize, f64),
     /// The number of the frame.
-    Count(Whole),
-    /// A checksum of the frame's bytes before it, from this one on.
-    Checksum {
-        kind: Checksum,
-        from: usize,
-        whole: Whole,
-    },
-    Decimal {
-        leg: usize,
-    },
-    Quantity {
-        place: usize,
-        factor: f64,
-        decimals: usize,
-    },
-    /// A quantity times a factor, as a number of 32 or 64 bits.
+    Count,
+    /// The sum of the frame's bytes before it, from this one on.
+    Sum(usize),
+    /// The same by the exclusive or.
+    ExclusiveOr(usize),
+}
+
+/// How a number is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    Whole(Whole),
+    /// A number of 32 or 64 bits.
     Float {
-        place: usize,
-        factor: f64,
         is_double: bool,
         little: bool,
     },
+    /// Digits with so many decimals.
+    Decimals(usize),
 }
 
 impl Token {
     /// The place of its quantity.
     fn place(&self) -> Option<usize> {
-        match self {
-            Token::Quantity { place, .. } | Token::Float { place, .. } | Token::Scaled { place, .. } => Some(*place),
-            _ => None,
-        }
+        if let Token::Number(Source::Quantity(place, _), _) = self { Some(*place) } else { None }
     }
 }
 
@@ -127,66 +118,81 @@ struct Whole {
     width: usize,
     is_signed: bool,
     little: bool,
+    /// The one of its bytes that is sent, the most significant first; none: all.
+    half: Option<usize>,
 }
 
 impl Whole {
-    /// The form of a word such as `u16`, `i16le`.
-    fn of(word: &str) -> Option<Whole> {
-        let (kind, little) = word.strip_suffix("le").map_or((word, false), |kind| (kind, true));
-        let (kind, is_signed) = match kind.strip_prefix('i') {
-            Some(bits) => (bits, true),
-            None => (kind.strip_prefix('u')?, false),
-        };
-        let width = match kind {
-            "8" => 1,
-            "16" => 2,
-            "24" => 3,
-            "32" => 4,
-            _ => return None,
-        };
-        Some(Whole { width, is_signed, little })
-    }
-
     /// The type's smallest and largest number.
     fn ends(self) -> [i64; 2] {
         let bits = 8 * self.width;
         if self.is_signed { [-(1 << (bits - 1)), (1 << (bits - 1)) - 1] } else { [0, (1 << bits) - 1] }
     }
+}
 
-    /// Adds the number, or the nearest one that it has, and of its bytes these, the
-    /// most significant first.
-    fn push(self, number: i64, sent: Range<usize>, out: &mut Vec<u8>) {
-        let [least, most] = self.ends();
-        let digits = number.clamp(least, most).to_be_bytes();
-        let digits = &digits[digits.len() - self.width..][sent];
-        if self.little { out.extend(digits.iter().rev()) } else { out.extend(digits) }
+impl Form {
+    /// The form of a word such as `u16`, `i16le`, `f64`, `6`.
+    fn of(word: &str) -> Option<Form> {
+        const MAX_DECIMALS: usize = 15;
+        let (kind, little) = word.strip_suffix("le").map_or((word, false), |kind| (kind, true));
+        let is_signed = kind.starts_with('i');
+        let width = match kind {
+            "f32" | "f64" => return Some(Form::Float { is_double: kind == "f64", little }),
+            "u8" | "i8" => 1,
+            "u16" | "i16" => 2,
+            "u24" | "i24" => 3,
+            "u32" | "i32" => 4,
+            _ => return word.parse().ok().filter(|count| *count <= MAX_DECIMALS).map(Form::Decimals),
+        };
+        Some(Form::Whole(Whole { width, is_signed, little, half: None }))
     }
-}
 
-/// Kind of a checksum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Checksum {
-    Sum,
-    ExclusiveOr,
-}
-
-impl Checksum {
-    fn of(self, bytes: &[u8]) -> i64 {
-        match self {
-            Checksum::Sum => bytes.iter().map(|byte| i64::from(*byte)).sum(),
-            Checksum::ExclusiveOr => i64::from(bytes.iter().fold(0, |all, byte| all ^ byte)),
+    /// Adds the number, or the nearest one that the form has.
+    fn push(self, number: f64, out: &mut Vec<u8>) {
+        let from = out.len();
+        let is_little = match self {
+            Form::Whole(whole) => {
+                let [least, most] = whole.ends();
+                let digits = (number.round() as i64).clamp(least, most).to_be_bytes();
+                let digits = &digits[digits.len() - whole.width..];
+                out.extend(whole.half.map_or(digits, |half| &digits[half..=half]));
+                whole.little
+            }
+            Form::Float { is_double: true, little } => {
+                out.extend(number.to_be_bytes());
+                little
+            }
+            Form::Float { is_double: false, little } => {
+                out.extend((number as f32).to_be_bytes());
+                little
+            }
+            Form::Decimals(decimals) => {
+                drop(write!(out, "{number:.decimals$}"));
+                false
+            }
+        };
+        if is_little {
+            out[from..].reverse();
         }
     }
+}
+
+/// A string of a template.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The question for the legs' lengths.
+    Ask,
+    Start,
+    Frame,
+    Park,
+    Stop,
 }
 
 /// A template, ready to be filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoder {
-    ask: Vec<Token>,
-    start: Vec<Token>,
-    frame: Vec<Token>,
-    park: Vec<Token>,
-    stop: Vec<Token>,
+    /// The strings by [`Part`].
+    parts: Vec<Vec<Token>>,
     /// Numbers for the shortest and the longest actuator; none: all that a whole number has.
     range: Option<[f64; 2]>,
     reversed: [bool; 6],
@@ -209,12 +215,9 @@ impl Encoder {
 
     /// As [`Encoder::new`], but with angles for any rig.
     pub(super) fn of_any_rig(frames: &Frames, rig: &Rig) -> Result<Self, FramesError> {
+        let parts = [&frames.ask, &frames.start, &frames.frame, &frames.park, &frames.stop];
         let encoder = Encoder {
-            ask: tokens(&frames.ask)?,
-            start: tokens(&frames.start)?,
-            frame: tokens(&frames.frame)?,
-            park: tokens(&frames.park)?,
-            stop: tokens(&frames.stop)?,
+            parts: parts.into_iter().map(|part| tokens(part)).collect::<Result<_, _>>()?,
             range: frames.range.map(|range| range.map(|end| end as f64)),
             reversed: std::array::from_fn(|leg| frames.reversed.contains(&(leg + 1))),
             stroke: rig.stroke(),
@@ -227,17 +230,18 @@ impl Encoder {
 
     /// Places of the quantities in all its strings.
     fn places(&self) -> impl Iterator<Item = usize> {
-        let all = [&self.ask, &self.start, &self.frame, &self.park, &self.stop];
-        all.into_iter().flatten().filter_map(Token::place)
+        self.parts.iter().flatten().filter_map(Token::place)
     }
 
     /// True if its frames have positions of actuators.
     pub fn moves_actuators(&self) -> bool {
         // Places of the lengths and velocities among the quantities.
         const LENGTH_PLACES: Range<usize> = 1..13;
-        self.frame.iter().any(|token| match (token, token.place()) {
-            (Token::Binary { .. } | Token::Decimal { .. }, _) => true,
-            (_, Some(place)) => LENGTH_PLACES.contains(&place) || place >= FIRST_ANGLE_PLACE,
+        self.parts[Part::Frame as usize].iter().any(|token| match token {
+            Token::Number(Source::Leg(_), _) => true,
+            Token::Number(Source::Quantity(place, _), _) => {
+                LENGTH_PLACES.contains(place) || *place >= FIRST_ANGLE_PLACE
+            }
             _ => false,
         })
     }
@@ -261,75 +265,35 @@ impl Encoder {
 
     /// True if it can ask for the legs' lengths.
     pub fn asks(&self) -> bool {
-        !self.ask.is_empty()
+        !self.parts[Part::Ask as usize].is_empty()
     }
 
-    /// Replaces `out` by the question for the legs' lengths.
-    pub fn ask(&self, out: &mut Vec<u8>) {
-        self.fill(&self.ask, &Values::default(), out);
-    }
-
-    /// Replaces `out` by the start string.
-    pub fn start(&self, values: &Values, out: &mut Vec<u8>) {
-        self.fill(&self.start, values, out);
-    }
-
-    /// Replaces `out` by a frame.
-    pub fn frame(&self, values: &Values, out: &mut Vec<u8>) {
-        self.fill(&self.frame, values, out);
-    }
-
-    /// Replaces `out` by the park string.
-    pub fn park(&self, values: &Values, out: &mut Vec<u8>) {
-        self.fill(&self.park, values, out);
-    }
-
-    /// Replaces `out` by the stop string.
-    pub fn stop(&self, values: &Values, out: &mut Vec<u8>) {
-        self.fill(&self.stop, values, out);
-    }
-
-    fn fill(&self, tokens: &[Token], values: &Values, out: &mut Vec<u8>) {
+    /// Replaces `out` by a string of the template.
+    pub fn write(&self, part: Part, values: &Values, out: &mut Vec<u8>) {
         // Ends of the numbers of actuators where a template has none, but for signed ones.
         const SIXTEEN_BITS: [i64; 2] = [0, 65_535];
         out.clear();
-        for token in tokens {
-            match token {
-                Token::Bytes(bytes) => out.extend(bytes),
-                Token::Binary { leg, whole, sent } => {
-                    let ends = if whole.is_signed { whole.ends() } else { SIXTEEN_BITS };
-                    whole.push(self.number(*leg, values, ends), sent.clone(), out);
+        for token in &self.parts[part as usize] {
+            let (source, form) = match token {
+                Token::Bytes(bytes) => {
+                    out.extend(bytes);
+                    continue;
                 }
-                Token::Scaled { place, factor, whole } => {
-                    whole.push((factor * self.quantity(*place, values)).round() as i64, 0..whole.width, out);
-                }
-                Token::Count(whole) => whole.push(wrapped(values.count.into(), *whole), 0..whole.width, out),
-                Token::Checksum { kind, from, whole } => {
-                    let sum = kind.of(out.get(*from..).unwrap_or_default());
-                    whole.push(wrapped(sum, *whole), 0..whole.width, out);
-                }
-                // Writing to a vector cannot fail.
-                Token::Decimal { leg } => drop(write!(out, "{}", self.number(*leg, values, SIXTEEN_BITS))),
-                Token::Float { place, factor, is_double, little } => {
-                    let value = factor * self.quantity(*place, values);
-                    let from = out.len();
-                    if *is_double {
-                        out.extend(value.to_be_bytes());
-                    } else {
-                        out.extend((value as f32).to_be_bytes());
-                    }
-                    if *little {
-                        out[from..].reverse();
-                    }
-                }
-                Token::Quantity { place, factor, decimals } => {
-                    drop(write!(out, "{:.decimals$}", factor * self.quantity(*place, values)));
-                }
-            }
+                Token::Number(source, form) => (*source, *form),
+            };
+            let before = |from: usize| out.get(from..).unwrap_or_default().iter();
+            let number = match (source, form) {
+                (Source::Leg(leg), Form::Whole(whole)) if whole.is_signed => self.number(leg, values, whole.ends()),
+                (Source::Leg(leg), _) => self.number(leg, values, SIXTEEN_BITS),
+                (Source::Quantity(place, factor), _) => factor * self.quantity(place, values),
+                (Source::Count, _) => wrapped(values.count.into(), form),
+                (Source::Sum(from), _) => wrapped(before(from).map(|byte| u64::from(*byte)).sum(), form),
+                (Source::ExclusiveOr(from), _) => wrapped(before(from).fold(0, |all, byte| all ^ byte).into(), form),
+            };
+            form.push(number, out);
         }
     }
 
-    /// The quantity at a place, or the angle of a motor.
     fn quantity(&self, place: usize, values: &Values) -> f64 {
         match place.checked_sub(FIRST_ANGLE_PLACE) {
             Some(angle) => self.motors.number(angle / 6, angle % 6, values.length[angle % 6]),
@@ -338,19 +302,19 @@ impl Encoder {
     }
 
     /// The number for an actuator's length, between these ends where the template has none.
-    fn number(&self, leg: usize, values: &Values, ends: [i64; 2]) -> i64 {
+    fn number(&self, leg: usize, values: &Values, ends: [i64; 2]) -> f64 {
         let [first, last] = self.range.unwrap_or(ends.map(|end| end as f64));
         let [shortest, longest] = self.stroke;
         let part = ((values.length[leg] - shortest) / (longest - shortest)).clamp(0.0, 1.0);
         let part = if self.reversed[leg] { 1.0 - part } else { part };
-        // A length that is not a number counts as the shortest.
-        (first + part * (last - first)).round() as i64
+        // A length that is not a number counts as the shortest, and no zero is negative.
+        (first + part * (last - first)).round() as i64 as f64
     }
 }
 
-/// A number that begins at 0 again beyond the last one of its form.
-fn wrapped(number: i64, whole: Whole) -> i64 {
-    number.rem_euclid(1 << (8 * whole.width))
+/// What is left of a number in so many bits.
+fn wrapped(number: u64, form: Form) -> f64 {
+    if let Form::Whole(whole) = form { (number % (1 << (8 * whole.width))) as f64 } else { number as f64 }
 }
 
 /// The tokens of a template.
@@ -380,65 +344,45 @@ fn tokens(template: &str) -> Result<Vec<Token>, FramesError> {
     Ok(tokens)
 }
 
+/// The token of a word: a byte, or `what:form`.
 fn token(word: &str) -> Option<Token> {
-    // Most decimals of a quantity.
-    const MAX_DECIMALS: usize = 15;
     let Some((name, form)) = word.split_once(':') else {
         let byte = u8::from_str_radix(word, 16).ok().filter(|_| word.len() == 2)?;
         return Some(Token::Bytes(vec![byte]));
     };
-    if let Some(token) = of_frame(name, form) {
-        return Some(token);
-    }
-    let Some(leg) = name.strip_prefix("leg") else {
-        let place = place_of(name)?;
-        let (kind, factor) = form.split_once('*').unwrap_or((form, "1"));
-        let factor = factor.parse().ok().filter(|factor: &f64| factor.is_finite())?;
-        if let Some(bits) = kind.strip_prefix('f') {
-            let (bits, little) = bits.strip_suffix("le").map_or((bits, false), |bits| (bits, true));
-            let is_double = match bits {
-                "64" => true,
-                "32" => false,
-                _ => return None,
-            };
-            return Some(Token::Float { place, factor, is_double, little });
+    let half = |half| Some(Form::Whole(Whole { width: 2, is_signed: false, little: false, half: Some(half) }));
+    let (kind, from) = name.split_once('@').unwrap_or((name, "0"));
+    let source = match (kind, from.parse().ok()?) {
+        ("count", 0) => Source::Count,
+        ("sum", from) => Source::Sum(from),
+        ("xor", from) => Source::ExclusiveOr(from),
+        _ if name.starts_with("leg") => Source::Leg(number_of("leg", name)? - 1),
+        _ => {
+            let (kind, factor) = form.split_once('*').unwrap_or((form, "1"));
+            let factor = factor.parse().ok().filter(|factor: &f64| factor.is_finite())?;
+            return Some(Token::Number(Source::Quantity(place_of(name)?, factor), Form::of(kind)?));
         }
-        if let Some(whole) = Whole::of(kind) {
-            return Some(Token::Scaled { place, factor, whole });
-        }
-        let decimals = kind.parse().ok().filter(|count| *count <= MAX_DECIMALS)?;
-        return Some(Token::Quantity { place, factor, decimals });
     };
-    let leg = leg.parse::<usize>().ok().filter(|leg| (1..=6).contains(leg))? - 1;
-    let half = |sent| Token::Binary { leg, whole: Whole { width: 2, is_signed: false, little: false }, sent };
-    match form {
-        "dec" => Some(Token::Decimal { leg }),
-        "hi" => Some(half(0..1)),
-        "lo" => Some(half(1..2)),
-        _ => Whole::of(form).map(|whole| Token::Binary { leg, whole, sent: 0..whole.width }),
-    }
+    let form = match (source, form) {
+        (Source::Leg(_), "dec") => Some(Form::Decimals(0)),
+        (Source::Leg(_), "hi") => half(0),
+        (Source::Leg(_), "lo") => half(1),
+        _ => Form::of(form).filter(|form| match form {
+            Form::Whole(whole) => !whole.is_signed || matches!(source, Source::Leg(_)),
+            _ => false,
+        }),
+    };
+    Some(Token::Number(source, form?))
 }
 
 /// The place of a quantity, or of a motor's angle.
 fn place_of(name: &str) -> Option<usize> {
     let angles = MOTOR_UNITS.iter().zip((FIRST_ANGLE_PLACE..).step_by(6));
-    let angle = angles.filter_map(|(unit, first)| {
-        let crank = name.strip_prefix(unit)?.parse::<usize>().ok().filter(|crank| (1..=6).contains(crank))?;
-        Some(first + crank - 1)
-    });
+    let angle = angles.filter_map(|(unit, first)| Some(first + number_of(unit, name)? - 1));
     FRAME_QUANTITIES.split(' ').position(|quantity| quantity == name).or(angle.last())
 }
 
-/// A counter, or a checksum from a byte on: `count:u8`, `sum:u8`, `xor@2:u8`.
-fn of_frame(name: &str, form: &str) -> Option<Token> {
-    let unsigned = || Whole::of(form).filter(|whole| !whole.is_signed);
-    let (name, from) = name.split_once('@').unwrap_or((name, "0"));
-    let from = from.parse().ok()?;
-    let kind = match name {
-        "count" if from == 0 => return unsigned().map(Token::Count),
-        "sum" => Checksum::Sum,
-        "xor" => Checksum::ExclusiveOr,
-        _ => return None,
-    };
-    unsigned().map(|whole| Token::Checksum { kind, from, whole })
+/// Number of the actuator behind a prefix of its name.
+fn number_of(prefix: &str, name: &str) -> Option<usize> {
+    name.strip_prefix(prefix)?.parse().ok().filter(|number| (1..=6).contains(number))
 }

@@ -32,7 +32,7 @@
 //! "#;
 //! let encoder = Encoder::new(&text.parse()?, &Rig::default())?;
 //! let mut frame = Vec::new();
-//! encoder.frame(&Values { length: [1.15; 6], ..Values::default() }, &mut frame);
+//! encoder.write(Part::Frame, &Values { length: [1.15; 6], ..Values::default() }, &mut frame);
 //! assert_eq!(frame, b"A250B750\n");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -46,7 +46,7 @@ use std::str::FromStr;
 use moris_washout::Rig;
 use serde::Deserialize;
 
-pub use encode::{Encoder, FRAME_QUANTITIES, Values};
+pub use encode::{Encoder, FRAME_QUANTITIES, Part, Values};
 
 /// A template of frames.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
