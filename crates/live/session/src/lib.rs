@@ -70,6 +70,7 @@ pub mod source;
 pub mod spikes;
 pub mod standing;
 pub mod table_check;
+mod tables;
 pub mod transitions;
 pub mod travel;
 pub mod tuning;

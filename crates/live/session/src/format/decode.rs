@@ -72,27 +72,25 @@ impl Format {
             }
             Layout::Csv => {
                 let text = self.text(packet)?;
-                let is_pairs = text.contains('=');
+                if text.contains('=') {
+                    sample(self.sample_of(&Record::Line(Line::Pairs(text)), packet.len())?);
+                    return Ok(());
+                }
                 let mut titles = None;
-                let lines = text.lines().filter(|line| !line.trim().is_empty());
-                for line in lines.take(if is_pairs { 0 } else { usize::MAX }) {
+                for line in text.lines().filter(|line| !line.trim().is_empty()) {
                     let line = Line::Columns { text: line, titles };
                     if line.is_titles() {
                         titles = Some(line.text());
-                        continue;
+                    } else {
+                        sample(self.sample_of(&Record::Line(line), packet.len())?);
                     }
-                    sample(self.sample_of(&Record::Line(line), packet.len())?);
-                }
-                if is_pairs {
-                    sample(self.sample_of(&Record::Line(Line::Pairs(text)), packet.len())?);
                 }
             }
             Layout::Json => {
                 let text = self.text(packet)?;
                 let mut objects = serde_json::Deserializer::from_str(text).into_iter::<Value>();
                 let first = objects.next().and_then(Result::ok).unwrap_or_default();
-                sample(self.sample_of(&Record::Json(first), packet.len())?);
-                for object in objects.map_while(Result::ok) {
+                for object in std::iter::once(first).chain(objects.map_while(Result::ok)) {
                     sample(self.sample_of(&Record::Json(object), packet.len())?);
                 }
             }

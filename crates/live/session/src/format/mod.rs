@@ -31,6 +31,7 @@ use std::str::FromStr;
 
 use serde::Deserialize;
 
+use crate::tables::{check, shipped_tables, text_of};
 pub use decode::Dropped;
 
 /// A table of a packet's fields.
@@ -105,22 +106,6 @@ pub struct Others {
     /// Values that it may have.
     pub values: Vec<u32>,
 }
-
-/// Layout of a packet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Layout {
-    /// Numbers at offsets.
-    Binary,
-    /// A head, then pairs of an i32 and an f32; `at` is the i32.
-    Pairs,
-    /// Lines of numbers with semicolons, tabs or commas between them, each a sample, or pairs like
-    /// `ax=1.5`. `at` is the column, from 0, its title, or the key.
-    Csv,
-    /// An object; `at` is the key.
-    Json,
-}
-
 /// The player's number in a list of vehicles, and where each of them is.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -141,50 +126,6 @@ pub struct Player {
 fn byte() -> Number {
     Number::U8
 }
-
-/// Vehicle of a source.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Vehicle {
-    /// One that leans into its turns, or any.
-    #[default]
-    Motorcycle,
-    /// One that does not lean.
-    Car,
-}
-
-/// Byte order of numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ByteOrder {
-    /// Least significant byte first.
-    #[default]
-    Little,
-    /// Most significant byte first.
-    Big,
-}
-
-/// Gravity in the acceleration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Gravity {
-    /// As an accelerometer measures: +g upward at rest.
-    Included,
-    /// Zero at rest; gravity's reaction is added by the attitude.
-    Removed,
-}
-
-/// Axes of a vector.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axes {
-    /// The vehicle's.
-    #[default]
-    Body,
-    /// The world's, in which the attitude is given.
-    World,
-}
-
 /// Request by which a program is asked for values: packets of bytes, or X-Plane's RREF for each
 /// field with a dataref.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -239,7 +180,7 @@ pub enum FieldAddress {
 }
 
 macro_rules! words {
-    ($(#[$attribute:meta])* $type:ident { $( $(#[$item_attribute:meta])* $item:ident $word:literal, )+ }) => {
+    ($( $(#[$attribute:meta])* $type:ident { $( $(#[$item_attribute:meta])* $item:ident $word:literal, )+ } )+) => { $(
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
         pub enum $type { $( #[doc = $word] #[serde(rename = $word)] $(#[$item_attribute])* $item, )+ }
@@ -250,15 +191,59 @@ macro_rules! words {
                 match self { $( $type::$item => $word, )+ }
             }
         }
-    };
+    )+ };
 }
 
 words! {
+    /// Layout of a packet.
+    Layout {
+        /// Numbers at offsets.
+        Binary "binary",
+        /// A head, then pairs of an i32 and an f32; `at` is the i32.
+        Pairs "pairs",
+        /// Lines of numbers with semicolons, tabs or commas between them, each a sample, or pairs
+        /// like `ax=1.5`. `at` is the column, from 0, its title, or the key.
+        Csv "csv",
+        /// An object; `at` is the key.
+        Json "json",
+    }
+
+    /// Vehicle of a source: one that leans into its turns, or any; or one that does not lean.
+    #[derive(Default)]
+    Vehicle { #[default] Motorcycle "motorcycle", Car "car", }
+
+    /// Byte order of numbers: the least significant byte first, or the most significant one.
+    #[derive(Default)]
+    ByteOrder { #[default] Little "little", Big "big", }
+
+    /// Gravity in the acceleration: as an accelerometer measures, +g upward at rest; or zero at
+    /// rest, and gravity's reaction is added by the attitude.
+    Gravity { Included "included", Removed "removed", }
+
+    /// Axes of a vector: the vehicle's, or the world's, in which the attitude is given.
+    #[derive(Default)]
+    Axes { #[default] Body "body", World "world", }
+
     /// Quantity of a field.
     Quantity {
         Time "time", Ax "ax", Ay "ay", Az "az", Wx "wx", Wy "wy", Wz "wz", Roll "roll", Pitch "pitch", Yaw "yaw",
         X "x", Y "y", Z "z", Vx "vx", Vy "vy", Vz "vz", Speed "speed", Paused "paused", Running "running",
         Qw "qw", Qx "qx", Qy "qy", Qz "qz",
+    }
+
+    /// Type of a binary number.
+    #[derive(Default)]
+    Number {
+        U8 "u8", I8 "i8", U16 "u16", I16 "i16", U32 "u32", I32 "i32", U64 "u64",
+        #[default]
+        F32 "f32",
+        F64 "f64",
+    }
+
+    /// Unit of a field.
+    Unit {
+        MetrePerSecond2 "m/s2", G "g", RadianPerSecond "rad/s", DegreePerSecond "deg/s", Radian "rad", Degree "deg",
+        MetrePerSecond "m/s", KilometrePerHour "km/h", MilePerHour "mph", Metre "m", Second "s", Millisecond "ms",
     }
 }
 
@@ -285,25 +270,6 @@ const QUANTITY_COUNT: usize = Quantity::Qz as usize + 1;
 /// Quantities of an attitude as a quaternion of any size, which turns the body's axes to the
 /// world's.
 const QUATERNION_QUANTITIES: [Quantity; 4] = [Quantity::Qw, Quantity::Qx, Quantity::Qy, Quantity::Qz];
-
-words! {
-    /// Type of a binary number.
-    #[derive(Default)]
-    Number {
-        U8 "u8", I8 "i8", U16 "u16", I16 "i16", U32 "u32", I32 "i32", U64 "u64",
-        #[default]
-        F32 "f32",
-        F64 "f64",
-    }
-}
-
-words! {
-    /// Unit of a field.
-    Unit {
-        MetrePerSecond2 "m/s2", G "g", RadianPerSecond "rad/s", DegreePerSecond "deg/s", Radian "rad", Degree "deg",
-        MetrePerSecond "m/s", KilometrePerHour "km/h", MilePerHour "mph", Metre "m", Second "s", Millisecond "ms",
-    }
-}
 
 /// Reason for which a table cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -340,70 +306,64 @@ impl FromStr for Format {
         let format: Format = toml::from_str(text)?;
         let further = format.variants.iter().flat_map(|variant| &variant.fields);
         for (quantity, field) in format.fields.iter().chain(further) {
-            let refuse = |reason| Err(FormatError::Field(*quantity, reason));
-            match (&field.at, format.layout) {
-                (FieldAddress::Key(_), Layout::Json | Layout::Csv) => (),
-                (FieldAddress::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MAX_FIELDS => (),
-                (_, Layout::Json) => return refuse("`at` must be a key"),
-                _ => return refuse("`at` must be a number below 4096"),
-            }
-            if field.of_player && format.player.is_none() {
-                return refuse("`of-player` needs a line `player` with the place of the player's number");
-            }
-            if !field.scale.is_finite() || field.scale == 0.0 {
-                return refuse("`scale` must be a number other than zero");
-            }
+            let (fits, form) = match (&field.at, format.layout) {
+                (FieldAddress::Key(_), Layout::Json) => (true, ""),
+                (FieldAddress::Index(_), Layout::Json) => (false, "`at` must be a key"),
+                (FieldAddress::Key(_), layout) => (layout == Layout::Csv, "`at` must be a number below 4096"),
+                (FieldAddress::Index(index), _) => (*index < MAX_FIELDS, "`at` must be a number below 4096"),
+            };
+            let conditions = [
+                (fits, form),
+                (
+                    !field.of_player || format.player.is_some(),
+                    "`of-player` needs a line `player` with the place of the player's number",
+                ),
+                (field.scale.is_finite() && field.scale != 0.0, "`scale` must be a number other than zero"),
+            ];
+            check(&conditions, |reason| FormatError::Field(*quantity, reason))?;
             if let Some(unit) = field.unit.filter(|unit| !quantity.kind().1.contains(unit)) {
                 return Err(FormatError::Unit(*quantity, unit));
             }
         }
         let has = |quantity| format.fields.contains_key(&quantity);
-        if !(has(Quantity::Ax) && has(Quantity::Ay)) {
-            return Err(FormatError::Whole("fields ax and ay are needed"));
-        }
-        if QUATERNION_QUANTITIES.into_iter().any(has) && !QUATERNION_QUANTITIES.into_iter().all(has) {
-            return Err(FormatError::Whole("a quaternion needs qw, qx, qy and qz"));
-        }
-        for player in format.variants.iter().filter_map(|variant| variant.player.as_ref()).chain(&format.player) {
-            let Player { at: FieldAddress::Index(at), first, stride, .. } = player else { continue };
-            if (*at).max(*first) >= MAX_FIELDS || !(1..MAX_FIELDS).contains(stride) || format.layout == Layout::Json {
-                let reason = "player needs `at`, `first` and `stride` below 4096; in JSON `at` is a key";
-                return Err(FormatError::Whole(reason));
+        let quaternion = QUATERNION_QUANTITIES.map(has);
+        let has_attitude =
+            [Quantity::Roll, Quantity::Pitch, Quantity::Yaw].into_iter().all(has) || !quaternion.contains(&false);
+        let players = format.variants.iter().filter_map(|variant| variant.player.as_ref()).chain(&format.player);
+        let fits = |player: &Player| match player.at {
+            FieldAddress::Index(at) => {
+                let offsets = at.max(player.first) < MAX_FIELDS && (1..MAX_FIELDS).contains(&player.stride);
+                offsets && format.layout != Layout::Json
             }
-        }
-        if format.others.is_some() && format.layout != Layout::Binary {
-            return Err(FormatError::Whole("`others` is for the layout binary"));
-        }
-        let turned = format.force_axes == Axes::World || format.rate_axes == Axes::World;
-        let angles = [Quantity::Roll, Quantity::Pitch, Quantity::Yaw];
-        if turned && !angles.into_iter().all(has) && !QUATERNION_QUANTITIES.into_iter().all(has) {
-            return Err(FormatError::Whole("vectors in the world's axes need roll, pitch and yaw, or a quaternion"));
-        }
+            FieldAddress::Key(_) => true,
+        };
+        let conditions = [
+            (has(Quantity::Ax) && has(Quantity::Ay), "fields ax and ay are needed"),
+            (quaternion.iter().all(|has| *has == quaternion[0]), "a quaternion needs qw, qx, qy and qz"),
+            (
+                players.into_iter().all(fits),
+                "player needs `at`, `first` and `stride` below 4096; in JSON `at` is a key",
+            ),
+            (format.others.is_none() || format.layout == Layout::Binary, "`others` is for the layout binary"),
+            (
+                [format.force_axes, format.rate_axes] == [Axes::Body; 2] || has_attitude,
+                "vectors in the world's axes need roll, pitch and yaw, or a quaternion",
+            ),
+        ];
+        check(&conditions, FormatError::Whole)?;
         Ok(format)
     }
 }
 
 /// The shipped tables, each with its name and text.
-pub const SHIPPED_FORMATS: &[(&str, &str)] = &[
-    ("json", include_str!("tables/json.toml")),
-    ("csv", include_str!("tables/csv.toml")),
-    ("packed", include_str!("tables/packed.toml")),
-    ("outsim", include_str!("tables/outsim.toml")),
-    ("motionsim", include_str!("tables/motionsim.toml")),
-    ("forza", include_str!("tables/forza.toml")),
-    ("codemasters", include_str!("tables/codemasters.toml")),
-    ("f1", include_str!("tables/f1.toml")),
-    ("assetto-corsa", include_str!("tables/assetto-corsa.toml")),
-    ("project-cars-2", include_str!("tables/project-cars-2.toml")),
-    ("rfactor", include_str!("tables/rfactor.toml")),
-    ("iracing", include_str!("tables/iracing.toml")),
-    ("piboso", include_str!("tables/piboso.toml")),
-    ("x-plane", include_str!("tables/x-plane.toml")),
-];
+pub const SHIPPED_FORMATS: &[(&str, &str)] = shipped_tables!(
+    "json" "csv" "packed" "outsim" "motionsim" "forza" "codemasters" "f1" "assetto-corsa" "project-cars-2" "rfactor"
+    "iracing" "piboso" "x-plane"
+);
 
 /// The text of a shipped table.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    SHIPPED_FORMATS.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
+    text_of(SHIPPED_FORMATS, name)
 }
 
 impl Format {
