@@ -196,10 +196,11 @@ impl Record {
         // memory.
         const PROVED_ERROR_RATIO: f64 = 0.25;
         let [rising, falling] = ERROR_TIMES.map(|time| TICK / time);
+        let latest = self.latest + KEPT_FORECASTS;
+        let before = |ticks: usize| (latest - ticks) % KEPT_FORECASTS;
         let forgetting_factor = 1.0 - TICK / FIT_TIME;
         for (k, fit) in self.fits.iter_mut().enumerate() {
-            let made =
-                &self.made[(self.latest + KEPT_FORECASTS - LAG_TICKS - (k + 1) * POINT_SPACING_TICKS) % KEPT_FORECASTS];
+            let made = &self.made[before(LAG_TICKS + (k + 1) * POINT_SPACING_TICKS)];
             if made.is_made {
                 fit.squares = forgetting_factor * fit.squares + made.difference * made.difference;
                 fit.products = forgetting_factor * fit.products + made.difference * (truth - made.passes[k]);
@@ -208,8 +209,7 @@ impl Record {
         let [mut square, mut without, mut count] = [0.0; 3];
         self.gain = Gain::default();
         for (k, element) in COMPARED_ELEMENTS.into_iter().enumerate() {
-            let made = &self.made
-                [(self.latest + KEPT_FORECASTS - LAG_TICKS - (element + 1) * POINT_SPACING_TICKS) % KEPT_FORECASTS];
+            let made = &self.made[before(LAG_TICKS + (element + 1) * POINT_SPACING_TICKS)];
             let [held, slope, _] = made.present;
             let plain = [held, 0.0, held + slope * trend_growth(element), made.waves[k]];
             let squares = plain.map(|forecast| (forecast - truth) * (forecast - truth));

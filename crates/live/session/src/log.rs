@@ -9,10 +9,9 @@ use std::fmt::{self, Display, Formatter, Write};
 use moris_interface::{Group, Kind, ParameterError, Reader, Slot, refuse, slots_of};
 use moris_laps::Laps;
 use moris_washout::Parameters;
-use nalgebra::Vector3;
 
 use crate::legs::Legs;
-use crate::motion::{CHANNEL_COUNT, Channels, Motion, Sample};
+use crate::motion::{Motion, Sample};
 use crate::session::{Commands, Session, Settings};
 use crate::transitions::Event;
 
@@ -108,31 +107,22 @@ pub fn slot_of(name: &str) -> Option<usize> {
 
 impl Display for Entry {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let list = |numbers: &[f64]| numbers.iter().map(|number| format!(",{number:?}")).collect::<String>();
         write!(f, "{},", self.step)?;
         match &self.happening {
             Happening::Event(event) => write!(f, "event,{}", event.name()),
             Happening::End(digest) => write!(f, "end,{digest:016x}"),
             Happening::Choice(slot, value) => write!(f, "parameter,{},{value:?}", name_of(usize::from(*slot))),
-            Happening::Legs(Legs::Reported(lengths)) => {
-                write!(f, "legs,reported")?;
-                lengths.iter().try_for_each(|length| write!(f, ",{length:?}"))
-            }
+            Happening::Legs(Legs::Reported(lengths)) => write!(f, "legs,reported{}", list(lengths)),
             Happening::Legs(legs) => write!(f, "legs,{}", legs.name()),
             Happening::Slip(time) => write!(f, "slip,{time:?}"),
             Happening::Retune => write!(f, "retune"),
             Happening::Sample(arrival, sample) => {
-                write!(f, "sample,{arrival:?},")?;
-                if let Some(time) = sample.time {
-                    write!(f, "{time:?}")?;
-                }
-                for k in 0..3 {
-                    write!(f, ",")?;
-                    if let Some(position) = sample.position {
-                        write!(f, "{:?}", position[k])?;
-                    }
-                }
-                write!(f, ",{},{}", u8::from(sample.paused), u8::from(sample.has_angles))?;
-                sample.motion.0.iter().try_for_each(|value| write!(f, ",{value:?}"))
+                let time = sample.time.map_or(String::new(), |time| format!("{time:?}"));
+                let position = sample.position.map_or(",,,".to_owned(), |position| list(position.as_slice()));
+                let [paused, has_angles] = [sample.paused, sample.has_angles].map(u8::from);
+                let motion = list(sample.motion.0.as_slice());
+                write!(f, "sample,{arrival:?},{time}{position},{paused},{has_angles}{motion}")
             }
         }
     }
@@ -151,30 +141,20 @@ impl Entry {
             "retune" => Happening::Retune,
             "slip" => Happening::Slip(fields.next()?.parse().ok()?),
             "legs" => Happening::Legs(match fields.next()? {
-                "reported" => {
-                    let mut lengths = [0.0; 6];
-                    for length in &mut lengths {
-                        *length = fields.next()?.parse().ok()?;
-                    }
-                    Legs::Reported(lengths)
-                }
+                "reported" => Legs::Reported(numbers(&mut fields)?),
                 name => Legs::named(name)?,
             }),
             "sample" => {
-                let mut next = || fields.next();
-                let arrival = next()?.parse().ok()?;
-                let time = optional(next()?)?;
-                let position = [optional(next()?)?, optional(next()?)?, optional(next()?)?];
-                let [paused, has_angles] = [next()? == "1", next()? == "1"];
-                let mut motion = Channels::zeros();
-                for k in 0..CHANNEL_COUNT {
-                    motion[k] = next()?.parse().ok()?;
-                }
-                let position = match position {
-                    [Some(x), Some(y), Some(z)] => Some(Vector3::new(x, y, z)),
-                    _ => None,
+                let mut optional = || match fields.next()? {
+                    "" => Some(None),
+                    field => field.parse().ok().map(Some),
                 };
-                Happening::Sample(arrival, Sample { time, motion: Motion(motion), position, paused, has_angles })
+                let (arrival, time) = (optional()??, optional()?);
+                let position = [optional()?, optional()?, optional()?];
+                let position = if let [Some(x), Some(y), Some(z)] = position { Some([x, y, z].into()) } else { None };
+                let [paused, has_angles] = [fields.next()? == "1", fields.next()? == "1"];
+                let motion = Motion(numbers(&mut fields)?.into());
+                Happening::Sample(arrival, Sample { time, motion, position, paused, has_angles })
             }
             _ => return None,
         };
@@ -182,9 +162,13 @@ impl Entry {
     }
 }
 
-/// A number or nothing.
-fn optional(field: &str) -> Option<Option<f64>> {
-    if field.is_empty() { Some(None) } else { field.parse().ok().map(Some) }
+/// The next numbers of a line.
+fn numbers<'a, const N: usize>(fields: &mut impl Iterator<Item = &'a str>) -> Option<[f64; N]> {
+    let mut numbers = [0.0; N];
+    for number in &mut numbers {
+        *number = fields.next()?.parse().ok()?;
+    }
+    Some(numbers)
 }
 
 /// Reason for which a recorded session cannot be repeated.
@@ -226,14 +210,9 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
         settings.and_then(|text| serde_json::from_str(text).ok()).ok_or(ReplayError::Line(first.0 + 1))?;
     let mut slots = slots_of(&Parameters::default());
     while let Some((place, line)) = lines.next_if(|(_, line)| line.starts_with("parameter,")) {
-        let mut fields = line.split(',').skip(1);
-        let [Some(name), Some(value), None] = [fields.next(), fields.next(), fields.next()] else {
-            return Err(ReplayError::Line(place));
-        };
-        match (slot_of(name), value.parse()) {
-            (Some(slot), Ok(value)) => slots[slot] = value,
-            _ => return Err(ReplayError::Line(place)),
-        }
+        let entry = Entry::of_line(&format!("0,{line}")).map(|entry| entry.happening);
+        let Some(Happening::Choice(slot, value)) = entry else { return Err(ReplayError::Line(place)) };
+        slots[usize::from(slot)] = value;
     }
     let mut session = Session::new(&Parameters::read(&mut Reader::new(&slots)), &settings)?;
     let (mut road, mut begin) = (String::new(), 0);

@@ -3,6 +3,8 @@
 //! The delay must be as long as the time from a sample to the arrival of the next. Where it is not,
 //! the last sample is held until the next one arrives.
 
+use std::collections::VecDeque;
+
 use crate::attitude::{between, nearest_angles};
 use crate::gaps::Gaps;
 use crate::motion::{ANGLE_CHANNELS, Channels, Motion};
@@ -18,10 +20,8 @@ pub const WARNED_DELAY: f64 = 0.06;
 /// The samples of the last moments.
 #[derive(Clone, Debug)]
 pub struct Resampler {
-    samples: [Stamped; SAMPLE_CAPACITY],
-    /// Place of the newest.
-    newest: usize,
-    count: usize,
+    /// The newest first.
+    samples: VecDeque<Stamped>,
     /// Samples whose time has not been reached: those that [`Resampler::reached`] has not given.
     ahead: usize,
     /// Arrival of the newest \[s\].
@@ -53,14 +53,8 @@ pub struct At {
 
 impl Default for Resampler {
     fn default() -> Self {
-        Resampler {
-            samples: [Stamped::default(); SAMPLE_CAPACITY],
-            newest: 0,
-            count: 0,
-            ahead: 0,
-            arrival: 0.0,
-            gaps: Gaps::default(),
-        }
+        let samples = VecDeque::with_capacity(SAMPLE_CAPACITY);
+        Resampler { samples, ahead: 0, arrival: 0.0, gaps: Gaps::default() }
     }
 }
 
@@ -70,30 +64,27 @@ impl Resampler {
         // Packets that arrive within this time after another came with it [s].
         const BURST_TIME: f64 = 1e-3;
         let motion = self.continued(motion);
-        if self.count > 0 {
-            let passed = arrival - self.arrival;
-            if passed >= BURST_TIME {
-                self.gaps.take(arrival - self.sample(0).time, passed);
-            }
+        let passed = arrival - self.arrival;
+        if let Some(newest) = self.samples.front().filter(|_| passed >= BURST_TIME) {
+            self.gaps.take(arrival - newest.time, passed);
         }
         self.arrival = arrival;
-        self.newest = (self.newest + 1) % SAMPLE_CAPACITY;
-        self.samples[self.newest] = Stamped { time, motion, position };
-        self.count = (self.count + 1).min(SAMPLE_CAPACITY);
+        self.samples.truncate(SAMPLE_CAPACITY - 1);
+        self.samples.push_front(Stamped { time, motion, position });
         self.ahead = (self.ahead + 1).min(SAMPLE_CAPACITY);
     }
 
     /// Puts a motion in the place of the newest sample's.
     pub fn replace(&mut self, motion: Motion) {
         let motion = self.continued(motion);
-        self.samples[self.newest].motion = motion;
+        self.samples.front_mut().into_iter().for_each(|newest| newest.motion = motion);
     }
 
     /// The motion with the description of its attitude that is nearest to the newest sample's: an
     /// attitude has two, and each angle any number of turns.
     fn continued(&self, mut motion: Motion) -> Motion {
-        if self.count > 0 {
-            motion.set_angles(nearest_angles(&motion.angles(), &self.sample(0).motion.angles()));
+        if let Some(newest) = self.samples.front() {
+            motion.set_angles(nearest_angles(&motion.angles(), &newest.motion.angles()));
         }
         motion
     }
@@ -106,12 +97,13 @@ impl Resampler {
 
     /// Forgets all samples: the next one has nothing to do with them.
     pub fn clear(&mut self) {
-        (self.count, self.ahead) = (0, 0);
+        self.samples.clear();
+        self.ahead = 0;
     }
 
     /// The next sample whose time is now past \[s\]; each is given once.
     pub fn reached(&mut self, time: f64) -> Option<Stamped> {
-        let next = *self.sample(self.ahead.checked_sub(1)?);
+        let next = self.samples[self.ahead.checked_sub(1)?];
         (next.time <= time).then(|| {
             self.ahead -= 1;
             next
@@ -127,16 +119,12 @@ impl Resampler {
     pub fn at(&self, time: f64) -> Option<At> {
         // A change of an angle within a sample that may be one of its description alone [rad].
         const MAX_ANGLE_CHANGE: f64 = 0.5;
-        if self.count == 0 {
-            return None;
-        }
-        let mut after = self.sample(0);
+        let mut after = self.samples.front()?;
         let still = |motion: Motion, held_from| At { motion, slope: Channels::zeros(), held_from };
         if time >= after.time {
             return Some(still(after.motion, Some(after.time)));
         }
-        for age in 1..self.count {
-            let before = self.sample(age);
+        for before in self.samples.iter().skip(1) {
             if before.time <= time {
                 let slope = (after.motion.0 - before.motion.0) / (after.time - before.time);
                 let mut motion = Motion(before.motion.0 + slope * (time - before.time));
@@ -149,10 +137,6 @@ impl Resampler {
             after = before;
         }
         Some(still(after.motion, None))
-    }
-
-    fn sample(&self, age: usize) -> &Stamped {
-        &self.samples[(self.newest + SAMPLE_CAPACITY - age) % SAMPLE_CAPACITY]
     }
 }
 

@@ -29,8 +29,6 @@ pub const STEP: f64 = 0.001;
 pub struct Settings {
     /// Delay of the telemetry \[s\]; none: as short as its gaps permit.
     pub delay: Option<f64>,
-    /// Part of the stroke that the legs keep from their ends at the settled pose.
-    pub settled: f64,
     /// True if the source of telemetry runs inside the program. The delay does not follow from the
     /// gaps that a computer causes, and is zero if its samples come before their time.
     pub is_inside: bool,
@@ -39,23 +37,13 @@ pub struct Settings {
     pub starts_settled: bool,
     /// Speed of a leg that a controller can follow from any place \[m/s\]: [`Legs::Slow`].
     pub slow_speed: f64,
-    /// Largest speed of a leg on the way to neutral and down \[m/s\].
-    pub travel_speed: f64,
     /// Engage although the telemetry contradicts itself or its table.
     pub ignore_signs: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings {
-            delay: None,
-            settled: 0.02,
-            is_inside: false,
-            starts_settled: true,
-            slow_speed: 0.02,
-            travel_speed: 0.15,
-            ignore_signs: false,
-        }
+        Settings { delay: None, is_inside: false, starts_settled: true, slow_speed: 0.02, ignore_signs: false }
     }
 }
 
@@ -157,15 +145,21 @@ pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> R
 
 /// The pose with these lengths of the legs, at this part of the way to the washout's pose. The
 /// result is that pose if no other is found from there or from the one before.
-fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64, before: Option<&Pose>) -> Pose {
+fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64, before: &Pose) -> Pose {
     // Part of the way to neutral that is too short to change a pose.
     const NO_WAY: f64 = 1e-9;
-    let above = Pose { position: output.position, orientation: Orientation::new(output.orientation) };
+    let above = own_pose(output);
     if 1.0 - part < NO_WAY {
         return above;
     }
-    let found = before.and_then(|before| forward_kinematics(geometry, length, before).ok());
-    found.or_else(|| forward_kinematics(geometry, length, &above).ok()).unwrap_or(above)
+    forward_kinematics(geometry, length, before)
+        .or_else(|_| forward_kinematics(geometry, length, &above))
+        .unwrap_or(above)
+}
+
+/// The washout's pose.
+fn own_pose(output: &Output) -> Pose {
+    Pose { position: output.position, orientation: Orientation::new(output.orientation) }
 }
 
 /// True if the source has gone on from its motion a step ago as its slopes say.
@@ -231,6 +225,8 @@ impl Session {
     /// # Errors
     /// The first parameter that cannot be used, and why.
     pub fn new(parameters: &Parameters, settings: &Settings) -> Result<Self, ParameterError> {
+        // Part of the stroke that the legs keep from their ends at the settled pose.
+        const SETTLED_FRACTION: f64 = 0.02;
         let mut parameters = *parameters;
         parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;
         let at_rest = Motion::at_rest();
@@ -238,16 +234,14 @@ impl Session {
         let output = washout.output();
         let rig = &parameters.rig;
         let geometry = Geometry::from(rig);
-        let settled = lowest(rig, &geometry, settings.settled);
-        let pose = pose_between(&geometry, &output, &settled, 0.0, None);
-        let heave = pose.position.z - rig.neutral_height;
+        let settled = lowest(rig, &geometry, SETTLED_FRACTION);
         let commands = Commands {
             state: State::Off,
             time: 0.0,
             length: settled,
             velocity: [0.0; 6],
-            pose,
-            heave,
+            pose: own_pose(&output),
+            heave: 0.0,
             washout: output,
         };
         let mut session = Session {
@@ -283,17 +277,20 @@ impl Session {
             washout,
         };
         session.begin_at(settled);
+        session.place_legs(settled, [0.0; 6], 0.0);
         Ok(session)
     }
 
     /// The way to neutral begins at these lengths.
     fn begin_at(&mut self, lengths: [f64; 6]) {
+        // Largest speed of a leg on the way to neutral and down [m/s].
+        const TRAVEL_SPEED: f64 = 0.15;
         // Largest speed and acceleration of the legs on the way home, in those of the actuators.
         const HOMING_LIMIT_FRACTION: f64 = 0.25;
         let rig = &self.washout.parameters().rig;
         let [speed, acceleration] =
             [rig.velocity_limit, rig.acceleration_limit].map(|limit| HOMING_LIMIT_FRACTION * limit);
-        let speed = self.settings.travel_speed.min(speed).min(acceleration * Travel::SMOOTHING);
+        let speed = TRAVEL_SPEED.min(speed).min(acceleration * Travel::SMOOTHING);
         let way = self.neutral.iter().zip(lengths).map(|(neutral, length)| (neutral - length).abs());
         self.begin = lengths;
         self.travel_part = speed * STEP / way.fold(1e-3, f64::max);
@@ -468,16 +465,16 @@ impl Session {
         self.goes_up = false;
         self.travel.settle();
         self.begin_at(lengths);
-        self.hold_legs();
+        self.place_legs(self.begin, [0.0; 6], 0.0);
         Ok(())
     }
 
-    /// Commands the lengths at which the way to neutral begins.
-    fn hold_legs(&mut self) {
-        let output = &self.commands.washout;
-        let pose = pose_between(&self.geometry, output, &self.begin, 0.0, Some(&self.commands.pose));
+    /// Commands these lengths and speeds, which are this part of the way to the output's own.
+    fn place_legs(&mut self, length: [f64; 6], velocity: [f64; 6], part: f64) {
+        let Commands { pose, washout, .. } = &self.commands;
+        let pose = pose_between(&self.geometry, washout, &length, part, pose);
         let heave = pose.position.z - self.washout.parameters().rig.neutral_height;
-        self.commands = Commands { length: self.begin, velocity: [0.0; 6], pose, heave, ..self.commands };
+        self.commands = Commands { length, velocity, pose, heave, ..self.commands };
     }
 
     /// The transition of an event, without the operator's guards.
@@ -690,8 +687,7 @@ impl Session {
         let [position, _] = output.actuators(&self.washout.parameters().rig);
         let length = std::array::from_fn(|k| self.begin[k] + part * (position[k] - self.begin[k]));
         let velocity = std::array::from_fn(|k| (length[k] - before[k]) / STEP);
-        let pose = pose_between(&self.geometry, &output, &length, part, Some(&self.commands.pose));
-        let heave = pose.position.z - self.washout.parameters().rig.neutral_height;
-        self.commands = Commands { state: self.state, time: now, length, velocity, pose, heave, washout: output };
+        self.commands = Commands { state: self.state, time: now, washout: output, ..self.commands };
+        self.place_legs(length, velocity, part);
     }
 }

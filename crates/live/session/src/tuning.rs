@@ -73,15 +73,21 @@ fn tilt_in_motion(parameters: &Parameters, washout: &Washout) -> TiltParameters 
         angle.abs() + stopping <= INSIDE_FRACTIONS * tilt.angle_limit
             && rate.abs() <= INSIDE_FRACTIONS * tilt.rate_limit
     });
+    let TiltParameters { angle_limit, rate_limit, acceleration_limit, .. } = &mut tilt;
+    tighten(
+        fits,
+        [angle_limit, rate_limit, acceleration_limit],
+        [before.angle_limit, before.rate_limit, before.acceleration_limit],
+    );
+    tilt
+}
+
+/// Keeps limits from what they were, or close to it where the motion fits within the new ones.
+fn tighten(fits: bool, limits: [&mut f64; 3], before: [f64; 3]) {
     let least = if fits { 1.0 - TIGHTENING_FRACTION } else { 1.0 };
-    for (limit, old) in [
-        (&mut tilt.angle_limit, before.angle_limit),
-        (&mut tilt.rate_limit, before.rate_limit),
-        (&mut tilt.acceleration_limit, before.acceleration_limit),
-    ] {
+    for (limit, old) in limits.into_iter().zip(before) {
         *limit = limit.max(least * old);
     }
-    tilt
 }
 
 /// The safety units' limits of these parameters. On an axis where the platform is beyond smaller
@@ -100,14 +106,9 @@ fn safety_in_motion(parameters: &Parameters, washout: &Washout) -> SafetyParamet
             && speed <= INSIDE_FRACTIONS * safety.velocity_limit[k]
             && change.max(pace * speed) <= INSIDE_FRACTIONS * safety.acceleration_limit[k];
         // Those that have waited glide, too.
-        let least = if fits { 1.0 - TIGHTENING_FRACTION } else { 1.0 };
-        for (limit, old) in [
-            (&mut safety.position_limit[k], before.position_limit[k]),
-            (&mut safety.velocity_limit[k], before.velocity_limit[k]),
-            (&mut safety.acceleration_limit[k], before.acceleration_limit[k]),
-        ] {
-            *limit = limit.max(least * old);
-        }
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit, .. } = &mut safety;
+        let limits = [&mut position_limit[k], &mut velocity_limit[k], &mut acceleration_limit[k]];
+        tighten(fits, limits, [before.position_limit[k], before.velocity_limit[k], before.acceleration_limit[k]]);
     }
     safety
 }
