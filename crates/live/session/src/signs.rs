@@ -9,6 +9,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::motion::{Motion, Sample};
 use crate::relation::{Relation, Sums, compared_sample};
+use crate::table_check::sentence;
 use crate::transitions::named;
 
 named! {
@@ -41,15 +42,8 @@ pub enum Verdict {
 
 impl Check {
     /// The contradiction, and the line of the table to change.
-    pub fn remedy(self) -> String {
-        let (field, compared, other) = match self {
-            Check::Braking => ("ax", "the change of speed differ in sign", "speed"),
-            Check::LeftTurn => ("ay", "wz differ in sign in bends", "wz"),
-            Check::Roll => ("wx", "the change of roll differ in sign", "roll"),
-            Check::Pitch => ("wy", "the change of pitch differ in sign", "pitch"),
-            Check::Yaw => ("wz", "the change of yaw differ in sign", "yaw"),
-        };
-        format!("{field} and {compared}: set scale = -1 in the table's line of {field} (or {other})")
+    pub fn remedy(self) -> &'static str {
+        sentence(self.name())
     }
 
     /// Least mean square of both quantities with which it decides.
