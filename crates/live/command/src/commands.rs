@@ -9,6 +9,7 @@ use rtrb::Producer;
 
 use super::console;
 use super::leg_position::PLACE_COMMANDS;
+use super::lines::Lines;
 use super::page::Order;
 
 /// Names of the commands.
@@ -28,10 +29,8 @@ pub fn input() -> impl Read {
 
 /// Passes lines on as commands until the input ends.
 pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
-    // Longest line that may be a command [bytes].
-    const MAX_COMMAND_LENGTH: usize = 256;
     let mut bytes = [0; 4096];
-    let mut line = Vec::with_capacity(MAX_COMMAND_LENGTH);
+    let mut lines = Lines::default();
     loop {
         let count = match input.read(&mut bytes) {
             Ok(0) => return,
@@ -42,14 +41,7 @@ pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
                 return;
             }
         };
-        for byte in &bytes[..count] {
-            if *byte == b'\n' {
-                take(&line, &mut commands);
-                line.clear();
-            } else if line.len() <= MAX_COMMAND_LENGTH {
-                line.push(*byte);
-            }
-        }
+        lines.take(&bytes[..count], |line| take(line, &mut commands));
     }
 }
 
