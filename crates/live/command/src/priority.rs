@@ -1,98 +1,100 @@
 //! Priority, memory and core of the loop, where the system permits it.
 
-use anyhow::Result;
+#[cfg(target_os = "linux")]
+pub use on_linux::{check_core, claim, claim_below, pin_to_core};
+#[cfg(not(target_os = "linux"))]
+pub use without::{check_core, claim, claim_below, pin_to_core};
 
-/// Priorities of the loop, and of threads that it needs on time: just below it.
 #[cfg(target_os = "linux")]
-const OF_LOOP: u8 = 50;
-#[cfg(target_os = "linux")]
-const OF_OTHERS: u8 = 48;
-
-/// Gives the calling thread a real-time priority. True if that is permitted.
-#[cfg(target_os = "linux")]
-fn raise(priority: u8) -> bool {
+mod on_linux {
+    use anyhow::{Result, ensure};
+    use rustix::mm::{MlockAllFlags, mlockall};
+    use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity};
     use thread_priority::{
         RealtimeThreadSchedulePolicy, ThreadPriority, ThreadSchedulePolicy, set_thread_priority_and_policy,
         thread_native_id,
     };
-    let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
-    let priority = priority.try_into().map(ThreadPriority::Crossplatform);
-    priority.is_ok_and(|priority| set_thread_priority_and_policy(thread_native_id(), priority, policy).is_ok())
+
+    /// Priorities of the loop, and of threads that it needs on time: just below it.
+    pub const OF_LOOP: u8 = 50;
+    const OF_OTHERS: u8 = 48;
+
+    /// Gives the calling thread a real-time priority. True if that is permitted.
+    pub fn raise(priority: u8) -> bool {
+        let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+        let priority = priority.try_into().map(ThreadPriority::Crossplatform);
+        priority.is_ok_and(|priority| set_thread_priority_and_policy(thread_native_id(), priority, policy).is_ok())
+    }
+
+    /// Gives the calling thread, which sends frames or receives telemetry, a priority just below the
+    /// loop's where that is permitted.
+    pub fn claim_below() {
+        raise(OF_OTHERS);
+    }
+
+    /// Gives the calling thread, the loop's, a real-time priority, and keeps the program's memory
+    /// from being swapped out. Says what is permitted.
+    pub fn claim() -> String {
+        // Above what is ordinary, and below the system's own threads.
+        let is_raised = raise(OF_LOOP);
+        // Without what comes later: the loop takes no more memory, and a limit on locked memory
+        // would let other threads fail.
+        let locked = mlockall(MlockAllFlags::CURRENT);
+        let of_priority =
+            if is_raised { "the loop has a real-time priority" } else { "no real-time priority permitted" };
+        let of_memory = if locked.is_ok() { "memory is locked" } else { "no memory lock permitted" };
+        format!("real time: {of_priority}, {of_memory}")
+    }
+
+    /// Checks that the loop can have this core of the processor, before anything moves.
+    ///
+    /// # Errors
+    /// The program may not use this core.
+    pub fn check_core(core: usize) -> Result<()> {
+        let usable = sched_getaffinity(None)?;
+        let cores: Vec<String> =
+            (0..CpuSet::MAX_CPU).filter(|core| usable.is_set(*core)).map(|core| core.to_string()).collect();
+        let is_usable = core < CpuSet::MAX_CPU && usable.is_set(core);
+        ensure!(is_usable, "--core is {core}, but this program may use the cores {}", cores.join(", "));
+        Ok(())
+    }
+
+    /// Keeps the calling thread on this core.
+    ///
+    /// # Errors
+    /// The system does not permit it.
+    pub fn pin_to_core(core: usize) -> Result<()> {
+        let mut cores = CpuSet::new();
+        cores.set(core);
+        Ok(sched_setaffinity(None, &cores)?)
+    }
 }
 
-/// Gives the calling thread, which sends frames or receives telemetry, a priority just below the
-/// loop's where that is permitted.
-#[cfg(target_os = "linux")]
-pub fn claim_below() {
-    raise(OF_OTHERS);
-}
-
-/// As above, where there is no such thing.
+/// The same where a thread cannot choose.
 #[cfg(not(target_os = "linux"))]
-pub fn claim_below() {}
+mod without {
+    use anyhow::{Result, bail};
 
-/// Gives the calling thread, the loop's, a real-time priority, and keeps the program's memory from
-/// being swapped out. Says what is permitted.
+    pub fn claim_below() {}
+
+    pub fn claim() -> String {
+        "real time: no real-time priority on this system".to_owned()
+    }
+
+    pub fn check_core(_: usize) -> Result<()> {
+        bail!("--core needs Linux; leave it out")
+    }
+
+    /// Does nothing: [`check_core`] has refused before.
+    pub fn pin_to_core(_: usize) -> Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
 #[cfg(target_os = "linux")]
-pub fn claim() -> String {
-    use rustix::mm::{MlockAllFlags, mlockall};
-    // Above what is ordinary, and below the system's own threads.
-    let is_raised = raise(OF_LOOP);
-    // Without what comes later: the loop takes no more memory, and a limit on locked memory would
-    // let other threads fail.
-    let locked = mlockall(MlockAllFlags::CURRENT);
-    let of_priority = if is_raised { "the loop has a real-time priority" } else { "no real-time priority permitted" };
-    let of_memory = if locked.is_ok() { "memory is locked" } else { "no memory lock permitted" };
-    format!("real time: {of_priority}, {of_memory}")
-}
-
-/// As above, where there is no such thing.
-#[cfg(not(target_os = "linux"))]
-pub fn claim() -> String {
-    "real time: no real-time priority on this system".to_owned()
-}
-
-/// Checks that the loop can have this core of the processor, before anything moves.
-///
-/// # Errors
-/// The program may not use this core.
-#[cfg(target_os = "linux")]
-pub fn check_core(core: usize) -> Result<()> {
-    use rustix::thread::{CpuSet, sched_getaffinity};
-    let usable = sched_getaffinity(None)?;
-    let cores: Vec<String> =
-        (0..CpuSet::MAX_CPU).filter(|core| usable.is_set(*core)).map(|core| core.to_string()).collect();
-    let is_usable = core < CpuSet::MAX_CPU && usable.is_set(core);
-    anyhow::ensure!(is_usable, "--core is {core}, but this program may use the cores {}", cores.join(", "));
-    Ok(())
-}
-
-/// As above, where a thread cannot choose.
-#[cfg(not(target_os = "linux"))]
-pub fn check_core(_: usize) -> Result<()> {
-    anyhow::bail!("--core needs Linux; leave it out")
-}
-
-/// Keeps the calling thread on this core.
-///
-/// # Errors
-/// The system does not permit it.
-#[cfg(target_os = "linux")]
-pub fn pin_to_core(core: usize) -> Result<()> {
-    use rustix::thread::{CpuSet, sched_setaffinity};
-    let mut cores = CpuSet::new();
-    cores.set(core);
-    Ok(sched_setaffinity(None, &cores)?)
-}
-
-/// As above, where a thread cannot choose: [`check_core`] has refused before.
-#[cfg(not(target_os = "linux"))]
-pub fn pin_to_core(_: usize) -> Result<()> {
-    Ok(())
-}
-
-#[cfg(all(test, target_os = "linux"))]
 mod tests {
+    use super::on_linux::{OF_LOOP, raise};
     use super::*;
 
     #[test]

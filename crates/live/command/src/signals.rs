@@ -9,12 +9,6 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 
-/// Numbers of Linux's signals of real time.
-#[cfg(target_os = "linux")]
-const FIRST_REAL_TIME: i32 = 34;
-#[cfg(target_os = "linux")]
-const LAST_REAL_TIME: i32 = 64;
-
 /// Flags of signals that have come.
 #[derive(Clone, Debug, Default)]
 pub struct Signals {
@@ -57,6 +51,7 @@ impl Signals {
         for signal in [SIGXFSZ, SIGTTIN, SIGTTOU] {
             register(signal, Arc::default())?;
         }
+        #[cfg(target_os = "linux")]
         self.register_of_linux();
         Ok(())
     }
@@ -66,14 +61,14 @@ impl Signals {
     #[cfg(target_os = "linux")]
     fn register_of_linux(&self) {
         use rustix::process::Signal;
+        // Numbers of the signals of real time.
+        const FIRST_REAL_TIME: i32 = 34;
+        const LAST_REAL_TIME: i32 = 64;
         let named = [Signal::POWER, Signal::STKFLT].map(Signal::as_raw);
         for signal in named.into_iter().chain(FIRST_REAL_TIME..=LAST_REAL_TIME) {
             let _ = signal_hook::flag::register(signal, Arc::clone(&self.termination));
         }
     }
-
-    #[cfg(all(unix, not(target_os = "linux")))]
-    fn register_of_linux(&self) {}
 
     #[cfg(not(unix))]
     fn register(&self) -> Result<(), ctrlc::Error> {
