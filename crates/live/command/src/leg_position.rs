@@ -151,23 +151,14 @@ impl LegPosition {
         if self.is_own {
             return Legs::Settled;
         }
-        match (self.given, self.fresh(now)) {
-            (_, Some(lengths)) if self.is_at_rest() => {
-                self.drop_given();
-                Legs::Reported(lengths)
-            }
-            (_, Some(_)) => Legs::Unknown,
-            (Some(given), None) => {
-                self.drop_given();
-                given
-            }
-            (None, None) if self.slow_speed.is_some() => Legs::Slow,
-            (None, None) => Legs::Unknown,
-        }
-    }
-
-    fn drop_given(&mut self) {
+        let legs = match (self.given, self.fresh(now)) {
+            (_, Some(lengths)) if self.is_at_rest() => Legs::Reported(lengths),
+            (Some(given), None) => given,
+            (None, None) if self.slow_speed.is_some() => return Legs::Slow,
+            _ => return Legs::Unknown,
+        };
         (self.given, self.is_given_before) = (None, false);
+        legs
     }
 
     /// Advice before a start with this stroke \[m\]; none if the place is known.

@@ -88,12 +88,8 @@ impl Fmu {
     /// Sets the inputs that take controls.
     fn control(&mut self, command: &RiderCommand) -> Result<()> {
         for (control, Taken { at, scale }) in &self.controls {
-            let value = match control {
-                Control::Throttle => command.throttle,
-                Control::Brake => command.brake,
-                Control::Stick => command.stick,
-            };
-            self.running.set(at, scale * value)?;
+            let values = [command.throttle, command.brake, command.stick];
+            self.running.set(at, scale * values[*control as usize])?;
         }
         Ok(())
     }
