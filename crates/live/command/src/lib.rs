@@ -48,19 +48,20 @@ mod terminal;
 mod thread_monitor;
 mod vehicle;
 
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail, ensure};
 use moris_analysis::host::check_predictive;
 use moris_laps::Laps;
-use moris_live::frame::{self, Encoder, Values};
+use moris_live::frame::{Encoder, Message, Values};
 use moris_live::{STEP, Session, Settings, log, moog};
 use moris_setup::Setup;
 use moris_washout::interface::AutomaticScale;
@@ -162,7 +163,7 @@ pub struct Options {
 
     /// Time without frames after which the controller stops by itself; a longer gap is a fault
     /// [default: that of the template, if it has one]
-    #[arg(long, value_name = "SECONDS", value_parser = time_out)]
+    #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number_in(text, 0.001..=10.0, "a number of seconds from 0.001 to 10"))]
     time_out: Option<f64>,
 
     /// The platform is at its lowest pose now, as a person sees. Otherwise the controller is asked
@@ -172,11 +173,11 @@ pub struct Options {
 
     /// The controller itself goes from anywhere to the first lengths, at this speed or faster
     /// [default: that of the template, if it has one; without a number 0.02]
-    #[arg(long, value_name = "M/S", num_args = 0..=1, default_missing_value = "0.02", value_parser = slow_start, conflicts_with = "dry")]
+    #[arg(long, value_name = "M/S", num_args = 0..=1, default_missing_value = "0.02", value_parser = |text: &str| number_in(text, 0.001..=1.0, "a number of m/s from 0.001 to 1"), conflicts_with = "dry")]
     slow_start: Option<f64>,
 
     /// Send poses that are ahead of now by this time, such as a headset's latency; lengths stay
-    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = pose_ahead)]
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = |text: &str| number_in(text, 0.0..=0.1, "a number of seconds from 0 to 0.1"))]
     pose_ahead: f64,
 
     /// Park and end after this time
@@ -206,18 +207,6 @@ fn seconds(text: &str) -> Result<f64, String> {
     number_in(text, 0.0..=1e6, "a number of seconds from 0 to 1e6")
 }
 
-fn time_out(text: &str) -> Result<f64, String> {
-    number_in(text, 0.001..=10.0, "a number of seconds from 0.001 to 10")
-}
-
-fn slow_start(text: &str) -> Result<f64, String> {
-    number_in(text, 0.001..=1.0, "a number of m/s from 0.001 to 1")
-}
-
-fn pose_ahead(text: &str) -> Result<f64, String> {
-    number_in(text, 0.0..=0.1, "a number of seconds from 0 to 0.1")
-}
-
 /// Values that all threads read.
 #[derive(Debug, Default)]
 struct Shared {
@@ -235,9 +224,26 @@ struct Shared {
     failed: Failed,
     /// Lateness of the latest frame, and of the latest of all \[us\].
     late_frame: [AtomicU64; 2],
+    /// Latest lines of the journal, for the page; the newest first.
+    lines: Mutex<VecDeque<String>>,
 }
 
 impl Shared {
+    /// Prints a line, which the page shows as well.
+    fn say(&self, line: &str) {
+        // Most lines that the page shows.
+        const MAX_JOURNAL_LINES: usize = 8;
+        console::line(line);
+        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+        lines.truncate(MAX_JOURNAL_LINES - 1);
+        lines.push_front(line.trim().to_owned());
+    }
+
+    /// The latest lines, the newest first.
+    fn lines(&self) -> VecDeque<String> {
+        self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
     /// A frame has left so late.
     fn show_late(&self, late: Duration) {
         let late = late.as_micros().min(u128::from(u64::MAX)) as u64;
@@ -281,6 +287,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
     let rig = &setup.parameters.rig;
     let (device, interval, time_out, place) = if options.frames == moog::FRAME_NAME {
+        ensure!(!sink.is_line(), "this device answers by UDP: --to udp:HOST:PORT");
         sink.listen()?;
         // The base itself goes from its home to neutral.
         (Device::moog(rig), moog::PACKET_INTERVAL, None, LegPosition::own())
@@ -293,7 +300,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         };
         // Also where the operator has said it: after a loss the controller is asked.
         if encoder.asks() {
-            sink.listen_if_it_can()?;
+            sink.listen()?;
         }
         let interval = line_interval(&sink, &encoder, template.interval, options.time_out.or(template.time_out))?;
         (Device::of_template(encoder), interval, template.time_out, place)
@@ -316,7 +323,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         is_inside: features.is_inside,
         starts_settled: place.starts_settled(),
         slow_speed: place.slow_speed(),
-        ..Settings::default()
     };
     let mut session = Session::new(&setup.parameters, &settings)?;
     let header = log::header(&setup.parameters, &settings, laps.as_ref());
@@ -325,11 +331,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         session.learn(laps);
     }
     let time_out = options.time_out.or(time_out).map(Duration::from_secs_f64);
-    let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
-    if let Some(file) = &mut record {
-        file.write_all(header.as_bytes()).context("cannot record the session")?;
-    }
-    let record = record.map(Recorder::new).transpose().context("cannot record the session")?;
+    let record = options.record.as_ref().map(|path| {
+        let mut file = File::create(path)?;
+        file.write_all(header.as_bytes())?;
+        Recorder::new(file)
+    });
+    let record = record.transpose().context("cannot record the session")?;
     let shared = Arc::new(Shared::default());
     let signals = Signals::listen()?;
     let interrupts = Interrupts::new(signals.clone());
@@ -366,7 +373,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     occupied.iter_mut().for_each(|occupied| occupied.leave(true));
     let summary = thread::scope(|scope| {
         let (shared, broker) = (&*shared, &broker);
-        let page = server.as_ref().map(|_| &**broker);
         let sender = scope.spawn(move || {
             prepare_helper(options);
             let mut sender = Sender::new(to_send, device, sink, from_device, (interval, actuators), shared);
@@ -374,17 +380,17 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             sender.signals = signals;
             sender.run()
         });
-        let printer =
-            scope.spawn(move || watch(&shared.failed, Part::Journal, || event_log::write_notes(journal, record, page)));
+        let printer = scope
+            .spawn(move || watch(&shared.failed, Part::Journal, || event_log::write_notes(journal, record, shared)));
         if let Some(server) = &server {
             scope.spawn(|| watch(&shared.failed, Part::Page, || server.run(shared)));
             scope.spawn(|| watch(&shared.failed, Part::Page, || broker.show(showing, refusals, shared)));
         }
-        scope.spawn(move || watch(&shared.failed, Part::Page, || parking::forecast(parking, page, shared)));
+        scope.spawn(move || watch(&shared.failed, Part::Page, || parking::forecast(parking, shared)));
         let controls = controls.as_deref();
         scope.spawn(move || {
             prepare_helper(options);
-            watch(&shared.failed, Part::Telemetry, || input.run(controls, samples, shared, page))
+            watch(&shared.failed, Part::Telemetry, || input.run(controls, samples, shared))
         });
         let mut steps = steps::Steps {
             session: &mut session,
@@ -480,7 +486,7 @@ fn line_interval(sink: &Sink, encoder: &Encoder, interval: f64, time_out: Option
     // With as many digits as numbers of a frame have.
     let values = Values { time: 1000.0, length: [1.234567; 6], pose: [-0.123456; 6], ..Values::default() };
     let mut frame = Vec::new();
-    encoder.write(frame::Part::Frame, &values, &mut frame);
+    encoder.write(Message::Frame, &values, &mut frame);
     let line_time = sink.line_time(frame.len());
     if line_time <= interval {
         return Ok(interval);
@@ -542,10 +548,10 @@ fn replay(options: &Options, text: &str, out: &mut dyn Write) -> Result<ExitCode
     let replayed = log::replay(text, |session| {
         let commands = session.commands();
         if state.replace(commands.state) != Some(commands.state) {
-            lines += &format!("{}\n", event_log::state_line(commands.time, commands.state));
+            lines += &format!("{}\n", event_log::timed(commands.time, commands.state.name()));
         }
         if options.dry && ((commands.time / STEP).round() as u64).is_multiple_of(100) {
-            encoder.write(frame::Part::Frame, &Values::from(commands), &mut bytes);
+            encoder.write(Message::Frame, &Values::from(commands), &mut bytes);
             lines += &frames::shown(&bytes);
         }
     })?;

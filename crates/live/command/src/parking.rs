@@ -8,11 +8,9 @@ use moris_live::{STEP, Session, State};
 use rtrb::Consumer;
 
 use super::Shared;
-use super::event_log::say;
-use super::page::ControlBroker;
 
 /// Says how long parking takes, for each copy of the session that begins to park.
-pub fn forecast(mut parking: Consumer<Session>, page: Option<&ControlBroker>, shared: &Shared) {
+pub fn forecast(mut parking: Consumer<Session>, shared: &Shared) {
     // Time between looks for a session that parks.
     const PARKING_POLL_INTERVAL: Duration = Duration::from_millis(20);
     while !parking.is_abandoned() {
@@ -21,7 +19,7 @@ pub fn forecast(mut parking: Consumer<Session>, page: Option<&ControlBroker>, sh
         {
             // After the journal's line of the state.
             thread::sleep(2 * PARKING_POLL_INTERVAL);
-            say(&format!("parking takes {time:.0} s"), page);
+            shared.say(&format!("parking takes {time:.0} s"));
         }
         thread::sleep(PARKING_POLL_INTERVAL);
     }

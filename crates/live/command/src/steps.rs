@@ -37,7 +37,7 @@ pub struct Steps<'a> {
     /// Threads whose failure is known.
     pub known: [bool; Part::ALL.len()],
     pub frames: Frames,
-    pub journal: Producer<Note>,
+    pub journal: Producer<(f64, Note)>,
     /// For the page; what it does not take is dropped.
     pub shown: Option<Producer<Snapshot>>,
     /// For the page: the parameters in force, where what it has asked for was refused.
@@ -111,7 +111,7 @@ impl Steps<'_> {
                 summary.slips += 1;
                 self.record(Happening::Slip(late.as_secs_f64()), &mut summary);
                 self.session.slip(late.as_secs_f64());
-                self.note(Note::Slipped(self.session.time(), late.as_secs_f64()), &mut summary);
+                self.note(Note::Slipped(late.as_secs_f64()), &mut summary);
             }
             while let Ok(Received { arrival, sample }) = self.received.pop() {
                 // Samples of a source inside come before their time.
@@ -149,11 +149,13 @@ impl Steps<'_> {
             if self.session.source().health() != health {
                 health = self.session.source().health();
                 let cause = self.session.source().pause_cause();
-                self.note(Note::Source(commands.time, health, cause), &mut summary);
+                self.note(Note::Source(health, cause), &mut summary);
             }
             if summary.steps.is_multiple_of(TELEMETRY_CHECK_STEPS) || commands.state != state {
                 let Steps { session, journal, .. } = &mut *self;
-                watch.check(session, |note| summary.lost_notes += u64::from(journal.push(note).is_err()));
+                watch.check(session, |note| {
+                    summary.lost_notes += u64::from(journal.push((commands.time, note)).is_err())
+                });
             }
             if commands.state != state {
                 state = commands.state;
@@ -161,7 +163,7 @@ impl Steps<'_> {
                     // Its one allocation, of a list of numbers.
                     let _ = self.parking.push(self.session.without_road());
                 }
-                self.note(Note::State(commands.time, state), &mut summary);
+                self.note(Note::State(state), &mut summary);
             }
             if let Some(shown) = &mut self.shown
                 && summary.steps.is_multiple_of(SNAPSHOT_INTERVAL_STEPS)
@@ -213,7 +215,7 @@ impl Steps<'_> {
     fn fails(&mut self, summary: &mut Summary) -> bool {
         for part in Part::ALL {
             if self.shared.failed.has(part) && !std::mem::replace(&mut self.known[part as usize], true) {
-                self.note(Note::Failed(self.session.time(), part), summary);
+                self.note(Note::Failed(part), summary);
                 self.ask(Event::Fault, summary);
             }
         }
@@ -229,9 +231,10 @@ impl Steps<'_> {
                 self.is_lost &= !(is_obeyed && matches!(event, Event::Clear | Event::Start));
             }
             Order::Lost(loss) => {
-                self.is_lost = loss.is_of_place();
+                // The legs may be anywhere after another one.
+                self.is_lost = !matches!(loss, Loss::Gap(_));
                 summary.loss = Some(loss);
-                self.note(Note::Lost(self.session.time(), loss), summary);
+                self.note(Note::Lost(loss), summary);
                 self.place.forget();
                 // After a gap the frames go on from the last one.
                 self.ask(if self.is_lost { Event::Lost } else { Event::Fault }, summary);
@@ -249,7 +252,7 @@ impl Steps<'_> {
                     // A page that does not take it has others to take before.
                     let _ = self.refused.push(self.session.target_parameters());
                 }
-                self.note(Note::Retuned(self.session.time(), is_in_force), summary);
+                self.note(Note::Retuned(is_in_force), summary);
             }
         }
     }
@@ -259,13 +262,13 @@ impl Steps<'_> {
     fn give(&mut self, legs: Legs, summary: &mut Summary) {
         let state = self.session.state();
         if self.session.is_located() && state != State::Off {
-            self.note(Note::Refused(self.session.time(), Refusal::Commanded(state)), summary);
+            self.note(Note::Refused(Refusal::Commanded(state)), summary);
             return;
         }
         let now = self.session.time();
         let away = self.session.way_from_settled(&self.session.commands().length);
         if !self.place.give(legs, now, away) {
-            self.note(Note::Doubted(now, away), summary);
+            self.note(Note::Doubted(away), summary);
         }
     }
 
@@ -280,7 +283,7 @@ impl Steps<'_> {
         }
         self.record(Happening::Event(event), summary);
         let refused = self.session.handle(event).err();
-        refused.map(|refusal| self.note(Note::Refused(self.session.time(), refusal), summary)).is_none()
+        refused.map(|refusal| self.note(Note::Refused(refusal), summary)).is_none()
     }
 
     /// Gives the session the legs' place, if it is known.
@@ -302,8 +305,8 @@ impl Steps<'_> {
             let _ = self.session.locate(Legs::Unknown);
         }
         let note = match located {
-            Ok(()) => Note::Located(now, legs, hold),
-            Err(refusal) => Note::Refused(now, refusal),
+            Ok(()) => Note::Located(legs, hold),
+            Err(refusal) => Note::Refused(refusal),
         };
         self.note(note, summary);
     }
@@ -313,13 +316,13 @@ impl Steps<'_> {
     }
 
     fn note(&mut self, note: Note, summary: &mut Summary) {
-        summary.lost_notes += u64::from(self.journal.push(note).is_err());
+        summary.lost_notes += u64::from(self.journal.push((self.session.time(), note)).is_err());
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use moris_live::frame::{Encoder, shipped};
+    use moris_live::frame::{Encoder, Message, shipped};
     use moris_live::log::{header, replay};
     use moris_live::{Motion, Sample, Settings};
     use moris_washout::Rig;
@@ -327,13 +330,13 @@ mod tests {
 
     use super::*;
     use crate::actuator_limits::{Actuators, FrameLimiter};
-    use crate::frames::{Message, Sending};
+    use crate::frames::Sending;
 
     /// The loop's parts on a computed clock, and what it has noted.
     struct Computed<'a> {
         steps: Steps<'a>,
         summary: Summary,
-        notes: Consumer<Note>,
+        notes: Consumer<(f64, Note)>,
         sent: Consumer<Sending>,
         limiter: FrameLimiter,
         digest: Digest,
@@ -380,11 +383,11 @@ mod tests {
     impl Computed<'_> {
         fn obey(&mut self, order: Order) {
             self.steps.obey(order, &mut self.summary);
-            while let Ok(note) = self.notes.pop() {
+            while let Ok((_, note)) = self.notes.pop() {
                 match note {
                     Note::Entry(entry) => self.text += &format!("{entry}\n"),
-                    Note::Located(_, legs, _) => self.said.push(legs.name().to_owned()),
-                    Note::Refused(_, refusal) => self.said.push(refusal.to_string()),
+                    Note::Located(legs, _) => self.said.push(legs.name().to_owned()),
+                    Note::Refused(refusal) => self.said.push(refusal.to_string()),
                     Note::Doubted(..) => self.said.push("doubted".to_owned()),
                     _ => (),
                 }

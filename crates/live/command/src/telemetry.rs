@@ -18,8 +18,6 @@ use nalgebra::Vector3;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
-use super::event_log::say;
-use super::page::ControlBroker;
 use super::sender::{Dropped, Followed};
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Options, Shared, loop_clock, tables};
@@ -123,15 +121,9 @@ impl Input {
     }
 
     /// Passes samples on until all has ended. `controls` are those that its features name.
-    pub fn run(
-        self,
-        controls: Option<&Controls>,
-        samples: Producer<Received>,
-        shared: &Shared,
-        page: Option<&ControlBroker>,
-    ) {
+    pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared) {
         match self.source {
-            Source::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
+            Source::Udp(socket, format) => receive(&socket, &format, samples, shared),
             Source::Played(recording) => play(&recording, samples, shared),
             Source::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
         }
@@ -143,13 +135,7 @@ pub fn shape(format: &Format) -> Option<Shape> {
     (format.vehicle == Kind::Car).then_some(Shape::Car)
 }
 
-fn receive(
-    socket: &UdpSocket,
-    format: &Format,
-    mut samples: Producer<Received>,
-    shared: &Shared,
-    page: Option<&ControlBroker>,
-) {
+fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared) {
     // Reads without a packet, of 0.1 s each, after which the port is doubted.
     const QUIET_READS: u32 = 30;
     // Largest packet [bytes].
@@ -172,7 +158,7 @@ fn receive(
             }
             quiet += 1;
             if quiet == QUIET_READS && !is_heard {
-                say(&no_packet(port, is_local), page);
+                shared.say(&no_packet(port, is_local));
             }
             continue;
         };
@@ -188,12 +174,12 @@ fn receive(
                         let _ = samples.push(Received { arrival, sample });
                     }
                 }
-                Err(another) => drop(another.inspect(|line| say(line, page))),
+                Err(another) => drop(another.inspect(|line| shared.say(line))),
             },
             Err(_) => {
                 shared.dropped.fetch_add(1, Ordering::Relaxed);
                 if let Some(count) = dropped.take(arrival) {
-                    say(&format!("dropped: {count}; {}", format.explain(&packet[..length], port)), page);
+                    shared.say(&format!("dropped: {count}; {}", format.explain(&packet[..length], port)));
                 }
             }
         }

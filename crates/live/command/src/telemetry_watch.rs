@@ -32,21 +32,21 @@ impl TelemetryWatch {
             let verdict = session.signs().verdict(check);
             if verdict != *known && verdict != Verdict::Unknown {
                 *known = verdict;
-                note(Note::Sign(now, check, verdict));
+                note(Note::Sign(check, verdict));
             }
         }
         let fault = session.telemetry_fault();
         let fault = if let Some(TelemetryFault::Table(fault)) = fault { Some(fault) } else { None };
         let before = std::mem::replace(&mut self.fault, fault.map(|fault| fault.kind()));
         if let Some(fault) = fault.filter(|fault| before != Some(fault.kind())) {
-            note(Note::Table(now, fault));
+            note(Note::Table(fault));
         }
         self.check_dropped(session, now, &mut note);
         self.check_repeated(session, now, &mut note);
         let delay = session.delay();
         if session.is_delay_long() && self.delay.is_none_or(|known| delay > DELAY_GROWTH * known) {
             self.delay = Some(delay);
-            note(Note::Delayed(now, delay));
+            note(Note::Delayed(delay));
         }
     }
 
@@ -67,7 +67,7 @@ impl TelemetryWatch {
             && dropped as f64 >= DROPPED_PART * received as f64
         {
             self.dropped_at = Some(now);
-            note(Note::SamplesDropped(now, [received, dropped], reason));
+            note(Note::SamplesDropped([received, dropped], reason));
         }
         self.counts = [counts.received, counts.dropped()];
     }
@@ -89,7 +89,7 @@ impl TelemetryWatch {
         let is_slow = ((received - same) as f64) < FELT_SAMPLE_RATE * passed;
         if is_slow && same as f64 > SAME_PART * received as f64 && !self.is_repetition_reported {
             self.is_repetition_reported = true;
-            note(Note::SamplesRepeated(now, [received, same]));
+            note(Note::SamplesRepeated([received, same]));
         }
     }
 }
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     /// Lines in so many seconds of a source at 100 Hz.
-    fn told(seconds: u32, sample: impl Fn(f64) -> Sample) -> Vec<Note> {
+    fn told(seconds: u32, sample: impl Fn(f64) -> Sample) -> Vec<(f64, Note)> {
         let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
         let mut watch = TelemetryWatch::default();
         let mut notes = Vec::new();
@@ -112,7 +112,7 @@ mod tests {
             }
             session.step();
             if step % 1000 == 0 {
-                watch.check(&session, |note| notes.push(note));
+                watch.check(&session, |note| notes.push((session.time(), note)));
             }
         }
         notes
@@ -126,9 +126,9 @@ mod tests {
 
     #[test]
     fn dropped_samples_are_told_while_they_happen() {
-        let times = |notes: &[Note]| {
-            let time = |note: &Note| match note {
-                Note::SamplesDropped(time, [received, dropped], _) => Some((*time, *received, *dropped)),
+        let times = |notes: &[(f64, Note)]| {
+            let time = |(time, note): &(f64, Note)| match note {
+                Note::SamplesDropped([received, dropped], _) => Some((*time, *received, *dropped)),
                 _ => None,
             };
             notes.iter().filter_map(time).collect::<Vec<_>>()
@@ -163,7 +163,7 @@ mod tests {
                 sample.motion.0[9] = speed;
                 Sample { time: Some(t), ..sample }
             });
-            notes.iter().filter(|note| matches!(note, Note::SamplesRepeated(..))).count()
+            notes.iter().filter(|(_, note)| matches!(note, Note::SamplesRepeated(..))).count()
         };
         assert_eq!([repeated(10.0, 9.0), repeated(50.0, 9.0), repeated(10.0, 0.0)], [1, 0, 0]);
     }
@@ -175,8 +175,8 @@ mod tests {
             sample.motion.0[2] = 1.0 + 0.1 * (3.0 * t).sin();
             sample
         });
-        let found: Vec<&Note> = notes.iter().filter(|note| matches!(note, Note::Table(..))).collect();
-        assert!(matches!(found[..], [Note::Table(time, _)] if *time <= 3.0), "{notes:?}");
+        let found: Vec<_> = notes.iter().filter(|(_, note)| matches!(note, Note::Table(_))).collect();
+        assert!(matches!(found[..], [(time, _)] if *time <= 3.0), "{notes:?}");
     }
 
     #[test]

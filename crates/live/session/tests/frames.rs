@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use moris_live::frame::{Encoder, Frames, Part, SHIPPED_FRAMES, Values, shipped};
+use moris_live::frame::{Encoder, Frames, Message, SHIPPED_FRAMES, Values, shipped};
 use moris_live::{Session, Settings};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::motion::orientation::Orientation;
@@ -17,7 +17,7 @@ const LENGTH: [f64; 6] = [1.0, 1.15, 1.3, 1.45, 1.6, 9.0];
 fn frame(text: &str) -> Vec<u8> {
     let encoder = Encoder::new(&text.parse::<Frames>().unwrap(), &Rig::default()).unwrap();
     let mut out = vec![1, 2, 3];
-    encoder.write(Part::Frame, &Values { length: LENGTH, ..Values::default() }, &mut out);
+    encoder.write(Message::Frame, &Values { length: LENGTH, ..Values::default() }, &mut out);
     out
 }
 
@@ -78,7 +78,7 @@ fn vr_pose_gives_the_headset_the_pose_of_the_platform() {
         commands.pose.position = place + Vector3::z() * neutral;
         commands.pose.orientation = Orientation::new(RollPitchYaw::new(roll, pitch, yaw));
         commands.heave = place.z;
-        encoder.write(Part::Frame, &Values::from(&commands), &mut out);
+        encoder.write(Message::Frame, &Values::from(&commands), &mut out);
         assert_eq!(out.len(), 48);
         let platform = Isometry3::from_parts(place.into(), UnitQuaternion::from_euler_angles(roll, pitch, yaw));
         // A point of the world, seen from the platform, and back through what the headset receives.
@@ -89,7 +89,7 @@ fn vr_pose_gives_the_headset_the_pose_of_the_platform() {
     }
     // The signs by themselves: to the left is a negative sway, nose down a negative pitch.
     let values = Values { own: [0.1, 0.2, 0.03], pose: [0.0, 0.0, 0.0, 0.1, 0.2, 0.3], ..Values::default() };
-    encoder.write(Part::Frame, &values, &mut out);
+    encoder.write(Message::Frame, &values, &mut out);
     let numbers: Vec<f64> = out.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
     for (found, expected) in numbers.iter().zip([-200.0, 100.0, 30.0, 17.188_734, 5.729_578, -11.459_156]) {
         assert!((found - expected).abs() < 1e-5, "{numbers:?}");
@@ -101,7 +101,7 @@ fn numbers_of_a_template_have_their_width_and_order() {
     let encoder = |frame: &str| Encoder::new(&format!("{TEMPLATE}frame = '{frame}'").parse().unwrap(), &Rig::default());
     let mut out = Vec::new();
     encoder("x:f32 x:f32le*2 x:f64*-0.5").unwrap().write(
-        Part::Frame,
+        Message::Frame,
         &Values { pose: [1.0; 6], ..Values::default() },
         &mut out,
     );
@@ -122,7 +122,7 @@ fn angles_of_cranks_have_zeros_directions_and_units() {
     let template = |frame: &str| format!("{TEMPLATE}{scales}frame = \"{frame}\"").parse::<Frames>().unwrap();
     let sent = |frame: &str| {
         let mut out = Vec::new();
-        Encoder::new(&template(frame), &rig).unwrap().write(Part::Frame, &values, &mut out);
+        Encoder::new(&template(frame), &rig).unwrap().write(Message::Frame, &values, &mut out);
         out
     };
     let line = |unit: &str, form: &str| {
@@ -225,7 +225,7 @@ fn every_template_is_listed_and_says_whether_it_moves_actuators_and_how_a_contro
     }
     let encoder = Encoder::new(&shipped("csv").unwrap().parse().unwrap(), &Rig::default()).unwrap();
     let mut out = Vec::new();
-    encoder.write(Part::Ask, &Values::default(), &mut out);
+    encoder.write(Message::Ask, &Values::default(), &mut out);
     assert_eq!(out, b"legs?\n");
 }
 
@@ -237,7 +237,7 @@ proptest! {
             assert_eq!(frames.name, name);
             let encoder = Encoder::new(&frames, &rig_for(name)).unwrap();
             let mut out = Vec::new();
-            encoder.write(Part::Frame, &Values { length, time, ..Values::default() }, &mut out);
+            encoder.write(Message::Frame, &Values { length, time, ..Values::default() }, &mut out);
             prop_assert!(!out.is_empty());
         }
     }
@@ -252,7 +252,7 @@ proptest! {
 fn of_tokens(tokens: &str, values: &Values) -> Vec<u8> {
     let text = format!("name = \"own\"\nabout = \"own\"\nnote = \"own\"\nframe = \"{tokens}\"");
     let mut out = Vec::new();
-    Encoder::new(&text.parse().unwrap(), &Rig::default()).unwrap().write(Part::Frame, values, &mut out);
+    Encoder::new(&text.parse().unwrap(), &Rig::default()).unwrap().write(Message::Frame, values, &mut out);
     out
 }
 

@@ -1,11 +1,9 @@
 //! Bytes to a device: a template that is filled in, or packets of a motion base that answers.
 
 use moris_live::Event;
-use moris_live::frame::{Encoder, Part, Values};
+use moris_live::frame::{Encoder, Message, Values};
 use moris_live::moog::Moog;
 use moris_washout::Rig;
-
-use super::Message;
 
 /// Bytes to the device for a message.
 #[derive(Clone, Debug)]
@@ -40,13 +38,7 @@ impl Device {
         match self {
             Device::Template(encoder, count) => {
                 let values = &Values { count: *count, ..*values };
-                let part = match message {
-                    Message::Start | Message::Begin => Part::Start,
-                    Message::Frame => Part::Frame,
-                    Message::Park => Part::Park,
-                    Message::Stop => Part::Stop,
-                };
-                encoder.write(part, values, out);
+                encoder.write(message, values, out);
                 *count = count.wrapping_add(u32::from(message == Message::Frame));
                 None
             }

@@ -4,12 +4,11 @@ mod device;
 mod sender;
 mod sink;
 
-use std::fmt::{self, Display, Formatter};
 use std::io::ErrorKind;
 use std::thread::Thread;
 use std::time::Duration;
 
-use moris_live::frame::Values;
+use moris_live::frame::{Message, Values};
 use moris_live::motion::turns;
 use moris_live::{Commands, STEP, State};
 use rtrb::Producer;
@@ -18,21 +17,6 @@ use super::loop_clock;
 pub use device::Device;
 pub use sender::{Sender, Sent};
 pub use sink::{Sink, shown};
-
-/// A message of the loop to the device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Message {
-    /// The start string.
-    Start,
-    /// The same to actuators that are where the first frame has them, as is known.
-    Begin,
-    /// A frame of actuator positions.
-    Frame,
-    /// The park string.
-    Park,
-    /// The stop string.
-    Stop,
-}
 
 /// A message on its way with its values, and the arrival of the sample that it is the first to
 /// follow.
@@ -46,38 +30,20 @@ pub struct Sending {
 }
 
 /// Reason for which the controller does not follow any more.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Loss {
     /// The receiver refuses frames, or the line is gone.
+    #[error("CONTROLLER LOST: it takes no frames: {0}. Repair it, then clear")]
     Refused(ErrorKind),
     /// No frame has left for this time \[s\], its own time-out or longer.
+    #[error("CONTROLLER LOST: no frame has left for {0:.2} s, its time-out. Clear it")]
     Gap(f64),
+    /// The same for so long that it may have gone anywhere, whatever its time-out.
+    #[error("CONTROLLER LOST: no frame has left for {0:.0} s. Look where the legs are, then clear")]
+    LongGap(f64),
     /// The device answers with a fault, or no more.
+    #[error("CONTROLLER LOST: it reports a fault, or does not answer. Repair it, then clear")]
     Device,
-}
-
-/// Time without frames after which a controller may have gone anywhere, whatever its time-out
-/// \[s\].
-const LONG_GAP: f64 = 2.0;
-
-impl Loss {
-    /// True if the legs may be anywhere after it.
-    pub fn is_of_place(self) -> bool {
-        !matches!(self, Loss::Gap(time) if time < LONG_GAP)
-    }
-}
-
-impl Display for Loss {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Loss::Refused(kind) => write!(f, "CONTROLLER LOST: it takes no frames: {kind}. Repair it, then clear"),
-            Loss::Gap(time) if *time >= LONG_GAP => {
-                write!(f, "CONTROLLER LOST: no frame has left for {time:.0} s. Look where the legs are, then clear")
-            }
-            Loss::Gap(time) => write!(f, "CONTROLLER LOST: no frame has left for {time:.2} s, its time-out. Clear it"),
-            Loss::Device => write!(f, "CONTROLLER LOST: it reports a fault, or does not answer. Repair it, then clear"),
-        }
-    }
 }
 
 /// The interval between frames in whole steps \[s\]: a frame follows a step.

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use moris_live::Event;
-use moris_live::frame::{Part, Values};
+use moris_live::frame::{Message, Values};
 use rtrb::{Consumer, Producer};
 
 use super::super::actuator_limits::{Actuators, FrameLimiter};
@@ -15,9 +15,9 @@ use super::super::lateness::Lateness;
 use super::super::lines::Lines;
 use super::super::page::Order;
 use super::super::signals::Signals;
-use super::super::thread_monitor;
+use super::super::thread_monitor::Part;
 use super::super::{Shared, loop_clock};
-use super::{Device, Loss, Message, Sending, Sink};
+use super::{Device, Loss, Sending, Sink};
 
 /// Numbers of frames.
 #[derive(Clone, Debug, Default)]
@@ -106,7 +106,7 @@ impl<'a> Sender<'a> {
             if catch_unwind(AssertUnwindSafe(|| self.work())).is_ok() {
                 break;
             }
-            self.shared.failed.add(thread_monitor::Part::Frames);
+            self.shared.failed.add(Part::Frames);
         }
         self.sent
     }
@@ -177,6 +177,8 @@ impl<'a> Sender<'a> {
 
     /// Sends a message. A fault, if the device reports one.
     fn take(&mut self, message: Message, values: &Values) -> Option<Event> {
+        // Time without frames after which a controller may have gone anywhere, whatever its time-out.
+        const LONG_GAP: Duration = Duration::from_secs(2);
         self.running = message != Message::Stop;
         let now = loop_clock::now();
         if matches!(message, Message::Start | Message::Begin) {
@@ -199,8 +201,9 @@ impl<'a> Sender<'a> {
                 && let Some(gap) = self.limiter.gap(now)
             {
                 self.sent.gap = self.sent.gap.max(gap);
-                let loss = Loss::Gap(gap.as_secs_f64());
-                let is_long = loss.is_of_place() && !matches!(self.sink, Sink::Dry);
+                let seconds = gap.as_secs_f64();
+                let loss = if gap >= LONG_GAP { Loss::LongGap(seconds) } else { Loss::Gap(seconds) };
+                let is_long = gap >= LONG_GAP && !matches!(self.sink, Sink::Dry);
                 if is_long || self.time_out.is_some_and(|time_out| gap >= time_out) {
                     self.limiter.lose();
                     self.report(loss);
@@ -256,7 +259,7 @@ impl<'a> Sender<'a> {
         if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= POSITION_REQUEST_INTERVAL) {
             self.asked = Some(now);
             self.sink.reopen();
-            encoder.write(Part::Ask, &Values::default(), &mut self.bytes);
+            encoder.write(Message::Ask, &Values::default(), &mut self.bytes);
             // A controller that is not there is seen by its frames.
             let _ = self.sink.send(&self.bytes);
         }

@@ -6,22 +6,16 @@ use std::io::{self, Write, stdout};
 use std::net::UdpSocket;
 use std::time::Duration;
 
-use anyhow::{Context, Result, bail};
-use serialport::{SerialPort as _, SerialPortBuilder};
+use anyhow::{Context, Result};
+use serialport::{SerialPort, SerialPortBuilder};
 
 /// Time in which a serial line must take a frame.
 const LINE_TIME: Duration = Duration::from_millis(100);
 
-/// A serial line.
-#[cfg(unix)]
-type Line = serialport::TTYPort;
-#[cfg(not(unix))]
-type Line = serialport::COMPort;
-
 /// A serial line; closed once it is pulled, so that its name is free for the one that comes back.
 pub struct Serial {
     settings: SerialPortBuilder,
-    line: RefCell<Option<Line>>,
+    line: RefCell<Option<Box<dyn SerialPort>>>,
 }
 
 /// Place to which frames go.
@@ -55,7 +49,7 @@ impl Sink {
         let (line, baud) = line.rsplit_once(':').context("--to is serial:LINE:BAUD")?;
         let baud = baud.parse().context("--to is serial:LINE:BAUD")?;
         let settings = serialport::new(line, baud).timeout(LINE_TIME);
-        let open = settings.clone().open_native().with_context(|| format!("cannot open {line}"))?;
+        let open = settings.clone().open().with_context(|| format!("cannot open {line}"))?;
         Ok(Sink::Serial(Serial { settings, line: RefCell::new(Some(open)) }))
     }
 
@@ -93,18 +87,12 @@ impl Sink {
         matches!(self, Sink::Serial(_))
     }
 
-    /// Lets [`Sink::receive`] not wait.
+    /// Waits for no answer from now on.
     ///
     /// # Errors
     /// The device cannot be asked.
     pub fn listen(&self) -> Result<()> {
-        match self {
-            Sink::Udp(socket) => Ok(socket.set_nonblocking(true)?),
-            Sink::Dry => Ok(()),
-            #[cfg(test)]
-            Sink::Panicking(_) => Ok(()),
-            Sink::Serial(_) => bail!("this device answers by UDP: --to udp:HOST:PORT"),
-        }
+        if let Sink::Udp(socket) = self { Ok(socket.set_nonblocking(true)?) } else { Ok(()) }
     }
 
     /// Closes a line that takes no frames.
@@ -119,18 +107,7 @@ impl Sink {
         if let Sink::Serial(Serial { settings, line }) = self
             && line.borrow().is_none()
         {
-            line.replace(settings.clone().open_native().ok());
-        }
-    }
-
-    /// As [`Sink::listen`], on a way that has answers.
-    ///
-    /// # Errors
-    /// The device cannot be asked.
-    pub fn listen_if_it_can(&self) -> Result<()> {
-        match self {
-            Sink::Udp(_) => self.listen(),
-            _ => Ok(()),
+            line.replace(settings.clone().open().ok());
         }
     }
 

@@ -1,6 +1,6 @@
 //! The broker between the browsers and the loop: who controls, what is asked, and what is shown.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -14,7 +14,7 @@ use moris_washout::{ParameterError, Parameters, Washout};
 use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
-use super::http_error::{HttpError, Status};
+use super::http::HttpError;
 use super::snapshot::{self, ROW_NAMES, Snapshot};
 use crate::controls::Controls;
 use crate::frames::Loss;
@@ -66,8 +66,6 @@ pub struct ControlBroker {
     inner: Mutex<Inner>,
     /// Stop and park, which wait for nothing else.
     urgent: Mutex<Producer<Order>>,
-    /// Lines of the journal.
-    lines: Mutex<VecDeque<String>>,
     /// A new message, or the end.
     news: Condvar,
     controls: Option<Arc<Controls>>,
@@ -87,8 +85,6 @@ struct Inner {
     browsers: Vec<Browser>,
     /// Browsers that have come.
     count: u64,
-    /// A member of a JSON object: parameters that differ from their start.
-    status: String,
     /// The last message and its number.
     message: (u64, String),
     ended: bool,
@@ -129,7 +125,7 @@ impl ControlBroker {
         shared_control: bool,
     ) -> Result<Self, moris_washout::ParameterError> {
         let trial = Washout::new(&setup.parameters)?;
-        let mut inner = Inner {
+        let inner = Inner {
             orders,
             start: slots_of(&setup.parameters),
             trial,
@@ -137,15 +133,12 @@ impl ControlBroker {
             controller: None,
             browsers: Vec::new(),
             count: 0,
-            status: String::new(),
             message: (0, String::new()),
             ended: false,
         };
-        inner.renew_status();
         Ok(ControlBroker {
             inner: Mutex::new(inner),
             urgent: Mutex::new(urgent),
-            lines: Mutex::default(),
             news: Condvar::new(),
             controls,
             shared_control,
@@ -157,17 +150,6 @@ impl ControlBroker {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A line for the page's journal.
-    pub fn log_line(&self, line: &str) {
-        // Most lines of the journal that are kept.
-        const MOST_LINES: usize = 50;
-        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
-        lines.push_back(line.trim().to_owned());
-        if lines.len() > MOST_LINES {
-            lines.pop_front();
-        }
-    }
-
     /// Makes messages of what the loop shows, until it has ended. `refusals`: the parameters in
     /// force where the loop has refused others.
     pub fn show(&self, mut moments: Consumer<Snapshot>, mut refusals: Consumer<Parameters>, shared: &Shared) {
@@ -176,7 +158,6 @@ impl ControlBroker {
         loop {
             let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
             let taken: Vec<Snapshot> = std::iter::from_fn(|| moments.pop().ok()).collect();
-            let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
             let place = self.controls.as_ref().and_then(|controls| controls.place());
             let place = serde_json::to_string(&place).unwrap_or_default();
@@ -185,9 +166,11 @@ impl ControlBroker {
                 inner.return_to(&parameters);
             }
             let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
-            let status =
-                format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}", inner.status);
-            if let Some(text) = snapshot::message(&taken, &lines, &status) {
+            let changed = inner.changed();
+            let status = format!(
+                "\"changed\":{changed},\"holder\":{holder},\"late_frames\":[{late},{latest}],\"place\":{place}"
+            );
+            if let Some(text) = snapshot::message(&taken, &shared.lines(), &status) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, |shown| shown.state);
             }
@@ -248,24 +231,18 @@ impl ControlBroker {
         }
     }
 
-    /// Passes a stop or a park on, from whichever page it comes.
-    fn ask_at_once(&self, event: Event) -> Result<(), HttpError> {
-        let mut urgent = self.urgent.lock().unwrap_or_else(PoisonError::into_inner);
-        let refused = |_| HttpError::new(Status::Unavailable, "the loop has not taken the last orders yet");
-        urgent.push(Order::Event(event)).map_err(refused)
-    }
-
     /// Passes on what a browser asks for.
     ///
     /// # Errors
     /// The status of the refusal, and its reason.
     pub fn ask(&self, body: &[u8]) -> Result<(), HttpError> {
-        let asked: Asked =
-            serde_json::from_slice(body).map_err(|error| HttpError::new(Status::BadRequest, error.to_string()))?;
+        let asked: Asked = serde_json::from_slice(body).map_err(|error| HttpError::new(400, error.to_string()))?;
         if let Ask::Event(name) = &asked.ask
             && let Some(event @ (Event::Stop | Event::Park)) = Event::of_person(name)
         {
-            return self.ask_at_once(event);
+            // From whichever page it comes.
+            let mut urgent = self.urgent.lock().unwrap_or_else(PoisonError::into_inner);
+            return urgent.push(Order::Event(event)).map_err(|_| HttpError::new(503, ORDERS_WAIT));
         }
         let mut inner = self.lock();
         if inner.controller.is_none() {
@@ -274,42 +251,42 @@ impl ControlBroker {
         let drives = matches!(asked.ask, Ask::Drive(_) | Ask::BeginAgain);
         let holds = inner.controller.as_ref().is_some_and(|holder| holder.client == asked.client);
         if (drives || !self.shared_control) && !holds {
-            return Err(HttpError::new(Status::Forbidden, "another page controls; Stop and Park work here, too"));
+            return Err(HttpError::new(403, "another page controls; Stop and Park work here, too"));
         }
         match asked.ask {
             Ask::Drive(command) => self.drive(|controls| controls.hold(&command, loop_clock::now())),
             Ask::BeginAgain => self.drive(Controls::begin_again),
             Ask::Event(name) => {
-                let event = Event::of_person(&name)
-                    .ok_or_else(|| HttpError::unprocessable(format!("there is no command {name}")))?;
+                let event = Event::of_person(&name).ok_or_else(|| format!("there is no command {name}"))?;
                 inner.send(&[Order::Event(event)])
             }
             Ask::Legs(name) => {
-                let legs = Legs::of_person(&name)
-                    .ok_or_else(|| HttpError::unprocessable(format!("{name} is no place of the legs")))?;
+                let legs = Legs::of_person(&name).ok_or_else(|| format!("{name} is no place of the legs"))?;
                 inner.send(&[Order::Legs(legs)])
             }
             Ask::Set(values) => {
                 let values: Option<Vec<_>> =
                     values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
-                let values = values.ok_or_else(|| HttpError::unprocessable("there is no such parameter"))?;
+                let values = values.ok_or_else(|| "there is no such parameter".to_owned())?;
                 inner.choose(&values)
             }
         }
     }
 
     fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), HttpError> {
-        let controls =
-            self.controls.as_ref().ok_or_else(|| HttpError::unprocessable("this vehicle has no controls"))?;
-        act(controls).map_err(HttpError::unprocessable)
+        let controls = self.controls.as_ref().ok_or_else(|| "this vehicle has no controls".to_owned())?;
+        Ok(act(controls)?)
     }
 }
+
+/// Reason of a refusal while the loop's ring is full.
+const ORDERS_WAIT: &str = "the loop has not taken the last orders yet";
 
 impl Inner {
     /// Passes orders on: all or none, because a part of a set may not fit together.
     fn send(&mut self, orders: &[Order]) -> Result<(), HttpError> {
         let Ok(place) = self.orders.write_chunk_uninit(orders.len()) else {
-            return Err(HttpError::new(Status::Unavailable, "the loop has not taken the last orders yet"));
+            return Err(HttpError::new(503, ORDERS_WAIT));
         };
         place.fill_from_iter(orders.iter().copied());
         Ok(())
@@ -322,25 +299,22 @@ impl Inner {
         parameters.conditioning.angular_velocity_frame = self.trial.parameters().conditioning.angular_velocity_frame;
         if let Ok(trial) = Washout::new(&parameters) {
             self.trial = trial;
-            self.renew_status();
         }
     }
 
     /// Puts values of slots in force if they can be used now.
     fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), HttpError> {
         for (slot, value) in values {
-            log::check_value(*slot, *value).map_err(|error| HttpError::unprocessable(error.to_string()))?;
+            log::check_value(*slot, *value).map_err(|error| error.to_string())?;
         }
         let mut slots = slots_of(self.trial.parameters());
         values.iter().for_each(|(slot, value)| slots[*slot] = *value);
         let mut tried = self.trial.clone();
         let parameters = Parameters::read(&mut Reader::new(&slots));
-        retune(&mut tried, &parameters, self.state)
-            .map_err(|error| HttpError::unprocessable(self.reason(&parameters, &error)))?;
+        retune(&mut tried, &parameters, self.state).map_err(|error| self.reason(&parameters, &error))?;
         let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
         self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
         self.trial = tried;
-        self.renew_status();
         Ok(())
     }
 
@@ -355,15 +329,14 @@ impl Inner {
         format!("Park first: {names} cannot change like this before the platform is settled")
     }
 
-    /// Renews the part of each message that changes by orders alone.
-    fn renew_status(&mut self) {
+    /// A JSON object of the parameters that differ from their start.
+    fn changed(&self) -> String {
         let slots = slots_of(self.trial.parameters());
         let changed: BTreeMap<String, f64> = (0..slots.len())
             .filter(|slot| slots[*slot] != self.start[*slot])
             .map(|slot| (log::name_of(slot), slots[slot]))
             .collect();
-        let changed = serde_json::to_string(&changed).unwrap_or_default();
-        self.status = format!("\"changed\":{changed}");
+        serde_json::to_string(&changed).unwrap_or_default()
     }
 }
 
@@ -393,18 +366,18 @@ mod tests {
             broker.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"start\"}}}}").as_bytes())
         };
         // Somebody who has not come.
-        assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("one").unwrap_err().number, 403);
         assert!(broker.enter("one").controls && !broker.enter("two").controls && !broker.enter("three").controls);
-        assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("two").unwrap_err().number, 403);
         start("one").unwrap();
         broker.leave("three");
-        assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("two").unwrap_err().number, 403);
         broker.leave("one");
-        assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
-        assert_eq!(start("three").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("one").unwrap_err().number, 403);
+        assert_eq!(start("three").unwrap_err().number, 403);
         start("two").unwrap();
         assert!(!broker.enter("four").controls);
-        assert_eq!(start("four").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("four").unwrap_err().number, 403);
         assert_eq!(taken(&mut orders), [Order::Event(Event::Start); 2]);
     }
 
@@ -417,10 +390,7 @@ mod tests {
         let broker = ControlBroker::new(&setup(), [orders, urgent], None, false).unwrap();
         broker.enter("one");
         broker.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
-        assert_eq!(
-            broker.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().status,
-            Status::Unavailable
-        );
+        assert_eq!(broker.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().number, 503);
         let busy = broker.lock();
         broker.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"stop\"}}").unwrap();
         broker.ask(b"{\"client\":\"\",\"ask\":{\"event\":\"park\"}}").unwrap();
@@ -448,28 +418,28 @@ mod tests {
             Order::Retune,
         ];
         assert_eq!(taken(&mut orders), expected);
-        let text = broker.lock().status.clone();
-        assert!(text.starts_with("\"changed\":{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
+        let text = broker.lock().changed();
+        assert!(text.starts_with("{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
         for (wrong, status) in [
-            ("{\"tilt.angleLimit\":1e300}", Status::Unprocessable),
-            ("{\"actuator.maxLength\":3}", Status::Unprocessable),
+            ("{\"tilt.angleLimit\":1e300}", 422),
+            ("{\"actuator.maxLength\":3}", 422),
             // No item of an enumeration is between two others or behind the last.
-            ("{\"strategy\":2.5}", Status::Unprocessable),
-            ("{\"strategy\":1e300}", Status::Unprocessable),
-            ("{\"strategy\":0}", Status::Unprocessable),
-            ("{\"nothing\":3}", Status::Unprocessable),
-            ("{\"tilt.angleLimit\":NaN}", Status::BadRequest),
-            ("{\"tilt.angleLimit\":\"../../etc/passwd\"}", Status::BadRequest),
-            ("[]", Status::BadRequest),
+            ("{\"strategy\":2.5}", 422),
+            ("{\"strategy\":1e300}", 422),
+            ("{\"strategy\":0}", 422),
+            ("{\"nothing\":3}", 422),
+            ("{\"tilt.angleLimit\":NaN}", 400),
+            ("{\"tilt.angleLimit\":\"../../etc/passwd\"}", 400),
+            ("[]", 400),
         ] {
-            assert_eq!(set(wrong).unwrap_err().status, status, "{wrong}");
+            assert_eq!(set(wrong).unwrap_err().number, status, "{wrong}");
         }
         for wrong in ["fault", "arrived", "explode", ""] {
             let text = format!("{{\"client\":\"\",\"ask\":{{\"event\":\"{wrong}\"}}}}");
-            assert_eq!(broker.ask(text.as_bytes()).unwrap_err().status, Status::Unprocessable, "{wrong}");
+            assert_eq!(broker.ask(text.as_bytes()).unwrap_err().number, 422, "{wrong}");
         }
         assert!(taken(&mut orders).is_empty());
-        assert_eq!(broker.lock().status, text);
+        assert_eq!(broker.lock().changed(), text);
     }
 
     #[test]
@@ -481,8 +451,8 @@ mod tests {
             for (change, name) in
                 [("{\"strategy\":2}", "strategy"), ("{\"scale.specificForce.x\":-1}", "scale.specificForce.x")]
             {
-                let HttpError { status, reason: why } = set(change).unwrap_err();
-                assert_eq!(status, Status::Unprocessable);
+                let HttpError { number: status, reason: why } = set(change).unwrap_err();
+                assert_eq!(status, 422);
                 assert!(why.starts_with("Park first: ") && why.contains(name), "{why}");
             }
             // What never can be used has its own reason.
@@ -500,9 +470,9 @@ mod tests {
         let before = *broker.lock().trial.parameters();
         broker.lock().state = State::Settled;
         broker.ask(b"{\"client\":\"\",\"ask\":{\"set\":{\"strategy\":2}}}").unwrap();
-        assert!(broker.lock().status.contains("\"strategy\":2"));
+        assert!(broker.lock().changed().contains("\"strategy\":2"));
         broker.lock().return_to(&before);
-        assert_eq!(broker.lock().status, "\"changed\":{}");
+        assert_eq!(broker.lock().changed(), "{}");
     }
 
     #[test]
@@ -511,7 +481,7 @@ mod tests {
         let broker = ControlBroker::new(&setup(), [orders, RingBuffer::new(8).0], None, true).unwrap();
         let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
         broker.ask(set).unwrap();
-        assert_eq!(broker.ask(set).unwrap_err().status, Status::Unavailable);
+        assert_eq!(broker.ask(set).unwrap_err().number, 503);
         assert_eq!(taken(&mut asked).len(), 3);
     }
 }

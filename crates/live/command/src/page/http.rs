@@ -4,15 +4,34 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::{IpAddr, TcpStream};
 use std::time::{Duration, Instant};
 
-use super::http_error::{HttpError, Status};
-
 /// Most bytes of a request's head, and of its body.
 const MAX_PART_SIZE: usize = 16_384;
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 
-fn refused<T>(status: Status, reason: &str) -> Result<T, HttpError> {
-    Err(HttpError::new(status, reason))
+/// Answer to a request that is refused: HTTP's number of the status, and the reason.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HttpError {
+    pub number: u16,
+    pub reason: String,
+}
+
+impl HttpError {
+    /// A refusal with this status, for this reason.
+    pub fn new(number: u16, reason: impl Into<String>) -> Self {
+        HttpError { number, reason: reason.into() }
+    }
+}
+
+/// A refusal of a request that is understood, but cannot be carried out.
+impl From<String> for HttpError {
+    fn from(reason: String) -> Self {
+        HttpError::new(422, reason)
+    }
+}
+
+fn refused<T>(number: u16, reason: &str) -> Result<T, HttpError> {
+    Err(HttpError::new(number, reason))
 }
 
 /// A request of a browser, read and bounded.
@@ -53,13 +72,13 @@ impl Incoming {
         let mut part = [0; 4096];
         loop {
             match self.stream.read(&mut part) {
-                Ok(0) => return Some(refused(Status::Timeout, "the request is not complete")),
+                Ok(0) => return Some(refused(408, "the request is not complete")),
                 Ok(count) => self.bytes.extend(&part[..count]),
                 Err(error) if error.kind() == ErrorKind::Interrupted => (),
                 Err(error) if error.kind() == ErrorKind::WouldBlock && self.begin.elapsed() < REQUEST_TIMEOUT => {
                     return None;
                 }
-                Err(_) => return Some(refused(Status::Timeout, "the request is not complete")),
+                Err(_) => return Some(refused(408, "the request is not complete")),
             }
             match parsed(&self.bytes) {
                 Ok(Some((mut request, head, length))) if self.bytes.len() >= head + length => {
@@ -80,8 +99,8 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, HttpError> {
     let head = match parsed.parse(bytes) {
         Ok(httparse::Status::Complete(head)) => head,
         Ok(httparse::Status::Partial) if bytes.len() < MAX_PART_SIZE => return Ok(None),
-        Ok(httparse::Status::Partial) => return refused(Status::HeadTooLarge, "the request's head is too large"),
-        Err(error) => return refused(Status::BadRequest, &error.to_string()),
+        Ok(httparse::Status::Partial) => return refused(431, "the request's head is too large"),
+        Err(error) => return refused(400, &error.to_string()),
     };
     let (path, query) =
         parsed.path.unwrap_or_default().split_once('?').unwrap_or((parsed.path.unwrap_or_default(), ""));
@@ -91,7 +110,7 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, HttpError> {
     let mut length = 0;
     for header in parsed.headers {
         let Ok(value) = std::str::from_utf8(header.value) else {
-            return refused(Status::BadRequest, "a header is no text");
+            return refused(400, "a header is no text");
         };
         match header.name.to_ascii_lowercase().as_str() {
             "host" => request.host = value.into(),
@@ -99,9 +118,9 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, HttpError> {
             "x-token" => request.token = value.into(),
             "content-length" => match value.parse() {
                 Ok(count) if count <= MAX_PART_SIZE => length = count,
-                _ => return refused(Status::TooLarge, "the request is too large"),
+                _ => return refused(413, "the request is too large"),
             },
-            "transfer-encoding" => return refused(Status::LengthRequired, "the request has no length"),
+            "transfer-encoding" => return refused(411, "the request has no length"),
             _ => (),
         }
     }
@@ -126,21 +145,18 @@ impl Access {
         let address = host.trim_start_matches('[').trim_end_matches(']');
         let is_own = (host == "localhost" || address.parse::<IpAddr>().is_ok()) && port == self.port.to_string();
         if !is_own {
-            return refused(Status::Forbidden, "the address is not that of this page");
+            return refused(403, "the address is not that of this page");
         }
         let own = format!("http://{}", request.host);
         match &request.origin {
-            Some(origin) if *origin != own => return refused(Status::Forbidden, "the request comes from another page"),
-            None if request.method != "GET" => return refused(Status::Forbidden, "the request comes from no page"),
+            Some(origin) if *origin != own => return refused(403, "the request comes from another page"),
+            None if request.method != "GET" => return refused(403, "the request comes from no page"),
             _ => (),
         }
         let given = request.token.as_bytes();
         let differences = given.iter().zip(self.token.as_bytes()).fold(0, |sum, (one, other)| sum | (one ^ other));
         if given.len() != self.token.len() || differences != 0 {
-            return refused(
-                Status::Forbidden,
-                "the token is missing or wrong; open the address that moris-live has printed",
-            );
+            return refused(403, "the token is missing or wrong; open the address that moris-live has printed");
         }
         Ok(())
     }
@@ -210,7 +226,7 @@ mod tests {
             request("GET", "0123", "127.0.0.1:8081", None),
             request("GET", "0123", "", None),
         ] {
-            assert_eq!(access().check(&wrong).map_err(|refusal| refusal.status), Err(Status::Forbidden), "{wrong:?}");
+            assert_eq!(access().check(&wrong).map_err(|refusal| refusal.number), Err(403), "{wrong:?}");
         }
     }
 
@@ -227,7 +243,7 @@ mod tests {
 
     #[test]
     fn large_requests_are_refused() {
-        let number = |text: String| parsed(text.as_bytes()).unwrap_err().number();
+        let number = |text: String| parsed(text.as_bytes()).unwrap_err().number;
         assert_eq!(number(format!("GET /{} HTTP/1.1", "a".repeat(MAX_PART_SIZE))), 431);
         assert_eq!(number("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n".into()), 413);
         assert_eq!(number("POST / HTTP/1.1\r\nContent-Length: 16385\r\n\r\n".into()), 413);

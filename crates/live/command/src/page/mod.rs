@@ -3,7 +3,6 @@
 //! - `http` reads requests, bounded, and checks where they come from.
 //! - `snapshot` is what the loop passes on, and the messages made of it.
 //! - `control_broker` knows who controls, and checks what is asked.
-//! - `refusal` is the answer to a request that is refused.
 //! - `track` has the road that is known at first.
 //! - `server` answers requests, each on a thread of its own.
 //!
@@ -12,7 +11,6 @@
 
 mod control_broker;
 mod http;
-mod http_error;
 mod server;
 mod snapshot;
 mod track;

@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::Duration;
 
@@ -16,8 +16,7 @@ use moris_setup::Setup;
 use serde::Serialize;
 
 use super::control_broker::ControlBroker;
-use super::http::{self, Access, Incoming, Request};
-use super::http_error::{HttpError, Status};
+use super::http::{self, Access, HttpError, Incoming, Request};
 use super::track::Track;
 use crate::Shared;
 use crate::controls::Handling;
@@ -55,10 +54,6 @@ impl Start {
             track,
         }
     }
-
-    fn html(&self) -> String {
-        live::html(&self.subtitle, self)
-    }
 }
 
 /// The server.
@@ -72,8 +67,8 @@ struct Site {
     page: String,
     access: Access,
     broker: Arc<ControlBroker>,
-    pages: AtomicUsize,
-    requests: AtomicUsize,
+    pages: Arc<()>,
+    requests: Arc<()>,
     shared: Arc<Shared>,
 }
 
@@ -96,8 +91,8 @@ impl Server {
         #[cfg(unix)]
         rustix::net::listen(&listener, WAITING_CONNECTIONS)?;
         let access = Access { token: secret()?, port: listener.local_addr()?.port() };
-        let [pages, requests] = [0, 0].map(AtomicUsize::new);
-        let site = Site { page: start.html(), access, broker, pages, requests, shared };
+        let [pages, requests] = [(), ()].map(Arc::new);
+        let site = Site { page: live::html(&start.subtitle, start), access, broker, pages, requests, shared };
         Ok(Server { listener, site: Arc::new(site) })
     }
 
@@ -153,36 +148,15 @@ impl Server {
     }
 }
 
-/// One of a few connections at a time; dropping it frees the slot.
-struct ConnectionSlot<'a>(&'a AtomicUsize);
-
-impl<'a> ConnectionSlot<'a> {
-    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, HttpError> {
-        let place = ConnectionSlot(places);
-        let taken = places.fetch_add(1, Ordering::Relaxed);
-        if taken < most {
-            Ok(place)
-        } else {
-            Err(HttpError::new(Status::Unavailable, "too many pages or requests at once"))
-        }
-    }
-}
-
-impl Drop for ConnectionSlot<'_> {
-    fn drop(&mut self) {
-        self.0.fetch_sub(1, Ordering::Relaxed);
-    }
-}
-
 impl Site {
     fn serve(&self, mut stream: TcpStream, request: Result<Request, HttpError>) {
         let is_ready = stream.set_nonblocking(false).is_ok()
             && stream.set_nodelay(true).is_ok()
             && stream.set_write_timeout(Some(http::WRITE_TIME)).is_ok();
-        let request = if is_ready { request } else { Err(HttpError::new(Status::Internal, "")) };
+        let request = if is_ready { request } else { Err(HttpError::new(500, "")) };
         let answered = request.and_then(|request| self.answer(&request, &mut stream));
         if let Err(refusal) = answered {
-            http::answer(&mut stream, refusal.number(), "text/plain", &refusal.reason);
+            http::answer(&mut stream, refusal.number, "text/plain", &refusal.reason);
         }
     }
 
@@ -191,9 +165,13 @@ impl Site {
         const MOST_PAGES: usize = 12;
         const MOST_REQUESTS: usize = 24;
         self.access.check(request)?;
-        let (places, most) =
+        let (open, most) =
             if request.path == "/events" { (&self.pages, MOST_PAGES) } else { (&self.requests, MOST_REQUESTS) };
-        let _place = ConnectionSlot::among(places, most)?;
+        // Counts for as long as it is answered.
+        let open = Arc::clone(open);
+        if Arc::strong_count(&open) > most + 1 {
+            return Err(HttpError::new(503, "too many pages or requests at once"));
+        }
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => http::answer(stream, 200, "text/html", &self.page),
             ("GET", "/events") => self.send_events(stream)?,
@@ -201,13 +179,13 @@ impl Site {
                 self.broker.ask(&request.body)?;
                 http::answer(stream, 200, "text/plain", "");
             }
-            _ => return Err(HttpError::new(Status::NotFound, "there is nothing here")),
+            _ => return Err(HttpError::new(404, "there is nothing here")),
         }
         Ok(())
     }
 
     fn send_events(&self, stream: &mut TcpStream) -> Result<(), HttpError> {
-        let client = secret().map_err(|error| HttpError::new(Status::Internal, error.to_string()))?;
+        let client = secret().map_err(|error| HttpError::new(500, error.to_string()))?;
         let welcome = serde_json::to_string(&self.broker.enter(&client)).unwrap_or_default();
         if http::begin_events(stream) && http::send_event(stream, "welcome", &welcome) {
             let mut number = 0;

@@ -75,15 +75,12 @@ impl Snapshot {
 
 /// The message of some moments, as JSON in one line. `told` has further members of the object.
 pub fn message(moments: &[Snapshot], lines: &VecDeque<String>, told: &str) -> Option<String> {
-    // Lines of the journal that a message has.
-    const MAX_JOURNAL_LINES: usize = 8;
     let last = moments.last()?;
     // A number that is none is not JSON's.
     let number = |number: &f64| if number.is_finite() { format!("{number:.5}") } else { "0".to_owned() };
     let row = |moment: &Snapshot| format!("[{}]", moment.numbers.each_ref().map(number).join(","));
     let rows = moments.iter().map(row).collect::<Vec<_>>().join(",");
-    let lines: Vec<&String> = lines.iter().rev().take(MAX_JOURNAL_LINES).collect();
-    let lines = serde_json::to_string(&lines).unwrap_or_default();
+    let lines = serde_json::to_string(lines).unwrap_or_default();
     let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
     let (is_lost, is_located) = (last.is_lost, last.is_located);
     let late = serde_json::to_string(&last.late).unwrap_or_default();

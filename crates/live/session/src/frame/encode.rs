@@ -158,12 +158,9 @@ impl Form {
                 out.extend(whole.half.map_or(digits, |half| &digits[half..=half]));
                 whole.little
             }
-            Form::Float { is_double: true, little } => {
-                out.extend(number.to_be_bytes());
-                little
-            }
-            Form::Float { is_double: false, little } => {
-                out.extend((number as f32).to_be_bytes());
+            Form::Float { is_double, little } => {
+                let (double, single) = (number.to_be_bytes(), (number as f32).to_be_bytes());
+                out.extend(if is_double { &double[..] } else { &single });
                 little
             }
             Form::Decimals(decimals) => {
@@ -177,22 +174,28 @@ impl Form {
     }
 }
 
-/// A string of a template.
+/// A message to a device, which is a string of a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum Message {
     /// The question for the legs' lengths.
     Ask,
+    /// The start string.
     Start,
+    /// The same to actuators that are where the first frame has them, as is known.
+    Begin,
+    /// A frame of actuator positions.
     Frame,
+    /// The park string.
     Park,
+    /// The stop string.
     Stop,
 }
 
 /// A template, ready to be filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoder {
-    /// The strings by [`Part`].
-    parts: Vec<Vec<Token>>,
+    /// The strings by [`Message`].
+    strings: Vec<Vec<Token>>,
     /// Numbers for the shortest and the longest actuator; none: all that a whole number has.
     range: Option<[f64; 2]>,
     reversed: [bool; 6],
@@ -215,9 +218,9 @@ impl Encoder {
 
     /// As [`Encoder::new`], but with angles for any rig.
     pub(super) fn of_any_rig(frames: &Frames, rig: &Rig) -> Result<Self, FramesError> {
-        let parts = [&frames.ask, &frames.start, &frames.frame, &frames.park, &frames.stop];
+        let strings = [&frames.ask, &frames.start, &frames.start, &frames.frame, &frames.park, &frames.stop];
         let encoder = Encoder {
-            parts: parts.into_iter().map(|part| tokens(part)).collect::<Result<_, _>>()?,
+            strings: strings.into_iter().map(|string| tokens(string)).collect::<Result<_, _>>()?,
             range: frames.range.map(|range| range.map(|end| end as f64)),
             reversed: std::array::from_fn(|leg| frames.reversed.contains(&(leg + 1))),
             stroke: rig.stroke(),
@@ -230,14 +233,14 @@ impl Encoder {
 
     /// Places of the quantities in all its strings.
     fn places(&self) -> impl Iterator<Item = usize> {
-        self.parts.iter().flatten().filter_map(Token::place)
+        self.strings.iter().flatten().filter_map(Token::place)
     }
 
     /// True if its frames have positions of actuators.
     pub fn moves_actuators(&self) -> bool {
         // Places of the lengths and velocities among the quantities.
         const LENGTH_PLACES: Range<usize> = 1..13;
-        self.parts[Part::Frame as usize].iter().any(|token| match token {
+        self.strings[Message::Frame as usize].iter().any(|token| match token {
             Token::Number(Source::Leg(_), _) => true,
             Token::Number(Source::Quantity(place, _), _) => {
                 LENGTH_PLACES.contains(place) || *place >= FIRST_ANGLE_PLACE
@@ -265,15 +268,15 @@ impl Encoder {
 
     /// True if it can ask for the legs' lengths.
     pub fn asks(&self) -> bool {
-        !self.parts[Part::Ask as usize].is_empty()
+        !self.strings[Message::Ask as usize].is_empty()
     }
 
     /// Replaces `out` by a string of the template.
-    pub fn write(&self, part: Part, values: &Values, out: &mut Vec<u8>) {
+    pub fn write(&self, message: Message, values: &Values, out: &mut Vec<u8>) {
         // Ends of the numbers of actuators where a template has none, but for signed ones.
         const SIXTEEN_BITS: [i64; 2] = [0, 65_535];
         out.clear();
-        for token in &self.parts[part as usize] {
+        for token in &self.strings[message as usize] {
             let (source, form) = match token {
                 Token::Bytes(bytes) => {
                     out.extend(bytes);

@@ -18,7 +18,7 @@
 //! | `x:f64le*1000` | a quantity times a factor as a number: `f32` or `f64` big-endian, `f32le` or `f64le` little-endian |
 //!
 //! ```
-//! use moris_live::frame::{Encoder, Values};
+//! use moris_live::frame::{Encoder, Message, Values};
 //! use moris_washout::Rig;
 //!
 //! let text = r#"
@@ -32,7 +32,7 @@
 //! "#;
 //! let encoder = Encoder::new(&text.parse()?, &Rig::default())?;
 //! let mut frame = Vec::new();
-//! encoder.write(Part::Frame, &Values { length: [1.15; 6], ..Values::default() }, &mut frame);
+//! encoder.write(Message::Frame, &Values { length: [1.15; 6], ..Values::default() }, &mut frame);
 //! assert_eq!(frame, b"A250B750\n");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -46,7 +46,8 @@ use std::str::FromStr;
 use moris_washout::Rig;
 use serde::Deserialize;
 
-pub use encode::{Encoder, FRAME_QUANTITIES, Part, Values};
+use crate::tables::{check, shipped_tables, text_of};
+pub use encode::{Encoder, FRAME_QUANTITIES, Message, Values};
 
 /// A template of frames.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -131,46 +132,42 @@ impl FromStr for Frames {
 
     fn from_str(text: &str) -> Result<Self, FramesError> {
         let frames: Frames = toml::from_str(text)?;
-        if !(1e-3..=1.0).contains(&frames.interval) {
-            return Err(FramesError::Range("interval must be from 0.001 to 1 s"));
-        }
-        if frames.time_out.is_some_and(|time| !(frames.interval..=10.0).contains(&time)) {
-            return Err(FramesError::Range("time-out must be from the interval to 10 s"));
-        }
-        if frames.slow_start.is_some_and(|speed| !(0.001..=1.0).contains(&speed)) {
-            return Err(FramesError::Range("slow-start must be from 0.001 to 1 m/s"));
-        }
-        if frames.reversed.iter().any(|leg| !(1..=6).contains(leg)) {
-            return Err(FramesError::Range("reversed has actuators from 1 to 6"));
-        }
-        if frames.range.iter().flatten().any(|end| !(-(1 << 40)..=1 << 40).contains(end)) {
-            return Err(FramesError::Range("range has numbers of at most 40 bits"));
-        }
-        let factors = [frames.pulse_per_degree, frames.steps_per_turn].into_iter().flatten();
-        if factors.into_iter().any(|factor| !(1e-3..=1e9).contains(&factor)) {
-            return Err(FramesError::Range("pulse-per-degree and steps-per-turn must be from 0.001 to 1e9"));
-        }
-        if frames.zero_degrees.iter().chain([&frames.pulse_centre]).any(|number| !(-1e5..=1e5).contains(number)) {
-            return Err(FramesError::Range("zero-degrees and pulse-centre must be from -1e5 to 1e5"));
-        }
+        let factors = [frames.pulse_per_degree, frames.steps_per_turn];
+        let conditions = [
+            ((1e-3..=1.0).contains(&frames.interval), "interval must be from 0.001 to 1 s"),
+            (
+                frames.time_out.is_none_or(|time| (frames.interval..=10.0).contains(&time)),
+                "time-out must be from the interval to 10 s",
+            ),
+            (
+                frames.slow_start.is_none_or(|speed| (0.001..=1.0).contains(&speed)),
+                "slow-start must be from 0.001 to 1 m/s",
+            ),
+            (frames.reversed.iter().all(|leg| (1..=6).contains(leg)), "reversed has actuators from 1 to 6"),
+            (
+                frames.range.iter().flatten().all(|end| (-(1 << 40)..=1 << 40).contains(end)),
+                "range has numbers of at most 40 bits",
+            ),
+            (
+                factors.into_iter().flatten().all(|factor| (1e-3..=1e9).contains(&factor)),
+                "pulse-per-degree and steps-per-turn must be from 0.001 to 1e9",
+            ),
+            (
+                frames.zero_degrees.iter().chain([&frames.pulse_centre]).all(|number| (-1e5..=1e5).contains(number)),
+                "zero-degrees and pulse-centre must be from -1e5 to 1e5",
+            ),
+        ];
+        check(&conditions, FramesError::Range)?;
         Encoder::of_any_rig(&frames, &Rig::default())?;
         Ok(frames)
     }
 }
 
 /// The shipped templates, each with its name and text.
-pub const SHIPPED_FRAMES: &[(&str, &str)] = &[
-    ("json", include_str!("tables/json.toml")),
-    ("csv", include_str!("tables/csv.toml")),
-    ("amc-aasd15a", include_str!("tables/amc-aasd15a.toml")),
-    ("motion4sim", include_str!("tables/motion4sim.toml")),
-    ("bff", include_str!("tables/bff.toml")),
-    ("simtools", include_str!("tables/simtools.toml")),
-    ("servos", include_str!("tables/servos.toml")),
-    ("vr-pose", include_str!("tables/vr-pose.toml")),
-];
+pub const SHIPPED_FRAMES: &[(&str, &str)] =
+    shipped_tables!("json" "csv" "amc-aasd15a" "motion4sim" "bff" "simtools" "servos" "vr-pose");
 
 /// The text of a shipped template.
 pub fn shipped(name: &str) -> Option<&'static str> {
-    SHIPPED_FRAMES.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
+    text_of(SHIPPED_FRAMES, name)
 }

@@ -12,27 +12,21 @@ pub type Report = (Option<usize>, [f64; 6]);
 pub fn report(answer: &[u8]) -> Option<Report> {
     let text = str::from_utf8(answer).ok()?.trim();
     let names = std::iter::once((None, "legs")).chain((0..).map(Some).zip(MOTOR_UNITS));
+    let listed = |list: &str| {
+        let numbers: Option<Vec<f64>> = list.split(',').map(|number| number.trim().parse().ok()).collect();
+        numbers?.try_into().ok()
+    };
     let object: Option<Value> = serde_json::from_str(text).ok();
     for (unit, name) in names {
         let numbers = match &object {
             Some(object) => object.get(name).and_then(|list| serde_json::from_value(list.clone()).ok()),
-            None => text.strip_prefix(name).and_then(|rest| rest.strip_prefix(',')).and_then(listed),
+            None => text.strip_prefix(name).and_then(|rest| listed(rest.strip_prefix(',')?)),
         };
         if let Some(numbers) = numbers {
             return Some((unit, numbers));
         }
     }
     None
-}
-
-/// Six numbers between commas.
-fn listed(list: &str) -> Option<[f64; 6]> {
-    let mut fields = list.split(',');
-    let mut numbers = [0.0; 6];
-    for number in &mut numbers {
-        *number = fields.next()?.trim().parse().ok()?;
-    }
-    fields.next().is_none().then_some(numbers)
 }
 
 #[cfg(test)]

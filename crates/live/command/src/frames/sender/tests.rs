@@ -153,7 +153,7 @@ fn a_loss_that_the_loop_has_no_room_for_is_reported_later() {
 fn a_flood_of_answers_delays_no_frame() {
     let device = UdpSocket::bind("127.0.0.1:0").unwrap();
     let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
-    sink.listen_if_it_can().unwrap();
+    sink.listen().unwrap();
     let Sink::Udp(socket) = &sink else { unreachable!() };
     let address = format!("127.0.0.1:{}", socket.local_addr().unwrap().port());
     (0..200).for_each(|_| _ = device.send_to(b"legs,1.3,1.3,1.3,1.3,1.3,1.3\n", &address).unwrap());
@@ -333,7 +333,7 @@ fn after_a_gap_of_two_seconds_no_frame_leaves_before_a_start() {
     std::thread::sleep(Duration::from_millis(2_050));
     sender.take(Message::Frame, &at(1.5));
     sender.take(Message::Frame, &at(1.5));
-    assert!(matches!(reported.pop(), Ok(Order::Lost(Loss::Gap(gap))) if gap >= 2.0));
+    assert!(matches!(reported.pop(), Ok(Order::Lost(Loss::LongGap(gap))) if gap >= 2.0));
     assert!(reported.pop().is_err(), "a loss is reported once");
     // The operator starts again: from the last frame on, slowly.
     sender.take(Message::Start, &at(1.5));
