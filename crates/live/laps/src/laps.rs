@@ -9,7 +9,7 @@ use crate::line::{Line, MAX_POINTS, Point};
 use crate::pass::{MAX_PASSES, Pass, UNKNOWN_PASS_ERROR, pace_weight};
 use crate::search::{LEAST_AGE, MIN_PASS_DISTANCE, Search};
 use crate::smooth::{LAG_TICKS, LATEST_LAG, Smooth};
-use crate::ticks::{Sample, TICK, Tick, Ticks};
+use crate::ticks::{Sample, TICK, Ticks};
 
 /// A memory of the road, and the preview by it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -120,7 +120,7 @@ impl Memory {
         }
     }
 
-    fn tick(&mut self, tick: &Tick) {
+    fn tick(&mut self, tick: &Sample) {
         // Below this speed there is no line to follow [m/s].
         const LEAST_SPEED: f64 = 1.0;
         // Trust from which on there is a preview, and below which there is none any more.

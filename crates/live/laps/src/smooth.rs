@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::line::Point;
-use crate::ticks::{TICK, Tick, distance};
+use crate::ticks::{Sample, TICK, distance};
 
 /// Ticks by which the smoothed force lags.
 pub const LAG_TICKS: usize = 4;
@@ -46,7 +46,7 @@ pub struct RoadPoint {
 
 impl Smooth {
     /// Takes a tick.
-    pub fn push(&mut self, tick: &Tick) {
+    pub fn push(&mut self, tick: &Sample) {
         // Ticks over which a direction and a speed are taken.
         const DIRECTION_TICKS: usize = 6;
         if self.count == 0 {

@@ -18,18 +18,8 @@ pub struct Sample {
     pub force: [f64; 2],
 }
 
-/// A tick.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Tick {
-    /// Position at its end \[m\].
-    pub position: [f64; 3],
-    /// Speed at its end, if it is known \[m/s\].
-    pub speed: Option<f64>,
-    /// Mean force \[m/s2\].
-    pub force: [f64; 2],
-}
-
-/// The samples as ticks. Between samples the ticks are linear.
+/// The samples as ticks: a sample at the end of each, with the mean force. Between samples they are
+/// linear.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ticks {
     last: Option<Sample>,
@@ -48,7 +38,7 @@ impl Ticks {
 
     /// Takes a sample, and calls `tick` at the end of each tick. False where the sample
     /// does not continue those before: after a gap, a jump or a value that is not a number.
-    pub fn push(&mut self, sample: &Sample, mut tick: impl FnMut(&Tick)) -> bool {
+    pub fn push(&mut self, sample: &Sample, mut tick: impl FnMut(&Sample)) -> bool {
         // A longer step is a gap in the samples [s].
         const LONGEST_STEP: f64 = 0.5;
         // Displacement within a step that no vehicle has: this, and so many times that of its speed
@@ -77,7 +67,8 @@ impl Ticks {
             return false;
         }
         self.speed += (displacement / sample.step - self.speed) * (sample.step / SPEED_TIME).min(1.0);
-        let at = |fraction: f64| Tick {
+        let at = |fraction: f64| Sample {
+            step: TICK,
             position: between(&last.position, &sample.position, fraction),
             speed: last.speed.zip(sample.speed).map(|(from, to)| from + fraction * (to - from)),
             force: between(&last.force, &sample.force, fraction),
@@ -95,7 +86,7 @@ impl Ticks {
             if !is_whole {
                 return true;
             }
-            tick(&Tick { force: self.integral.map(|integral| integral / TICK), ..now });
+            tick(&Sample { force: self.integral.map(|integral| integral / TICK), ..now });
             (self.time, self.integral) = (0.0, [0.0; 2]);
             (done, from) = (end, now.force);
         }
@@ -131,7 +122,8 @@ mod tests {
             assert_eq!(made.len(), ((count - 1) as f64 * step / TICK + 1e-6) as usize);
             for (k, tick) in made.iter().enumerate() {
                 let end = (k + 1) as f64 * TICK;
-                let expected = Tick { force: at(end - 0.5 * TICK).force, position: at(end).position, speed: None };
+                let expected =
+                    Sample { step: TICK, force: at(end - 0.5 * TICK).force, position: at(end).position, speed: None };
                 assert!((tick.speed.unwrap() - 2.0 * end).abs() < 1e-6);
                 let pairs =
                     tick.position.iter().chain(&tick.force).zip(expected.position.iter().chain(&expected.force));
