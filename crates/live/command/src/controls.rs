@@ -22,8 +22,6 @@ pub enum Handling {
 pub struct Controls {
     pub handling: Handling,
     held: Mutex<Held>,
-    /// Place of the vehicle, if it is on a road.
-    place: Mutex<Option<RoadPlace>>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,12 +30,14 @@ struct Held {
     /// Time of [`super::loop_clock::now`] until which it counts.
     until: Duration,
     begins_again: bool,
+    /// Place of the vehicle, if it is on a road.
+    place: Option<RoadPlace>,
 }
 
 impl Controls {
     /// Controls that nobody holds.
     pub fn new(handling: Handling) -> Self {
-        Controls { handling, held: Mutex::default(), place: Mutex::default() }
+        Controls { handling, held: Mutex::default() }
     }
 
     fn lock(&self) -> MutexGuard<'_, Held> {
@@ -66,12 +66,12 @@ impl Controls {
 
     /// Shows where the vehicle is.
     pub fn show(&self, place: Option<RoadPlace>) {
-        *self.place.lock().unwrap_or_else(PoisonError::into_inner) = place;
+        self.lock().place = place;
     }
 
     /// Place of the vehicle, if it is on a road.
     pub fn place(&self) -> Option<RoadPlace> {
-        *self.place.lock().unwrap_or_else(PoisonError::into_inner)
+        self.lock().place
     }
 
     /// Releases them. A rider who is helped stays so.

@@ -181,13 +181,14 @@ impl LegPosition {
 
 #[cfg(test)]
 mod tests {
-    use moris_live::frame::shipped;
+    use moris_live::frame::SHIPPED_FRAMES;
+    use moris_live::shipped;
     use moris_washout::Rig;
 
     use super::*;
 
     fn of(name: &str, settled: bool, slow_start: Option<f64>) -> LegPosition {
-        let template = shipped(name).unwrap().parse().unwrap();
+        let template = shipped(SHIPPED_FRAMES, name).unwrap().parse().unwrap();
         LegPosition::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, slow_start)
     }
 

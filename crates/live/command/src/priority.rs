@@ -26,8 +26,8 @@ mod on_linux {
         priority.is_ok_and(|priority| set_thread_priority_and_policy(thread_native_id(), priority, policy).is_ok())
     }
 
-    /// Gives the calling thread, which sends frames or receives telemetry, a priority just below the
-    /// loop's where that is permitted.
+    /// Gives the calling thread, which sends frames or receives telemetry, a priority just below
+    /// the loop's where that is permitted.
     pub fn claim_below() {
         raise(OF_OTHERS);
     }

@@ -322,9 +322,9 @@ impl Steps<'_> {
 
 #[cfg(test)]
 mod tests {
-    use moris_live::frame::{Encoder, Message, shipped};
+    use moris_live::frame::{Encoder, Message, SHIPPED_FRAMES};
     use moris_live::log::{header, replay};
-    use moris_live::{Motion, Sample, Settings};
+    use moris_live::{Motion, Sample, Settings, shipped};
     use moris_washout::Rig;
     use rtrb::RingBuffer;
 
@@ -345,7 +345,7 @@ mod tests {
     }
 
     fn place(frames: &str, settled: bool) -> LegPosition {
-        let template = shipped(frames).unwrap().parse().unwrap();
+        let template = shipped(SHIPPED_FRAMES, frames).unwrap().parse().unwrap();
         LegPosition::of(&template, &Encoder::new(&template, &Rig::default()).unwrap(), settled, None)
     }
 

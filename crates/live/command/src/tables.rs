@@ -74,7 +74,7 @@ fn text(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<Str
 }
 
 fn shipped(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<&'static str> {
-    if let Some((_, text)) = tables.iter().find(|(of, _)| *of == name) {
+    if let Some(text) = moris_live::shipped(tables, name) {
         return Ok(text);
     }
     let device = if option == "frames" { Some(moog::FRAME_NAME) } else { None };

@@ -78,4 +78,5 @@ pub mod tuning;
 pub use legs::Legs;
 pub use motion::{Motion, Sample};
 pub use session::{Commands, Refusal, STEP, Session, Settings, TelemetryFault};
+pub use tables::shipped;
 pub use transitions::{Event, State};

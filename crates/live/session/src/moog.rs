@@ -194,11 +194,6 @@ impl Moog {
     pub fn last(values: &Values) -> [u8; PACKET_LENGTH] {
         packet(Command::Park, values)
     }
-
-    /// The state of the base, if it answers.
-    pub fn base(&self) -> Option<Base> {
-        self.base
-    }
 }
 
 /// The numbers of a packet: roll, pitch, heave, surge, yaw and lateral. The base has x forward, y
@@ -420,7 +415,7 @@ mod tests {
             moog.receive(&answer(if k % 2 == 0 { 0x1 } else { 0x8 }));
             faults += usize::from(moog.send(true, &values()).1.is_some());
         }
-        assert_eq!((faults, moog.base()), (1, None));
+        assert_eq!((faults, moog.base), (1, None));
     }
 
     #[test]
@@ -432,7 +427,7 @@ mod tests {
         assert_eq!(confirm(&mut moog, 0x3), None);
         assert_eq!(confirm(&mut moog, 0x1), Some(Event::Fault));
         let faults = (0..200).filter_map(|_| moog.send(true, &Values::default()).1).count();
-        assert_eq!((faults, moog.base()), (1, None));
+        assert_eq!((faults, moog.base), (1, None));
         assert_eq!(moog.receive(&[0; 39]), None);
         // After a fault only the operator makes it engage again.
         confirm(&mut moog, 0x1);

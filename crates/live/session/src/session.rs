@@ -409,12 +409,12 @@ impl Session {
     fn retune_to(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         if is_down(self.state) {
             retune(&mut self.washout, parameters, self.state)?;
-            self.tuning.set(&self.slots);
+            self.tuning.choose(&self.slots, false);
             return Ok(());
         }
         tuning::check_in_motion(self.tuning.target(), &self.slots)?;
         self.washout.clone().retune(parameters)?;
-        self.tuning.choose(&self.slots);
+        self.tuning.choose(&self.slots, true);
         Ok(())
     }
 

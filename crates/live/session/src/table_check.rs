@@ -53,7 +53,7 @@ pub struct TableFault {
     name: &'static str,
     /// The number that shows it.
     value: f64,
-    /// Its axis, and that with which it is exchanged.
+    /// The axis, and the one with which it is exchanged.
     axes: [usize; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What the tables of telemetry and of frames have in common.
+//! Helpers for the tables of telemetry and of frames.
 
 /// The tables of these names, each with its text.
 macro_rules! shipped_tables {
@@ -7,7 +7,7 @@ macro_rules! shipped_tables {
 pub(crate) use shipped_tables;
 
 /// The text of a shipped table.
-pub(crate) fn text_of(tables: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
+pub fn shipped(tables: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
     tables.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
 }
 

@@ -33,16 +33,10 @@ impl Tuning {
         &self.target
     }
 
-    /// Chooses these values, which are in force.
-    pub fn set(&mut self, slots: &[f64]) {
+    /// Sets the values, which come into force by and by if this waits.
+    pub fn choose(&mut self, slots: &[f64], waits: bool) {
         self.target.copy_from_slice(slots);
-        self.waits = false;
-    }
-
-    /// Chooses these values.
-    pub fn choose(&mut self, slots: &[f64]) {
-        self.target.copy_from_slice(slots);
-        self.waits = true;
+        self.waits = waits;
     }
 
     /// Puts the chosen values into force as far as the platform keeps them gently, if this step is

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use moris_live::format::{Dropped, Format, SHIPPED_FORMATS, shipped};
-use moris_live::{Motion, Sample};
+use moris_live::format::{Dropped, Format, SHIPPED_FORMATS};
+use moris_live::{Motion, Sample, shipped};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -18,7 +18,7 @@ fn hex(text: &str) -> Vec<u8> {
 }
 
 fn format(name: &str) -> Format {
-    shipped(name).unwrap().parse().unwrap()
+    shipped(SHIPPED_FORMATS, name).unwrap().parse().unwrap()
 }
 
 fn decoded(name: &str, packet: &[u8]) -> Sample {
@@ -533,7 +533,7 @@ fn every_table_is_shipped_says_what_it_is_and_is_listed_in_the_page() {
 
 #[test]
 fn tables_that_make_no_sense_are_refused() {
-    let table = shipped("packed").unwrap();
+    let table = shipped(SHIPPED_FORMATS, "packed").unwrap();
     for (from, to, reason) in [
         ("at = 8,", "at = 4096,", "below 4096"),
         ("at = 8,", "at = \"ax\",", "below 4096"),
@@ -621,7 +621,7 @@ fn keys_may_stand_in_keys_and_lists() {
 
 #[test]
 fn packets_of_another_format_are_explained() {
-    let outsim: Format = shipped("outsim").unwrap().parse().unwrap();
+    let outsim: Format = shipped(SHIPPED_FORMATS, "outsim").unwrap().parse().unwrap();
     let mut motionsim = vec![0; 88];
     motionsim[..4].copy_from_slice(b"BNG1");
     assert_eq!(
@@ -630,7 +630,7 @@ fn packets_of_another_format_are_explained() {
     );
     let unknown = outsim.explain(&[7; 33], 4444);
     assert!(unknown.contains("33-byte packets") && unknown.contains("no format of moris-live fits"), "{unknown}");
-    let csv: Format = shipped("csv").unwrap().parse().unwrap();
+    let csv: Format = shipped(SHIPPED_FORMATS, "csv").unwrap().parse().unwrap();
     let object = csv.explain(br#"{"ax": 1.0, "ay": 2.0, "az": 9.8}"#, 4444);
     assert!(object.contains("json fits"), "{object}");
 }

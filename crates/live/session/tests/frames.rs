@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use moris_live::frame::{Encoder, Frames, Message, SHIPPED_FRAMES, Values, shipped};
-use moris_live::{Session, Settings};
+use moris_live::frame::{Encoder, Frames, Message, SHIPPED_FRAMES, Values};
+use moris_live::{Session, Settings, shipped};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::{Parameters, Rig};
@@ -26,7 +26,7 @@ fn amc_aasd15a() {
     // 16 bits, big-endian: 0, 16384 (of 16383.75), 32768 (of 32767.5), 49151, 65535, 65535.
     let expected =
         [0xFF, 0xFF, 0x00, 0x00, 0x40, 0x00, 0x80, 0x00, 0xBF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0, 0, 0x0A, 0x0D];
-    assert_eq!(frame(shipped("amc-aasd15a").unwrap()), expected);
+    assert_eq!(frame(shipped(SHIPPED_FRAMES, "amc-aasd15a").unwrap()), expected);
 }
 
 #[test]
@@ -35,18 +35,18 @@ fn motion4sim() {
         0xFF, 0xFF, 0x00, 0x00, 0x00, 0x40, 0x00, 0x00, 0x80, 0x00, 0x00, 0xBF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF,
         0xFF, 0xFF, 0, 0, 0, 0x0A, 0x0D,
     ];
-    assert_eq!(frame(shipped("motion4sim").unwrap()), expected);
+    assert_eq!(frame(shipped(SHIPPED_FRAMES, "motion4sim").unwrap()), expected);
 }
 
 #[test]
 fn bff() {
     let expected = [b'B', b'C', 0, 0x00, 0x40, 0x80, 0xBF, 0xFF, 0xFF, 0x00, 0x00, 0x00, 0xFF, 0xFF, 0xFF, 0x0D];
-    assert_eq!(frame(shipped("bff").unwrap()), expected);
+    assert_eq!(frame(shipped(SHIPPED_FRAMES, "bff").unwrap()), expected);
 }
 
 #[test]
 fn simtools() {
-    assert_eq!(frame(shipped("simtools").unwrap()), b"0,16384,32768,49151,65535,65535X");
+    assert_eq!(frame(shipped(SHIPPED_FRAMES, "simtools").unwrap()), b"0,16384,32768,49151,65535,65535X");
 }
 
 /// The pose that OpenXR-MotionCompensation makes of a frame, in the axes x forward, y left, z up.
@@ -63,7 +63,7 @@ fn seen(frame: &[u8]) -> Isometry3<f64> {
 
 #[test]
 fn vr_pose_gives_the_headset_the_pose_of_the_platform() {
-    let encoder = Encoder::new(&shipped("vr-pose").unwrap().parse().unwrap(), &Rig::default()).unwrap();
+    let encoder = Encoder::new(&shipped(SHIPPED_FRAMES, "vr-pose").unwrap().parse().unwrap(), &Rig::default()).unwrap();
     let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
     let neutral = session.washout().parameters().rig.neutral_height;
     let mut commands = *session.step();
@@ -161,10 +161,10 @@ fn angles_of_cranks_have_zeros_directions_and_units() {
 
 #[test]
 fn text() {
-    let line = String::from_utf8(frame(shipped("csv").unwrap())).unwrap();
+    let line = String::from_utf8(frame(shipped(SHIPPED_FRAMES, "csv").unwrap())).unwrap();
     assert!(line.starts_with("0.000,1.000000,1.150000,") && line.ends_with(",0.000000\n"), "{line}");
     assert_eq!(line.split(',').count(), 22);
-    let object: serde_json::Value = serde_json::from_slice(&frame(shipped("json").unwrap())).unwrap();
+    let object: serde_json::Value = serde_json::from_slice(&frame(shipped(SHIPPED_FRAMES, "json").unwrap())).unwrap();
     assert_eq!(object["length"][1], 1.15);
     assert_eq!(object["force"].as_array().unwrap().len(), 3);
 }
@@ -223,7 +223,7 @@ fn every_template_is_listed_and_says_whether_it_moves_actuators_and_how_a_contro
         assert_eq!(encoder.asks(), ["csv", "json"].contains(&name), "{name}");
         assert_eq!(frames.slow_start.is_some(), ["csv", "json"].contains(&name), "{name}");
     }
-    let encoder = Encoder::new(&shipped("csv").unwrap().parse().unwrap(), &Rig::default()).unwrap();
+    let encoder = Encoder::new(&shipped(SHIPPED_FRAMES, "csv").unwrap().parse().unwrap(), &Rig::default()).unwrap();
     let mut out = Vec::new();
     encoder.write(Message::Ask, &Values::default(), &mut out);
     assert_eq!(out, b"legs?\n");

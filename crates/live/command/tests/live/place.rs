@@ -193,7 +193,7 @@ fn a_session_that_was_killed_is_not_followed_by_a_settled_one_unless_a_person_sa
 #[test]
 fn cranks_glide_from_reported_angles_park_and_are_silent_after_a_pulled_plug() {
     let directory = tempfile::tempdir().unwrap();
-    let template = frame::shipped("servos").unwrap();
+    let template = moris_live::shipped(frame::SHIPPED_FRAMES, "servos").unwrap();
     let template = template.replace("reversed = []", "reversed = [2, 4, 6]\nask = \"'?' 0A\"\nstop = \"'stop' 0A\"");
     std::fs::write(directory.path().join("own.toml"), template).unwrap();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();

@@ -31,7 +31,7 @@ use std::str::FromStr;
 
 use serde::Deserialize;
 
-use crate::tables::{check, shipped_tables, text_of};
+use crate::tables::{check, shipped_tables};
 pub use decode::Dropped;
 
 /// A table of a packet's fields.
@@ -360,11 +360,6 @@ pub const SHIPPED_FORMATS: &[(&str, &str)] = shipped_tables!(
     "json" "csv" "packed" "outsim" "motionsim" "forza" "codemasters" "f1" "assetto-corsa" "project-cars-2" "rfactor"
     "iracing" "piboso" "x-plane"
 );
-
-/// The text of a shipped table.
-pub fn shipped(name: &str) -> Option<&'static str> {
-    text_of(SHIPPED_FORMATS, name)
-}
 
 impl Format {
     /// True if some of its packets have the vehicle's place.

@@ -76,7 +76,7 @@ enum Token {
     Number(Source, Form),
 }
 
-/// What a number of a frame says.
+/// Meaning of a number in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Source {
     /// An actuator's position in its stroke, spread over the range.
@@ -91,7 +91,7 @@ enum Source {
     ExclusiveOr(usize),
 }
 
-/// How a number is written.
+/// Written form of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     Whole(Whole),
@@ -315,7 +315,7 @@ impl Encoder {
     }
 }
 
-/// What is left of a number in so many bits.
+/// The lowest bits of a number, as many as the form has.
 fn wrapped(number: u64, form: Form) -> f64 {
     if let Form::Whole(whole) = form { (number % (1 << (8 * whole.width))) as f64 } else { number as f64 }
 }

@@ -46,7 +46,7 @@ use std::str::FromStr;
 use moris_washout::Rig;
 use serde::Deserialize;
 
-use crate::tables::{check, shipped_tables, text_of};
+use crate::tables::{check, shipped_tables};
 pub use encode::{Encoder, FRAME_QUANTITIES, Message, Values};
 
 /// A template of frames.
@@ -166,8 +166,3 @@ impl FromStr for Frames {
 /// The shipped templates, each with its name and text.
 pub const SHIPPED_FRAMES: &[(&str, &str)] =
     shipped_tables!("json" "csv" "amc-aasd15a" "motion4sim" "bff" "simtools" "servos" "vr-pose");
-
-/// The text of a shipped template.
-pub fn shipped(name: &str) -> Option<&'static str> {
-    text_of(SHIPPED_FRAMES, name)
-}

@@ -24,7 +24,9 @@ fn until_stop(device: &UdpSocket) -> Vec<String> {
 fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
     let device = UdpSocket::bind("127.0.0.1:0").unwrap();
     let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
-    let encoder = Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), &Rig::default()).unwrap();
+    let encoder =
+        Encoder::new(&moris_live::shipped(frame::SHIPPED_FRAMES, "csv").unwrap().parse().unwrap(), &Rig::default())
+            .unwrap();
     let (mut ring, messages) = RingBuffer::new(8);
     let (orders, _) = RingBuffer::new(4);
     let sender = std::thread::spawn(move || {
@@ -157,7 +159,9 @@ fn a_flood_of_answers_delays_no_frame() {
     let Sink::Udp(socket) = &sink else { unreachable!() };
     let address = format!("127.0.0.1:{}", socket.local_addr().unwrap().port());
     (0..200).for_each(|_| _ = device.send_to(b"legs,1.3,1.3,1.3,1.3,1.3,1.3\n", &address).unwrap());
-    let encoder = Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), &Rig::default()).unwrap();
+    let encoder =
+        Encoder::new(&moris_live::shipped(frame::SHIPPED_FRAMES, "csv").unwrap().parse().unwrap(), &Rig::default())
+            .unwrap();
     let (orders, mut reported) = RingBuffer::new(64);
     let shared = Shared::default();
     let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
@@ -206,7 +210,10 @@ fn sent_to(sink: Sink, device: Device, frames: u32, shared: &Shared) -> (Sent, V
 }
 
 fn csv() -> Device {
-    Device::of_template(Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), &Rig::default()).unwrap())
+    Device::of_template(
+        Encoder::new(&moris_live::shipped(frame::SHIPPED_FRAMES, "csv").unwrap().parse().unwrap(), &Rig::default())
+            .unwrap(),
+    )
 }
 
 #[test]
