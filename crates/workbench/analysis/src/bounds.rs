@@ -2,7 +2,7 @@
 //! rig.
 
 use moris_simulation::measures::Axes;
-use moris_simulation::measures::bound::{AxisLimits, Bound, BoundError, DEFAULT_INTERVAL, TiltLimits, bound};
+use moris_simulation::measures::bound::{AxisLimits, Bound, DEFAULT_INTERVAL, TiltLimits, bound};
 use moris_simulation::measures::statistics::rms;
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -10,7 +10,7 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::reach::{Axis, single_axis_range};
 use rayon::prelude::*;
 
-use moris_simulation::Simulation;
+use moris_simulation::{Refusal, Simulation};
 
 /// The bound on one axis, and the desired signal it belongs to.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ impl AxisBound {
 ///
 /// # Errors
 /// The recording is too short for a bound, or the solver fails.
-pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundError> {
+pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, Refusal> {
     // More intervals than this take too long, and a longer recording gets longer ones: its bound is
     // a little lower, and as valid.
     const MOST_INTERVALS: f64 = 10_000.0;
@@ -49,7 +49,7 @@ pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundE
 ///
 /// # Errors
 /// As [`bounds`].
-pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<AxisBound>>, BoundError> {
+pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<AxisBound>>, Refusal> {
     // An axis on which less than this is desired has no bound worth computing: RMS [m/s2].
     const WORTH_BOUNDING: f64 = 0.01;
     let on_axis = |axis: usize| {
@@ -61,7 +61,7 @@ pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<A
         };
         Ok((bound.desired_rms() >= WORTH_BOUNDING).then_some(bound))
     };
-    let found: Result<Vec<Option<AxisBound>>, BoundError> = (0..3).into_par_iter().map(on_axis).collect();
+    let found: Result<Vec<Option<AxisBound>>, Refusal> = (0..3).into_par_iter().map(on_axis).collect();
     let mut found = found?.into_iter();
     Ok(std::array::from_fn(|_| found.next().flatten()))
 }

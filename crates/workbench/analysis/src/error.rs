@@ -3,9 +3,7 @@
 use std::error::Error as StdError;
 
 use moris_fmu_host::HostError;
-use moris_simulation::foreign::ForeignError;
-use moris_simulation::measures::RunError;
-use moris_simulation::measures::bound::BoundError;
+use moris_simulation::Refusal;
 use moris_washout::ParameterError;
 
 use crate::message::{Message, Words};
@@ -18,18 +16,9 @@ pub enum Error {
     /// A recording, a file or a place in it, with its own reason as the source.
     #[error("{about}")]
     About { about: String, source: Box<dyn StdError + Send + Sync> },
-    /// The least error on a rig.
-    #[error(transparent)]
-    Bound(#[from] BoundError),
-    /// Another washout's motion cannot be judged.
-    #[error(transparent)]
-    Foreign(#[from] ForeignError),
     /// Another washout's FMU cannot be stepped.
     #[error(transparent)]
     Fmu(#[from] HostError),
-    /// A simulation that has no measures.
-    #[error(transparent)]
-    Measures(#[from] RunError),
     /// A reason in words.
     #[error(transparent)]
     Message(#[from] Message),
@@ -39,6 +28,9 @@ pub enum Error {
     /// A recording cannot be read.
     #[error(transparent)]
     Recording(#[from] RecordingError),
+    /// No measures, no bound, or a motion of another washout that cannot be judged.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 impl Error {

@@ -1,16 +1,16 @@
 //! The measures of a simulation.
 
-use crate::measures::{Limits, Measures, Platform, References, Run, RunError};
+use crate::measures::{Limits, Measures, Platform, References, Run};
 use moris_washout::Output;
 use moris_washout::platform::Pose;
 
-use crate::Simulation;
+use crate::{Refusal, Simulation};
 
 /// Measures a simulation.
 ///
 /// # Errors
 /// The simulation is too short to be measured.
-pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
+pub fn measures(simulation: &Simulation) -> Result<Measures, Refusal> {
     measures_with(simulation, None)
 }
 
@@ -18,7 +18,7 @@ pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
 ///
 /// # Errors
 /// As [`measures`].
-pub fn measures_with(simulation: &Simulation, references: Option<&mut References>) -> Result<Measures, RunError> {
+pub fn measures_with(simulation: &Simulation, references: Option<&mut References>) -> Result<Measures, Refusal> {
     let tilt_limits = simulation.tilt_limits();
     let limited = |(sample, output): (usize, &Output)| Limits {
         tilt: tilt_limits.iter().flatten().any(|flags| flags[sample]),

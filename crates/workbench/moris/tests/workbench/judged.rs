@@ -9,7 +9,7 @@ use moris::recording::felt::FeltTable;
 use moris::recording::{Conventions, Recording};
 use moris::simulate::{Outcome, Simulation};
 use moris_setup::Setup;
-use moris_simulation::foreign::{ForeignError, ForeignMotion};
+use moris_simulation::foreign::ForeignMotion;
 use moris_washout::Output;
 
 /// A ride of 12 s with smooth surge and sway, `rate` samples a second.
@@ -191,7 +191,7 @@ fn wrong_units_signs_and_rates_are_said() {
         motion.simulation(inputs, 0.01, &setup.parameters, Vec::new()).unwrap_err().to_string()
     };
     let none = ForeignMotion::default;
-    assert_eq!(none().simulation(recording.inputs(), 0.01, &setup.parameters, Vec::new()), Err(ForeignError::Nothing));
+    assert_eq!(error(none()), "nothing to judge is given; give felt_force, pose or legs");
     let short = error(ForeignMotion { force: Some(forces(|force| force)[..500].to_vec()), ..none() });
     assert!(
         short.contains("felt_force has 500 rows, but the recording has 1201 samples") && short.contains("n · 1200 + 1")

@@ -9,8 +9,8 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{Geometry, LocationFrame, PlatformMotion, Pose, forward_kinematics, inverse_kinematics};
 use moris_washout::{Input, Output, Parameters};
 
-use super::ForeignError;
 use super::differences::{MIN_DERIVATIVE_SAMPLES, derivatives, unwrapped};
+use crate::{Refusal, refuse};
 
 /// The motion through a series of poses, and what is felt on it.
 #[derive(Clone, Debug)]
@@ -31,10 +31,10 @@ impl Evaluation {
     ///
     /// # Errors
     /// There are too few poses.
-    pub fn of(poses: &[[f64; 6]], inputs: &[Input], step: f64, parameters: &Parameters) -> Result<Self, ForeignError> {
+    pub fn of(poses: &[[f64; 6]], inputs: &[Input], step: f64, parameters: &Parameters) -> Result<Self, Refusal> {
         if poses.len() < MIN_DERIVATIVE_SAMPLES {
             let (found, fewest) = (poses.len(), MIN_DERIVATIVE_SAMPLES);
-            return Err(ForeignError::TooShort { argument: "pose", found, fewest });
+            refuse!("pose has {found} rows, but forces of poses need at least {fewest}");
         }
         let parts = (poses.len() - 1) / (inputs.len() - 1);
         let step = step / parts as f64;
@@ -94,18 +94,17 @@ impl Evaluation {
 ///
 /// # Errors
 /// There is no such pose near the one before.
-pub fn poses_of_legs(legs: &[[f64; 6]], parameters: &Parameters) -> Result<Vec<[f64; 6]>, ForeignError> {
+pub fn poses_of_legs(legs: &[[f64; 6]], parameters: &Parameters) -> Result<Vec<[f64; 6]>, Refusal> {
     let geometry = Geometry::from(&parameters.rig);
     let mut last = Pose::neutral(&parameters.rig);
     let pose = |(row, lengths): (usize, &[f64; 6])| {
         let found = forward_kinematics(&geometry, lengths, &last);
-        let pose = found.map_err(|_| ForeignError::Implausible {
-            argument: "legs",
-            reason: format!(
-                "row {row} is {lengths:?} m, but the platform has no such pose near the one before; check the order of the legs \
+        let Ok(pose) = found else {
+            refuse!(
+                "legs: row {row} is {lengths:?} m, but the platform has no such pose near the one before; check the order of the legs \
                  and that the rig is the one they were computed for"
-            ),
-        })?;
+            );
+        };
         last = Pose { orientation: Orientation::new(pose.orientation.angles), ..pose };
         let RollPitchYaw { roll, pitch, yaw } = pose.orientation.angles;
         Ok([pose.position.x, pose.position.y, pose.position.z, roll, pitch, yaw])

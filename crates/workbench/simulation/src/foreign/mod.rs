@@ -8,7 +8,6 @@
 //! - [`on_samples`] brings series with other times to the recording's samples.
 
 mod differences;
-mod error;
 mod evaluate;
 mod findings;
 mod limits;
@@ -21,8 +20,7 @@ use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{Input, Output, Parameters};
 use serde::{Deserialize, Serialize};
 
-use crate::Simulation;
-pub use error::ForeignError;
+use crate::{Refusal, Simulation, refuse};
 pub use limits::{Excess, Limit};
 pub use times::on_samples;
 
@@ -77,16 +75,16 @@ impl ForeignMotion {
         step: f64,
         parameters: &Parameters,
         notes: Vec<String>,
-    ) -> Result<Simulation, ForeignError> {
+    ) -> Result<Simulation, Refusal> {
         let ForeignMotion { force, rate, pose, legs } = self;
         if force.is_none() && pose.is_none() && legs.is_none() {
-            return Err(ForeignError::Nothing);
+            refuse!("nothing to judge is given; give felt_force, pose or legs");
         }
         let samples = inputs.len();
-        error::check("felt_force", force, samples)?;
-        error::check("felt_rate", rate, samples)?;
-        error::check("pose", pose, samples)?;
-        error::check("legs", legs, samples)?;
+        check_rows("felt_force", force, samples)?;
+        check_rows("felt_rate", rate, samples)?;
+        check_rows("pose", pose, samples)?;
+        check_rows("legs", legs, samples)?;
         plausible::check(pose, legs, parameters)?;
 
         let of_legs = match (pose, legs) {
@@ -161,4 +159,28 @@ fn at_neutral(neutral: &Pose, parameters: &Parameters) -> Output {
         stroke_margin: clearance_of_lengths(&parameters.rig, &length),
         ..Output::default()
     }
+}
+
+/// Checks a series against the number of the recording's samples.
+///
+/// # Errors
+/// Its length is not that of whole parts of the steps, or a value is not finite.
+fn check_rows<const N: usize>(argument: &str, series: &Option<Vec<[f64; N]>>, samples: usize) -> Result<(), Refusal> {
+    let Some(series) = series else { return Ok(()) };
+    let found = series.len();
+    if samples < 2 || found < samples || (found - 1) % (samples - 1) != 0 {
+        let steps = samples - 1;
+        refuse!(
+            "{argument} has {found} rows, but the recording has {samples} samples; give {samples} rows, or n rows a step: \
+             n · {steps} + 1, or a table with a column time"
+        );
+    }
+    for (row, values) in series.iter().enumerate() {
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            refuse!(
+                "{argument}[{row}] holds {value}; every value must be a finite number: fill the gap, or cut this part off"
+            );
+        }
+    }
+    Ok(())
 }

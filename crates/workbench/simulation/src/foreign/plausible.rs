@@ -7,9 +7,8 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{Output, Parameters};
 
-use super::ForeignError;
 use super::differences::rounding_error;
-use crate::Simulation;
+use crate::{Refusal, Simulation, refuse};
 
 /// Checks that poses and legs can be meant on this rig.
 ///
@@ -19,38 +18,33 @@ pub fn check(
     pose: &Option<Vec<[f64; 6]>>,
     legs: &Option<Vec<[f64; 6]>>,
     parameters: &Parameters,
-) -> Result<(), ForeignError> {
+) -> Result<(), Refusal> {
     // Largest pitch, roll or yaw that a platform on six legs can have [rad].
     const LARGEST_ANGLE: f64 = 1.6;
     // Lengths and heights beyond this multiple of the rig's cannot be meant.
     const MAX_SIZE_RATIO: f64 = 5.0;
     let rig = &parameters.rig;
-    let refused = |argument, reason: String| Err(ForeignError::Implausible { argument, reason });
     if let Some(pose) = pose {
-        let refused = |reason: String| refused("pose", reason);
         let neutral = rig.neutral_height;
         let height = median(pose.iter().map(|pose| pose[2]));
         if height.abs() > MAX_SIZE_RATIO * neutral {
-            return refused(format!("z is {height:.3} m at the median, as in mm; divide x, y, z by 1000"));
+            refuse!("pose: z is {height:.3} m at the median, as in mm; divide x, y, z by 1000");
         }
         if height < 0.3 * neutral {
-            return refused(format!(
-                "z is {height:.3} m at the median, but the platform's origin is {neutral:.3} m above the base at neutral; poses are in \
+            refuse!(
+                "pose: z is {height:.3} m at the median, but the platform's origin is {neutral:.3} m above the base at neutral; poses are in \
                  the base frame with z up: add {neutral} to a z that counts from neutral"
-            ));
+            );
         }
         for (k, name) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
             let largest = pose.iter().map(|pose| pose[3 + k].abs()).fold(0.0, f64::max);
             if largest > LARGEST_ANGLE && largest < std::f64::consts::TAU - LARGEST_ANGLE || largest > 7.0 {
-                return refused(format!(
-                    "{name} reaches {largest:.2} rad, as in degrees; multiply roll, pitch, yaw by pi/180"
-                ));
+                refuse!("pose: {name} reaches {largest:.2} rad, as in degrees; multiply roll, pitch, yaw by pi/180");
             }
         }
     }
     if legs.is_some() && rig.has_cranks() {
-        let reason = "the rig has cranks, whose lengths follow from the pose; give the pose in their place";
-        return refused("legs", reason.to_owned());
+        refuse!("legs: the rig has cranks, whose lengths follow from the pose; give the pose in their place");
     }
     if let Some(legs) = legs {
         let all = || legs.iter().flatten().copied();
@@ -66,12 +60,9 @@ pub fn check(
         } else {
             return Ok(());
         };
-        return refused(
-            "legs",
-            format!(
-                "the lengths are {least:.3} to {greatest:.3} m, {length:.3} m at the median, but an actuator has {shortest} to \
-                 {longest} m from joint to joint; {remedy}"
-            ),
+        refuse!(
+            "legs: the lengths are {least:.3} to {greatest:.3} m, {length:.3} m at the median, but an actuator has {shortest} to \
+             {longest} m from joint to joint; {remedy}"
         );
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Series with times of their own, brought to a recording's samples.
 
-use super::ForeignError;
+use crate::Refusal;
 
 /// A series at a recording's samples, from `times` of its own, and a sentence if it was
 /// interpolated. Times that are those of the samples, or divide its steps into whole parts, keep
@@ -18,12 +18,12 @@ pub fn on_samples<const N: usize>(
     start: f64,
     step: f64,
     samples: usize,
-) -> Result<(Vec<[f64; N]>, Option<String>), ForeignError> {
+) -> Result<(Vec<[f64; N]>, Option<String>), Refusal> {
     // Tolerance of a time, as a fraction of the recording's step.
     const TIME_TOLERANCE: f64 = 1e-3;
     // Excess of times over a whole number of parts of a step that counts as rounding.
     const COUNT_ROUNDING: f64 = 1e-6;
-    let refused = |reason: String| ForeignError::Implausible { argument, reason };
+    let refused = |reason: String| Refusal(format!("{argument}: {reason}"));
     if times.len() < 2 || times.len() != values.len() {
         let (times, rows) = (times.len(), values.len());
         return Err(refused(format!("has {times} times for {rows} rows; give a time for each of at least two")));

@@ -9,10 +9,11 @@ use super::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use super::effort::{Effort, effort};
 use super::fidelity::{Fidelity, fidelity};
 use super::incongruence::{Incongruence, incongruence};
-use super::run::{Run, RunError, Series, axis};
+use super::run::{Run, Series, axis};
 use super::shape::{Desired, Shape};
 use super::sickness::{dose, share_sick};
 use super::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
+use crate::Refusal;
 
 /// Something of each axis x, y, z.
 pub type Axes<T> = [T; 3];
@@ -74,7 +75,7 @@ impl Measures {
     ///
     /// # Errors
     /// The run's series do not fit together or hold something that is no number.
-    pub fn of(run: &Run) -> Result<Self, RunError> {
+    pub fn of(run: &Run) -> Result<Self, Refusal> {
         Self::with(run, None)
     }
 
@@ -83,7 +84,7 @@ impl Measures {
     ///
     /// # Errors
     /// As [`Measures::of`].
-    pub fn with(run: &Run, mut references: Option<&mut References>) -> Result<Self, RunError> {
+    pub fn with(run: &Run, mut references: Option<&mut References>) -> Result<Self, Refusal> {
         run.check()?;
         // The otoliths are at rest at standard gravity.
         let upright = [0.0, 0.0, STANDARD_GRAVITY];

@@ -37,4 +37,4 @@ mod zero_phase;
 
 pub use all::{Axes, Measures, References, Rider};
 pub use listing::{Better, Row, all_rows, bound_rows};
-pub use run::{Limits, Platform, Run, RunError, Series};
+pub use run::{Limits, Platform, Run, Series};

@@ -1,5 +1,7 @@
 //! Input of the measures.
 
+use crate::{Refusal, refuse};
+
 /// Vectors, a sample each. A long run computes them where they are asked for.
 pub trait Series<const N: usize> {
     /// Number of samples.
@@ -82,49 +84,18 @@ pub struct Limits<T> {
     pub actuator: T,
 }
 
-/// Why nothing can be measured of a run.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The time between samples is no time.
-    #[error("the time between samples is {0} s; it must be above 0")]
-    Step(f64),
-    /// There is nothing to compare.
-    #[error("the run has {0} samples; at least 2 are needed")]
-    TooShort(usize),
-    /// A series does not belong to the others.
-    #[error("the series of {series} has {found} samples, not {expected}; give each series a value for every sample")]
-    Length {
-        /// Name of the series.
-        series: &'static str,
-        /// Length of the series.
-        found: usize,
-        /// The length that it must have.
-        expected: usize,
-    },
-    /// A value is not a number.
-    #[error("the {series} of sample {sample} is {value}; every value must be a finite number")]
-    NotFinite {
-        /// Name of the series.
-        series: &'static str,
-        /// Where the value is, from 0.
-        sample: usize,
-        /// Value of the sample.
-        value: f64,
-    },
-}
-
 impl Run<'_> {
     /// Checks that the run can be measured.
     ///
     /// # Errors
     /// The first thing found that is wrong with the series.
-    pub fn check(&self) -> Result<(), RunError> {
+    pub fn check(&self) -> Result<(), Refusal> {
         if self.step.is_nan() || self.step <= 0.0 {
-            return Err(RunError::Step(self.step));
+            refuse!("the time between samples is {} s; it must be above 0", self.step);
         }
         let expected = self.desired_force.count();
         if expected < 2 {
-            return Err(RunError::TooShort(expected));
+            refuse!("the run has {expected} samples; at least 2 are needed");
         }
         check_series("desired specific force", self.desired_force, expected)?;
         check_series("felt specific force", self.felt_force, expected)?;
@@ -140,17 +111,22 @@ impl Run<'_> {
     }
 }
 
-fn check_series<const N: usize>(series: &'static str, values: &dyn Series<N>, expected: usize) -> Result<(), RunError> {
+fn check_series<const N: usize>(series: &'static str, values: &dyn Series<N>, expected: usize) -> Result<(), Refusal> {
     check_length(series, values.count(), expected)?;
     let wrong = |sample| Some((sample, values.at(sample).into_iter().find(|value| !value.is_finite())?));
-    match (0..expected).find_map(wrong) {
-        None => Ok(()),
-        Some((sample, value)) => Err(RunError::NotFinite { series, sample, value }),
+    if let Some((sample, value)) = (0..expected).find_map(wrong) {
+        refuse!("the {series} of sample {sample} is {value}; every value must be a finite number");
     }
+    Ok(())
 }
 
-fn check_length(series: &'static str, found: usize, expected: usize) -> Result<(), RunError> {
-    if found == expected { Ok(()) } else { Err(RunError::Length { series, found, expected }) }
+fn check_length(series: &'static str, found: usize, expected: usize) -> Result<(), Refusal> {
+    if found != expected {
+        refuse!(
+            "the series of {series} has {found} samples, not {expected}; give each series a value for every sample"
+        );
+    }
+    Ok(())
 }
 
 /// One axis of a series of vectors.

@@ -30,6 +30,8 @@ use projection::Projection;
 use trajectory::Knot;
 pub use trajectory::Trajectory;
 
+use crate::{Refusal, refuse};
+
 /// The limits of one axis of the platform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisLimits {
@@ -71,43 +73,6 @@ pub struct Bound {
     pub trajectory: Trajectory,
 }
 
-/// Why there is no bound.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BoundError {
-    /// The time between samples is not above 0.
-    #[error("the time between samples is {0} s; it must be above 0")]
-    Step(f64),
-    /// There is no recording, or it is shorter than one interval.
-    #[error("the recording has {samples} samples; a bound needs at least {needed}")]
-    TooShort {
-        /// Number of samples.
-        samples: usize,
-        /// Number of samples an interval.
-        needed: usize,
-    },
-    /// A sample is not a number.
-    #[error("sample {sample} of the desired specific force is {value}; it must be a finite number")]
-    NotFinite {
-        /// Index of the sample, from 0.
-        sample: usize,
-        /// Value of the sample.
-        value: f64,
-    },
-    /// A limit is outside its permitted range.
-    #[error("the {name} limit is {value}; it must be {needed}")]
-    Limit {
-        /// Name of the limit.
-        name: &'static str,
-        /// Value of the limit.
-        value: f64,
-        /// Permitted values of the limit.
-        needed: &'static str,
-    },
-    /// The solver stopped without a solution.
-    #[error("the solver found no best motion ({0}); try another interval")]
-    Solver(String),
-}
-
 /// Default length of an interval \[s\]. Shorter ones take more time and do not improve the bound
 /// on smooth recordings.
 pub const DEFAULT_INTERVAL: f64 = 0.02;
@@ -120,17 +85,17 @@ pub const DEFAULT_INTERVAL: f64 = 0.02;
 ///
 /// # Errors
 /// The recording or the limits cannot be used, or the solver fails.
-pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> Result<Bound, BoundError> {
+pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> Result<Bound, Refusal> {
     check_limits(limits)?;
     if step.is_nan() || step <= 0.0 {
-        return Err(BoundError::Step(step));
+        refuse!("the time between samples is {step} s; it must be above 0");
     }
     if let Some((sample, &value)) = desired.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        return Err(BoundError::NotFinite { sample, value });
+        refuse!("sample {sample} of the desired specific force is {value}; it must be a finite number");
     }
     let steps = (interval / step).round().max(1.0) as usize;
     if desired.len() <= steps {
-        return Err(BoundError::TooShort { samples: desired.len(), needed: steps + 1 });
+        refuse!("the recording has {} samples; a bound needs at least {}", desired.len(), steps + 1);
     }
     let desired_over: Vec<Projection> = desired.windows(steps + 1).step_by(steps).map(Projection::of_line).collect();
     let interval = steps as f64 * step;
@@ -167,16 +132,20 @@ fn solution_knots<const N: usize, const U: usize, const R: usize>(solution: &Sol
     solution.states.iter().map(knot).collect()
 }
 
-impl From<NotSolved> for BoundError {
+impl From<NotSolved> for Refusal {
     fn from(NotSolved { value, least }: NotSolved) -> Self {
-        BoundError::Solver(format!("its error stayed between {least:.3e} and {value:.3e}"))
+        let gap = format!("its error stayed between {least:.3e} and {value:.3e}");
+        Refusal(format!("the solver found no best motion ({gap}); try another interval"))
     }
 }
 
-fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
+fn check_limits(limits: &AxisLimits) -> Result<(), Refusal> {
     let AxisLimits { min, max, velocity, acceleration, tilt } = *limits;
-    let limit = |name, value: f64, holds: bool, needed| {
-        if holds && value.is_finite() { Ok(()) } else { Err(BoundError::Limit { name, value, needed }) }
+    let limit = |name: &str, value: f64, holds: bool, needed: &str| {
+        if !(holds && value.is_finite()) {
+            refuse!("the {name} limit is {value}; it must be {needed}");
+        }
+        Ok(())
     };
     limit("least position", min, min < 0.0, "below 0")?;
     limit("greatest position", max, max > 0.0, "above 0")?;
