@@ -94,10 +94,17 @@ macro_rules! measures {
     };
 }
 
+/// A subject: its name, number of axes, where something happens, and its measures.
+macro_rules! subject {
+    ($name:expr, $axes:literal, $is_present:expr, $($measures:tt)+) => {
+        Subject { name: $name, axes: $axes, is_present: $is_present, measures: measures! { $($measures)+ } }
+    };
+}
+
 /// The fidelity of a signal, whose errors are written in a unit that is so many times that of SI.
 macro_rules! fidelity {
-    ($signal:ident, $unit:expr, $factor:expr, $source:expr) => {
-        measures! { $source;
+    ($name:expr, $signal:ident, $unit:expr, $factor:expr, $source:expr) => {
+        subject! { $name, 3, |of, k| of.$signal[k].is_some(), $source;
             "RMS error" [$unit] Less: |of, k| of.$signal[k].map(|signal| $factor * signal.rms_error),
                 "Root mean square over the run of felt minus desired.";
             "peak error" [$unit] Less: |of, k| of.$signal[k].map(|signal| $factor * signal.peak_error),
@@ -111,17 +118,17 @@ macro_rules! fidelity {
     };
 }
 
-/// False and missing cues of a signal.
+/// False and missing cues of a sensed signal.
 macro_rules! cues {
-    ($signal:ident) => {
-        measures! { "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
-        1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
-            "sensed in the vehicle" ["%"] Neither: |of, k| Some(100.0 * of.$signal[k].desired),
+    ($name:expr, $sensed:ident, $cues:ident) => {
+        subject! { $name, 3, |of, k| of.$sensed[k].is_some(), "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive \
+        Algorithms, Part 1, UTIAS Report 296, 1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
+            "sensed in the vehicle" ["%"] Neither: |of, k| Some(100.0 * of.$cues[k].desired),
                 "Fraction of the run in which the vehicle's motion is above the threshold.";
-            "false cues" ["%"] Less: |of, k| Some(100.0 * of.$signal[k].false_cues),
+            "false cues" ["%"] Less: |of, k| Some(100.0 * of.$cues[k].false_cues),
                 "Fraction of the run in which the platform's motion is above the threshold and the vehicle's is not, or has \
                  the opposite sign.";
-            "missing cues" ["%"] Less: |of, k| Some(100.0 * of.$signal[k].missing_cues),
+            "missing cues" ["%"] Less: |of, k| Some(100.0 * of.$cues[k].missing_cues),
                 "Fraction of the run in which the vehicle's motion is above the threshold and the platform's is not.";
         }
     };
@@ -130,145 +137,80 @@ macro_rules! cues {
 /// The subjects in the order in which one reads them: those of a group are repeated axis by axis.
 const SUBJECT_GROUPS: [&[Subject]; 4] = [
     &[
-        Subject {
-            name: "specific force",
-            axes: 3,
-            is_present: |of, k| of.force[k].is_some(),
-            measures: fidelity!(force, "m/s²", 1.0, COMMON_USAGE),
-        },
-        Subject {
-            name: "specific force",
-            axes: 2,
-            is_present: |of, k| of.shape.axes[k].is_some(),
-            measures: measures! { SHAPE_SOURCE;
-                "shape" [""] More: |of, k| Some(of.shape.axes[k]?.shape),
-                    "Correlation of felt and desired below 2 Hz: sign, time and proportion, whatever the size; 0 where nothing is felt.";
-                "size" [""] More: |of, k| Some(of.shape.axes[k]?.size),
-                    "RMS of the felt force below 2 Hz over that of the desired force; 1 is full size.";
-                "inverted" ["%"] Less: |of, k| Some(100.0 * of.shape.axes[k]?.inverted),
-                    "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and has the opposite sign of the desired \
-                     force.";
-            },
-        },
-        Subject {
-            name: "specific force",
-            axes: 3,
-            is_present: |of, k| of.comfort[k].is_some(),
-            measures: measures! { "docs/measures.md, comfort";
-                "shake" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.shake.as_ref()?.value),
-                    "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
-                     undefined up to 16 samples a second and for runs of 15 samples or less.";
-                "jolt" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.jolt.as_ref()?.value),
-                    "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
-                     desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.";
-                "peak" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.peak.value),
-                    "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.";
-            },
-        },
-        Subject {
-            name: "sensed specific force",
-            axes: 3,
-            is_present: |of, k| of.sensed_force[k].is_some(),
-            measures: fidelity!(sensed_force, "m/s²", 1.0, VESTIBULAR_SOURCE),
-        },
-        Subject {
-            name: "sensed specific force",
-            axes: 3,
-            is_present: |of, k| of.sensed_force[k].is_some(),
-            measures: cues!(force_cues),
-        },
-    ],
-    &[Subject {
-        name: "horizontal specific force",
-        axes: 0,
-        is_present: |of, _| of.shape.inverted_horizontal.is_some(),
-        measures: measures! { SHAPE_SOURCE;
-            "inverted" ["%"] Less: |of, _| Some(100.0 * of.shape.inverted_horizontal?),
-                "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
+        fidelity!("specific force", force, "m/s²", 1.0, COMMON_USAGE),
+        subject! { "specific force", 2, |of, k| of.shape.axes[k].is_some(), SHAPE_SOURCE;
+            "shape" [""] More: |of, k| Some(of.shape.axes[k]?.shape),
+                "Correlation of felt and desired below 2 Hz: sign, time and proportion, whatever the size; 0 where nothing is felt.";
+            "size" [""] More: |of, k| Some(of.shape.axes[k]?.size),
+                "RMS of the felt force below 2 Hz over that of the desired force; 1 is full size.";
+            "inverted" ["%"] Less: |of, k| Some(100.0 * of.shape.axes[k]?.inverted),
+                "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and has the opposite sign of the desired \
                  force.";
-            "shape error" ["%"] Less: |of, _| Some(100.0 * of.shape.error?),
-                "RMS below 2 Hz of felt less scaled desired force, relative to the RMS of the scaled desired force; undefined at a \
-                 scale of 0.";
         },
+        subject! { "specific force", 3, |of, k| of.comfort[k].is_some(), "docs/measures.md, comfort";
+            "shake" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.shake.as_ref()?.value),
+                "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
+                 undefined up to 16 samples a second and for runs of 15 samples or less.";
+            "jolt" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.jolt.as_ref()?.value),
+                "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
+                 desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.";
+            "peak" ["m/s²"] Less: |of, k| Some(of.comfort[k].as_ref()?.peak.value),
+                "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.";
+        },
+        fidelity!("sensed specific force", sensed_force, "m/s²", 1.0, VESTIBULAR_SOURCE),
+        cues!("sensed specific force", sensed_force, force_cues),
+    ],
+    &[subject! { "horizontal specific force", 0, |of, _| of.shape.inverted_horizontal.is_some(), SHAPE_SOURCE;
+        "inverted" ["%"] Less: |of, _| Some(100.0 * of.shape.inverted_horizontal?),
+            "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
+             force.";
+        "shape error" ["%"] Less: |of, _| Some(100.0 * of.shape.error?),
+            "RMS below 2 Hz of felt less scaled desired force, relative to the RMS of the scaled desired force; undefined at a \
+             scale of 0.";
     }],
     &[
-        Subject {
-            name: "angular velocity",
-            axes: 3,
-            is_present: |of, k| of.rate[k].is_some(),
-            measures: fidelity!(rate, "°/s", DEGREES_PER_RADIAN, COMMON_USAGE),
-        },
-        Subject {
-            name: "sensed angular velocity",
-            axes: 3,
-            is_present: |of, k| of.sensed_rate[k].is_some(),
-            measures: fidelity!(sensed_rate, "°/s", DEGREES_PER_RADIAN, VESTIBULAR_SOURCE),
-        },
-        Subject {
-            name: "sensed angular velocity",
-            axes: 3,
-            is_present: |of, k| of.sensed_rate[k].is_some(),
-            measures: cues!(rate_cues),
-        },
+        fidelity!("angular velocity", rate, "°/s", DEGREES_PER_RADIAN, COMMON_USAGE),
+        fidelity!("sensed angular velocity", sensed_rate, "°/s", DEGREES_PER_RADIAN, VESTIBULAR_SOURCE),
+        cues!("sensed angular velocity", sensed_rate, rate_cues),
     ],
     &[
-        Subject {
-            name: "rider",
-            axes: 0,
-            is_present: |_, _| true,
-            measures: measures! { "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering Motion Perception, \
-            SAE Technical Paper 2023-01-0176";
-                "sick in the vehicle" ["%"] Neither: |of, _| Some(of.rider.sick[0]),
-                    "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
-                     vertical; without vision, from data of passengers.";
-                "sick on the platform" ["%"] Less: |of, _| Some(of.rider.sick[1]),
-                    "The same of the platform's motion.";
-            },
+        subject! { "rider", 0, |_, _| true, "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering \
+        Motion Perception, SAE Technical Paper 2023-01-0176";
+            "sick in the vehicle" ["%"] Neither: |of, _| Some(of.rider.sick[0]),
+                "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
+                 vertical; without vision, from data of passengers.";
+            "sick on the platform" ["%"] Less: |of, _| Some(of.rider.sick[1]),
+                "The same of the platform's motion.";
         },
-        Subject {
-            name: "rider",
-            axes: 0,
-            is_present: |_, _| true,
-            measures: measures! { "ISO 2631-1";
-                "sickness dose in the vehicle" ["m/s^1.5"] Neither: |of, _| Some(of.rider.dose[0]),
-                    "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.";
-                "sickness dose on the platform" ["m/s^1.5"] Less: |of, _| Some(of.rider.dose[1]),
-                    "The same of the platform's motion.";
-            },
+        subject! { "rider", 0, |_, _| true, "ISO 2631-1";
+            "sickness dose in the vehicle" ["m/s^1.5"] Neither: |of, _| Some(of.rider.dose[0]),
+                "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.";
+            "sickness dose on the platform" ["m/s^1.5"] Less: |of, _| Some(of.rider.dose[1]),
+                "The same of the platform's motion.";
         },
-        Subject {
-            name: "rider",
-            axes: 0,
-            is_present: |_, _| true,
-            measures: measures! { "docs/measures.md, incongruence";
-                "incongruence" ["%"] Less: |of, _| Some(100.0 * of.rider.incongruence.as_ref()?.value),
-                    "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
-                     that of a platform at rest.";
-            },
+        subject! { "rider", 0, |_, _| true, "docs/measures.md, incongruence";
+            "incongruence" ["%"] Less: |of, _| Some(100.0 * of.rider.incongruence.as_ref()?.value),
+                "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
+                 that of a platform at rest.";
         },
-        Subject {
-            name: "platform",
-            axes: 0,
-            is_present: |_, _| true,
-            measures: measures! { COMMON_USAGE;
-                "stroke used" ["%"] Neither: |of, _| Some(100.0 * of.effort.stroke_used),
-                    "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.";
-                "smallest stroke margin" ["m"] More: |of, _| Some(of.effort.smallest_margin),
-                    "Smallest distance of any actuator from either end of its stroke.";
-                "largest tilt rate" ["°/s"] Neither: |of, _| Some(of.effort.largest_tilt_rate.to_degrees()),
-                    "Largest rate of tilt coordination in roll or pitch.";
-                "tilt limited" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.tilt),
-                    "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
-                     least 0.1 s at its acceleration limit.";
-                "soft limits active" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.soft),
-                    "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.";
-                "safety units active" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.safety),
-                    "Fraction of the steps in which a safety unit limited the platform.";
-                "actuators limited" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.actuator),
-                    "Fraction of the steps in which the actuator guard limited an actuator.";
-                "final distance from neutral" ["m"] Less: |of, _| Some(of.effort.final_distance),
-                    "Distance of the platform from neutral at the end.";
-            },
+        subject! { "platform", 0, |_, _| true, COMMON_USAGE;
+            "stroke used" ["%"] Neither: |of, _| Some(100.0 * of.effort.stroke_used),
+                "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.";
+            "smallest stroke margin" ["m"] More: |of, _| Some(of.effort.smallest_margin),
+                "Smallest distance of any actuator from either end of its stroke.";
+            "largest tilt rate" ["°/s"] Neither: |of, _| Some(of.effort.largest_tilt_rate.to_degrees()),
+                "Largest rate of tilt coordination in roll or pitch.";
+            "tilt limited" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.tilt),
+                "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
+                 least 0.1 s at its acceleration limit.";
+            "soft limits active" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.soft),
+                "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.";
+            "safety units active" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.safety),
+                "Fraction of the steps in which a safety unit limited the platform.";
+            "actuators limited" ["%"] Less: |of, _| Some(100.0 * of.effort.limited.actuator),
+                "Fraction of the steps in which the actuator guard limited an actuator.";
+            "final distance from neutral" ["m"] Less: |of, _| Some(of.effort.final_distance),
+                "Distance of the platform from neutral at the end.";
         },
     ],
 ];
