@@ -323,11 +323,9 @@ fn quick_parameters(parameters: &Parameters) -> Parameters {
 
 #[cfg(test)]
 mod tests {
-    use moris_washout::interface::AutomaticScale;
     use moris_washout::{Input, presets};
 
     use super::*;
-    use crate::drives::bench::BENCH_DRIVES;
 
     /// A slalom of so many m/s2 to the side.
     fn slalom(amplitude: f64, frequency: f64) -> Manoeuvre {
@@ -352,21 +350,6 @@ mod tests {
         // A little more does not fit.
         let more = Factors::scale(1.2 * fit.best.factors.scale);
         assert!(Aims::default().distance(&search.candidate(&predictive, more).unwrap().shape) > 1.0);
-    }
-
-    /// An event that is over before the automatic scale has learned: it begins with what fits.
-    #[test]
-    fn single_events_have_the_right_shape_with_an_automatic_scale_that_begins_with_the_fit() {
-        for name in ["lane-change", "emergency-stop"] {
-            let drive = BENCH_DRIVES.iter().find(|drive| drive.name == name).unwrap().manoeuvre();
-            let search = Search::new(&drive, 0.0, Aims::default());
-            let mut parameters = Parameters::default();
-            let factors = search.fit(&parameters).unwrap().best.factors;
-            parameters.automatic_scale.automatic = AutomaticScale::On;
-            let shape = search.shape(&factors.applied(&parameters)).unwrap();
-            let (least, (_, inverted)) = (shape.least_shape().unwrap(), shape.most_inverted_axis().unwrap());
-            assert!(least >= 0.8 && inverted <= 0.03, "{name}: shape {least}, inverted {inverted}");
-        }
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! Washouts compared on fixed drives and rigs.
 //!
-//! - `moris_simulation::drives::bench` has the drives, and [`rigs`] the rigs.
+//! - [`drives`] has the drives, and [`rigs`] the rigs.
 //! - [`columns`] are the measures, in their order.
 //! - [`run`] computes the rows of a drive on a rig.
 
 pub mod columns;
+pub mod drives;
 pub mod rigs;
 pub mod run;
 

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use moris_setup::Setup;
 use moris_simulation::Simulation;
-use moris_simulation::drives::bench::{Drive, RATE_FRAME};
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::measures::Axes;
@@ -13,6 +12,7 @@ use moris_washout::interface::{AutomaticScale, StrategyKind};
 use moris_washout::platform::Pose;
 
 use super::columns::BENCH_COLUMNS;
+use super::drives::{Drive, RATE_FRAME};
 use super::rigs::BenchRig;
 use crate::bounds::{self, AxisBound};
 use crate::error::{About, Result};
@@ -128,14 +128,19 @@ impl Foreign {
 ///
 /// # Errors
 /// A set cannot be used on the rig, or a motion cannot be judged.
-pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign: &[Foreign]) -> Result<Vec<Row>> {
+pub fn rows(
+    rig: &BenchRig,
+    drive: &'static Drive,
+    strategies: &[StrategyKind],
+    foreign: &[Foreign],
+) -> Result<Vec<Row>> {
     // Interval of the bound's controls [s].
     const BOUND_INTERVAL: f64 = 0.05;
     // Measures whose least is `Row::best`.
     const ERROR_MEASURES: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
     let of = || format!("{} on {}", drive.name, rig.name);
     let setup = rig.setup().about(of)?;
-    let recording = Recording::computed(drive.name, drive.manoeuvre(), RATE_FRAME);
+    let recording = Recording::computed(&drive.name, drive.manoeuvre(), RATE_FRAME);
     let unscaled = recording.parameters(&with_unit_scale(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
     let bounds = bounds::bounds_at(&asked, BOUND_INTERVAL).about(of)?;
@@ -196,7 +201,7 @@ fn at_rest(recording: &Recording, setup: &Setup) -> Result<Outcome> {
 
 fn bench_row(
     rig: &BenchRig,
-    drive: &Drive,
+    drive: &'static Drive,
     washout: &str,
     scale: Scale,
     mut outcome: Outcome,
@@ -205,5 +210,5 @@ fn bench_row(
     outcome.bounds.clone_from(bounds);
     let remarks = outcome.simulation.foreign.iter().flat_map(|foreign| foreign.remarks()).map(str::to_owned).collect();
     let values = BENCH_COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
-    Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3], remarks }
+    Row { drive: &drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3], remarks }
 }

@@ -13,9 +13,9 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
 use clap::builder::PossibleValuesParser;
+use moris_analysis::bench::drives::{BENCH_DRIVES, Drive};
 use moris_analysis::bench::rigs::{BENCH_RIGS, BenchRig};
 use moris_analysis::bench::run::{Foreign, Row, rows};
-use moris_simulation::drives::bench::{BENCH_DRIVES, Drive};
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 
@@ -36,7 +36,7 @@ use crate::setup_options::strategies;
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Drives, separated by commas [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(BENCH_DRIVES.map(|drive| drive.name)))]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(BENCH_DRIVES.iter().map(|drive| drive.name.as_str())))]
     drive: Vec<String>,
 
     /// Rigs, separated by commas [default: all]
@@ -76,7 +76,7 @@ pub struct Options {
 /// A file cannot be read or written, or a motion cannot be judged.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let chosen = |name: &str, names: &[String]| names.is_empty() || names.iter().any(|other| other == name);
-    let drives: Vec<Drive> = BENCH_DRIVES.into_iter().filter(|drive| chosen(drive.name, &options.drive)).collect();
+    let drives: Vec<&Drive> = BENCH_DRIVES.iter().filter(|drive| chosen(&drive.name, &options.drive)).collect();
     if let Some(folder) = &options.write_drives {
         write_drives(folder, &drives, out)?;
         return Ok(ExitCode::SUCCESS);
@@ -86,14 +86,14 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
     let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Ok(Foreign::fmu(file, map)?));
     let foreign = options.felt.iter().map(|folder| felt_motion(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
-    let pairs: Vec<(BenchRig, Drive)> =
+    let pairs: Vec<(BenchRig, &Drive)> =
         rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
     if !foreign.is_empty() && !pairs.iter().any(|(rig, drive)| foreign.iter().any(|one| one.file(rig, drive).is_some()))
     {
         bail!("--felt: there is no file DRIVE.csv or RIG/DRIVE.csv, such as {}.csv", drives[0].name);
     }
     let progress = Progress::new("bench", "simulating")?;
-    let of_pair = |(rig, drive): &(BenchRig, Drive)| Ok(rows(rig, drive, &strategies, &foreign)?);
+    let of_pair = |(rig, drive): &(BenchRig, &'static Drive)| Ok(rows(rig, drive, &strategies, &foreign)?);
     let rows: Vec<Row> = pairs.par_iter().map(of_pair).collect::<Result<Vec<_>>>()?.concat();
     progress.finish();
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
@@ -136,7 +136,7 @@ fn distinct_remarks(rows: &[Row]) -> Vec<String> {
 }
 
 /// Writes the drives as recordings.
-fn write_drives(folder: &Path, drives: &[Drive], out: &mut dyn Write) -> Result<()> {
+fn write_drives(folder: &Path, drives: &[&Drive], out: &mut dyn Write) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     for drive in drives {
         let file = folder.join(format!("{}.csv", drive.name));

@@ -2,9 +2,9 @@
 
 use moris::recording::Recording;
 use moris::simulate::Outcome;
+use moris_analysis::bench::drives::{BENCH_DRIVES, RATE_FRAME};
 use moris_setup::Setup;
 use moris_simulation::channels::channels;
-use moris_simulation::drives::bench::{BENCH_DRIVES, RATE_FRAME};
 use moris_simulation::preview::Previewer;
 use moris_simulation::verdict::Fault;
 use moris_simulation::{Manoeuvre, Weight};
@@ -119,8 +119,8 @@ fn following_a_verdict_makes_what_it_names_better_and_nothing_else_worse() {
     let rigs = cases(&["hobby100", "default", "flight091"][..], &["hobby200", "default"]);
     let sets = cases(&["default", "classical", "robust"][..], &["default", "paper"]);
     let mut followed = 0;
-    for drive in BENCH_DRIVES.iter().filter(|drive| drives.contains(&drive.name)) {
-        let recording = Recording::computed(drive.name, drive.manoeuvre(), RATE_FRAME);
+    for drive in BENCH_DRIVES.iter().filter(|drive| drives.contains(&drive.name.as_str())) {
+        let recording = Recording::computed(&drive.name, drive.manoeuvre(), RATE_FRAME);
         for rig in rigs {
             for set in sets {
                 followed += follow(&recording, &on_rig(rig, set));

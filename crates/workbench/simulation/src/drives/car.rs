@@ -6,6 +6,7 @@
 
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
+use serde::Deserialize;
 
 use super::smooth::{Change, changes, changes_integral};
 use crate::Manoeuvre;
@@ -16,7 +17,7 @@ pub const STEP: f64 = 0.01;
 const MIN_TYRE_SPEED: f64 = 3.0;
 
 /// A car.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct Car {
     /// Mass of the car \[kg\].
     pub mass: f64,
@@ -48,20 +49,9 @@ pub const PASSENGER_CAR: Car = Car {
     roll: [9.0, 0.5],
 };
 
-/// A kart: light, stiff, without springs.
-pub const KART: Car = Car {
-    mass: 160.0,
-    inertia: 22.0,
-    to_front: 0.6,
-    to_rear: 0.45,
-    front_stiffness: 20e3,
-    rear_stiffness: 32e3,
-    roll_gradient: 0.0,
-    roll: [20.0, 1.0],
-};
-
 /// A drive of a car.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Course {
     /// The car.
     pub car: Car,
@@ -70,14 +60,22 @@ pub struct Course {
     /// Speed at the start \[m/s\].
     pub speed: f64,
     /// Changes of the acceleration along the road \[m/s2\].
-    pub along: &'static [Change],
+    pub along: Vec<Change>,
     /// Changes of the curvature that is steered for \[1/m\].
-    pub curvature: &'static [Change],
+    pub curvature: Vec<Change>,
     /// Waves of the curvature: amplitude \[1/m\], frequency \[Hz\], start and
     /// end of the waves \[s\].
     pub weaving: Option<[f64; 4]>,
     /// Waves of the road, felt as heave: amplitude \[m/s2\] and frequency \[Hz\].
-    pub road: &'static [[f64; 2]],
+    pub road: Vec<[f64; 2]>,
+}
+
+/// A course of the passenger car without bends, braking or waves.
+impl Default for Course {
+    fn default() -> Self {
+        let (along, curvature, road) = (Vec::new(), Vec::new(), Vec::new());
+        Course { car: PASSENGER_CAR, duration: 30.0, speed: 20.0, along, curvature, weaving: None, road }
+    }
 }
 
 /// Sideslip angle, yaw rate, roll and roll rate.
@@ -86,12 +84,12 @@ type State = [f64; 4];
 impl Course {
     /// Speed \[m/s\]; never below zero.
     pub fn speed_at(&self, t: f64) -> f64 {
-        (self.speed + changes_integral(self.along, t)).max(0.0)
+        (self.speed + changes_integral(&self.along, t)).max(0.0)
     }
 
     /// Acceleration along the road \[m/s2\]; none once the car stands.
     fn along_at(&self, t: f64) -> f64 {
-        let acceleration = changes(self.along, t);
+        let acceleration = changes(&self.along, t);
         if self.speed_at(t) > 0.0 || acceleration > 0.0 { acceleration } else { 0.0 }
     }
 
@@ -100,7 +98,7 @@ impl Course {
             let fade = changes(&[(1.0, start, 2.0), (-1.0, end - 2.0, 2.0)], t);
             amplitude * fade * (std::f64::consts::TAU * frequency * (t - start)).sin()
         });
-        changes(self.curvature, t) + weaving
+        changes(&self.curvature, t) + weaving
     }
 
     /// Derivatives of the state, and the lateral acceleration.
@@ -179,19 +177,13 @@ mod tests {
     use super::*;
 
     /// A bend of constant speed and curvature, long enough to be steady.
-    const BEND: Course = Course {
-        car: PASSENGER_CAR,
-        duration: 20.0,
-        speed: 20.0,
-        along: &[],
-        curvature: &[(0.01, 2.0, 2.0)],
-        weaving: None,
-        road: &[],
-    };
+    fn bend() -> Course {
+        Course { duration: 20.0, curvature: vec![(0.01, 2.0, 2.0)], ..Course::default() }
+    }
 
     #[test]
     fn a_steady_bend_has_the_curvature_that_is_steered_for() {
-        let manoeuvre = BEND.manoeuvre();
+        let manoeuvre = bend().manoeuvre();
         let last = manoeuvre.inputs().last().unwrap();
         let lateral = 20.0 * 20.0 * 0.01;
         let roll = PASSENGER_CAR.roll_gradient * lateral;
@@ -203,7 +195,7 @@ mod tests {
     /// The yaw response to a small step has the natural frequency of the textbook's formula.
     #[test]
     fn the_yaw_rate_overshoots_as_the_characteristic_equation_says() {
-        let course = Course { speed: 40.0, curvature: &[(1e-3, 1.0, 1e-6)], ..BEND };
+        let course = Course { speed: 40.0, curvature: vec![(1e-3, 1.0, 1e-6)], ..bend() };
         let rates: Vec<f64> = course.manoeuvre().inputs().iter().map(|input| input.angular_velocity.z).collect();
         let Car { mass: m, inertia: j, to_front: a, to_rear: b, front_stiffness: f, rear_stiffness: r, .. } =
             PASSENGER_CAR;
@@ -219,7 +211,7 @@ mod tests {
 
     #[test]
     fn a_car_at_rest_feels_gravity_alone() {
-        let stop = Course { speed: 10.0, along: &[(-5.0, 2.0, 0.2)], ..BEND };
+        let stop = Course { speed: 10.0, along: vec![(-5.0, 2.0, 0.2)], ..bend() };
         let manoeuvre = stop.manoeuvre();
         let last = manoeuvre.inputs().last().unwrap();
         assert_eq!((last.speed, last.specific_force.x, last.angular_velocity.z), (0.0, 0.0, 0.0));

@@ -2,9 +2,7 @@
 //!
 //! - [`runs`] has the paper's runs and a drive through town, in closed form.
 //! - [`car`] is a single-track car, with a driver's steering and pedals in closed form.
-//! - [`bench`](mod@bench) is the fixed list of drives on which washouts are compared.
 
-pub mod bench;
 pub mod car;
 pub mod runs;
 pub mod smooth;
