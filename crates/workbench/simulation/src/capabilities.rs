@@ -7,6 +7,7 @@ use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
 use moris_washout::{ParameterError, Parameters, Rig, check, warnings};
 
 use crate::clearance::Clearance;
+use crate::sentence;
 
 /// Capabilities of a rig.
 #[derive(Clone, Debug)]
@@ -83,14 +84,9 @@ impl Capabilities {
         if rig.has_cranks() {
             return self.cranks();
         }
-        format!(
-            "legs of {:.3} to {:.3} m, {} m at neutral; {} m/s, {} m/s²",
-            rig.min_length,
-            rig.max_length,
-            neutral.join(", "),
-            rig.velocity_limit,
-            rig.acceleration_limit
-        )
+        let (shortest, longest, neutral) = (rig.min_length, rig.max_length, neutral.join(", "));
+        let (speed, acceleration) = (rig.velocity_limit, rig.acceleration_limit);
+        sentence!["legs", shortest, longest, neutral, speed, acceleration]
     }
 
     /// The cranks' sizes and limits as lines, with the smallest transmission where the platform
@@ -104,19 +100,10 @@ impl Capabilities {
         let smallest =
             ends.map(|(axis, end)| geometry.transmission(&displaced(rig, axis, end))).fold(at_neutral, f64::min);
         let rates = [rig.velocity_limit, rig.acceleration_limit].map(|limit| limit / rig.crank_arm);
-        format!(
-            "cranks with arms of {:.4} m and rods of {:.4} m, from {} to {}; {:.3} rad/s, {:.3} rad/s²\n\
-             transmission {at_neutral:.3} at neutral, {smallest:.3} at the least end of an axis, limit {}; there an arm turns \
-             {:.1} times as fast as with a rod across it",
-            rig.crank_arm,
-            rig.crank_rod,
-            degrees(rig.crank_min_angle),
-            degrees(rig.crank_max_angle),
-            rates[0],
-            rates[1],
-            rig.crank_least_transmission,
-            1.0 / smallest,
-        )
+        let (arm, rod, limit) = (rig.crank_arm, rig.crank_rod, rig.crank_least_transmission);
+        let [low, high] = [rig.crank_min_angle, rig.crank_max_angle].map(degrees);
+        let ([rate, acceleration], times) = (rates, 1.0 / smallest);
+        sentence!["cranks", arm, rod, low, high, rate, acceleration, at_neutral, smallest, limit, times]
     }
 
     /// The safety units' limits, and warnings about them and the rig, as lines.
@@ -169,19 +156,13 @@ impl AxisAlone {
 
 impl fmt::Display for Singularities {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Singularities::None(survey) => writeln!(
-                f,
-                "free of singularities over the whole box of leg lengths (4 lengths a leg, 4096 poses):\n  smallest singular \
-                 value {:.2}, worst condition number {:.1}",
-                survey.smallest_singular_value, survey.worst_condition
-            ),
-            Singularities::At(lengths) => writeln!(
-                f,
-                "singular inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
-                 stroke; the washout refuses this rig.",
-                lengths.map(|length| format!("{length:.3}")).join(", ")
-            ),
-        }
+        f.write_str(&match self {
+            Singularities::None(platform::Survey { smallest_singular_value: smallest, worst_condition: worst }) => {
+                sentence!["regular", smallest, worst]
+            }
+            Singularities::At(lengths) => {
+                sentence!["singular", lengths = lengths.map(|length| format!("{length:.3}")).join(", ")]
+            }
+        })
     }
 }

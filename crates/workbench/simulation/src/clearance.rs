@@ -16,6 +16,8 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::numbering::{NUMBERING_ADVICE, is_opposite};
 use moris_washout::platform::{Geometry, Pose, forward_kinematics, jacobian};
 
+use crate::sentence;
+
 /// Lengths tried for each leg, evenly from the shortest to the longest.
 const LENGTH_LEVELS: usize = 4;
 
@@ -92,11 +94,8 @@ impl fmt::Display for Clearance {
         };
         let diameter = format!("taken as {:.3} m thick{}", self.diameter, self.source());
         if self.collisions().next().is_none() {
-            return writeln!(
-                f,
-                "no {kind} touch: {}, axis to axis\n  {kind} are {diameter}",
-                line(&self.approaches[0])
-            );
+            let closest = line(&self.approaches[0]);
+            return f.write_str(&sentence!["legs-apart", kind, closest, diameter]);
         }
         writeln!(f, "{capital} COLLIDE within their stroke, axis to axis:")?;
         self.collisions().try_for_each(|approach| writeln!(f, "  {}", line(approach)))?;

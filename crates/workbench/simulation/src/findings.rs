@@ -13,8 +13,7 @@ use crate::channels::{ChannelFigures, channels};
 use crate::frequency_response::channel::name;
 use crate::spans::Spans;
 use crate::verdict::percent;
-use crate::{Evaluated, Simulation, capitalised};
-use crate::{Finding, Limits, TiltLimit, Weight};
+use crate::{Evaluated, Finding, Limits, Simulation, TiltLimit, Weight, capitalised, sentence};
 
 /// Relative error up to which a channel counts as reproduced well.
 const FAITHFUL_ERROR: f64 = 0.25;
@@ -65,10 +64,6 @@ fn new_finding(weight: Weight, text: String) -> Finding {
 
 /// Fit of the recording to the rig: active limits, their durations and times.
 fn fit_finding(outcome: &Evaluated) -> Finding {
-    // The cost of soft limits.
-    const GIVEN_UP: &str =
-        "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
-    let effort = &outcome.measures.effort;
     let simulation = &outcome.simulation;
     let hard: Vec<String> = [
         limited_time("The actuators' limits", simulation, |output| output.actuator_limited),
@@ -78,27 +73,25 @@ fn fit_finding(outcome: &Evaluated) -> Finding {
     .flatten()
     .collect();
     let soft = soft_limited_time(simulation);
-    let used = format!(
-        "{:.0} % of the stroke is used, with at least {:.0} mm to spare",
-        100.0 * effort.stroke_used,
-        1000.0 * effort.smallest_margin
-    );
+    let used = stroke_used(outcome);
     let good = if is_better_than_rest(outcome) { Weight::Good } else { Weight::Note };
     match (hard.as_slice(), soft) {
-        ([], None) => new_finding(good, format!("The recording fits the rig: {used}.")),
+        ([], None) => new_finding(good, sentence!["fits", used]),
         ([], Some(soft)) if fits_freely(outcome.measures) => {
-            new_finding(good, format!("The recording fits the rig: {used}. {soft}"))
+            new_finding(good, format!("{} {soft}", sentence!["fits", used]))
         }
-        ([], Some(soft)) => new_finding(
-            Weight::Warning,
-            format!("The recording stays within the rig by its soft limits alone. {soft} {GIVEN_UP} ({used}.)"),
-        ),
+        ([], Some(soft)) => new_finding(Weight::Warning, sentence!["fits-by-soft-limits", soft, used]),
         (hard, soft) => {
-            let soft = soft.map_or_else(String::new, |soft| format!(" {soft} {GIVEN_UP}"));
-            let text = format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" "));
-            new_finding(Weight::Warning, text)
+            let soft = soft.map_or_else(String::new, |soft| format!(" {}", sentence!["gives-up", soft]));
+            new_finding(Weight::Warning, sentence!["fits-not", hard = hard.join(" "), soft, used])
         }
     }
+}
+
+/// How much of the stroke is used, as a clause.
+pub(crate) fn stroke_used(outcome: &Evaluated) -> String {
+    let effort = &outcome.measures.effort;
+    sentence!["stroke-used", percent = 100.0 * effort.stroke_used, margin = 1000.0 * effort.smallest_margin]
 }
 
 /// As [`fits_the_rig`]; none where the legs are not known.
@@ -152,11 +145,7 @@ fn sickness_finding(measures: &Measures) -> Option<Finding> {
     const SICKNESS_RATIO: f64 = 2.0;
     let [vehicle, platform] = measures.rider.sick;
     let weight = if platform > vehicle + SICKNESS_RATIO { Weight::Warning } else { Weight::Note };
-    let text = format!(
-        "Motion sickness: half an hour of this ride makes {vehicle:.0} % of people sick, the same of the platform's motion \
-         {platform:.0} % (a model of passengers, without vision)."
-    );
-    (vehicle.max(platform) >= LEAST_SICK).then(|| new_finding(weight, text))
+    (vehicle.max(platform) >= LEAST_SICK).then(|| new_finding(weight, sentence!["motion-sickness", vehicle, platform]))
 }
 
 /// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.
@@ -169,19 +158,9 @@ fn comfort_findings(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
     let Some(Comfort { shake, jolt, peak }) = outcome.measures.comfort[axis] else { return Vec::new() };
     let name = FORCE_AXIS_NAMES[axis].to_lowercase();
     let sentences = [
-        worth_saying(shake, LEAST_SHAKE).map(|Excess { value, time }| {
-            format!(
-                "Felt {name} shakes by {value:.2} m/s² (RMS above 8 Hz) at {time:.1} s, beyond the shaking of the desired force."
-            )
-        }),
-        worth_saying(jolt, LEAST_JOLT).map(|Excess { value, time }| {
-            format!(
-                "Felt {name} jolts by {value:.1} m/s² within 20 ms at {time:.1} s, beyond any change of the desired force there."
-            )
-        }),
-        worth_saying(Some(peak), LEAST_PEAK).map(|Excess { value, time }| {
-            format!("Felt {name} peaks {value:.1} m/s² above the largest desired force, at {time:.1} s.")
-        }),
+        worth_saying(shake, LEAST_SHAKE).map(|Excess { value, time }| sentence!["felt-shakes", name, value, time]),
+        worth_saying(jolt, LEAST_JOLT).map(|Excess { value, time }| sentence!["felt-jolts", name, value, time]),
+        worth_saying(Some(peak), LEAST_PEAK).map(|Excess { value, time }| sentence!["felt-peaks", name, value, time]),
     ];
     sentences.into_iter().flatten().map(|text| new_finding(Weight::Warning, text)).collect()
 }
@@ -199,11 +178,8 @@ fn shape_finding(outcome: &Evaluated) -> Option<Finding> {
     let shapes = of_axes(&|axis| format!("{:.2}", axis.shape));
     let sizes = of_axes(&|axis| format!("{:.0} %", 100.0 * axis.size));
     if inverted > MAX_INVERTED_FRACTION {
-        let text = format!(
-            "{} is felt the wrong way round for {} of the time. Shape: {shapes}; size: {sizes}.",
-            FORCE_AXIS_NAMES[most],
-            percent(inverted)
-        );
+        let (axis, time) = (FORCE_AXIS_NAMES[most], percent(inverted));
+        let text = sentence!["felt-inverted", axis, time, shapes, sizes];
         return Some(new_finding(Weight::Warning, text));
     }
     let is_right = shape.axes.iter().flatten().all(|axis| axis.shape >= RIGHT_SHAPE);

@@ -5,8 +5,9 @@
 #[error("{0}")]
 pub struct Refusal(pub(crate) String);
 
-/// Returns a [`Refusal`] with this text.
+/// Returns a [`Refusal`] with a sentence, or with this text.
 macro_rules! refuse {
+    (sentence![$($sentence:tt)*]) => { return Err($crate::Refusal($crate::sentence![$($sentence)*])) };
     ($($text:tt)*) => { return Err($crate::Refusal(format!($($text)*))) };
 }
 pub(crate) use refuse;

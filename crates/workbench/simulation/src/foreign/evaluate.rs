@@ -100,10 +100,7 @@ pub fn poses_of_legs(legs: &[[f64; 6]], parameters: &Parameters) -> Result<Vec<[
     let pose = |(row, lengths): (usize, &[f64; 6])| {
         let found = forward_kinematics(&geometry, lengths, &last);
         let Ok(pose) = found else {
-            refuse!(
-                "legs: row {row} is {lengths:?} m, but the platform has no such pose near the one before; check the order of the legs \
-                 and that the rig is the one they were computed for"
-            );
+            refuse!(sentence!["no-such-pose", row, lengths = format!("{lengths:?}")]);
         };
         last = Pose { orientation: Orientation::new(pose.orientation.angles), ..pose };
         let RollPitchYaw { roll, pitch, yaw } = pose.orientation.angles;

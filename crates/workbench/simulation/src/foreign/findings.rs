@@ -4,9 +4,9 @@ use crate::measures::Row;
 
 use super::Foreign;
 use super::limits::{Excess, Limit};
-use crate::Evaluated;
+use crate::findings::stroke_used;
 use crate::spans::Spans;
-use crate::{Finding, Weight};
+use crate::{Evaluated, Finding, Weight, sentence};
 
 impl Foreign {
     /// Fit to the rig, and what was given.
@@ -16,32 +16,22 @@ impl Foreign {
         findings.extend(self.suspicions.iter().map(|text| finding(Weight::Warning, text.clone())));
         findings.extend(self.notes.iter().map(|text| finding(Weight::Note, text.clone())));
         if !self.has_rate {
-            let text = "No felt rate is given: rates are not judged, and count as none for motion sickness.";
-            findings.push(finding(Weight::Note, text.to_owned()));
+            findings.push(finding(Weight::Note, sentence!["no-felt-rate"]));
         }
         findings
     }
 
     fn fit(&self, outcome: &Evaluated, is_good: bool) -> Finding {
         if !self.has_legs {
-            let text = "The rig's limits are not judged: no pose and no legs are given.";
-            return Finding { weight: Weight::Note, text: text.to_owned() };
+            return Finding { weight: Weight::Note, text: sentence!["no-legs"] };
         }
-        let effort = &outcome.measures.effort;
         let spans = Spans::of(outcome.simulation, |output| output.actuator_limited);
         if let Some(first) = spans.first() {
             let worst = self.excesses.iter().map(excess_clause).collect::<Vec<_>>().join(", ");
-            let text = format!(
-                "The motion exceeds the rig for {:.2} s in all, first at {:.2} s: {worst}.",
-                spans.total, first[0]
-            );
+            let text = sentence!["motion-exceeds", total = spans.total, first = first[0], worst];
             return Finding { weight: Weight::Warning, text };
         }
-        let text = format!(
-            "The motion stays within the rig: {:.0} % of the stroke is used, with at least {:.0} mm to spare.",
-            100.0 * effort.stroke_used,
-            1000.0 * effort.smallest_margin
-        );
+        let text = sentence!["motion-fits", used = stroke_used(outcome)];
         Finding { weight: if is_good { Weight::Good } else { Weight::Note }, text }
     }
 

@@ -169,17 +169,11 @@ fn check_rows<const N: usize>(argument: &str, series: &Option<Vec<[f64; N]>>, sa
     let Some(series) = series else { return Ok(()) };
     let found = series.len();
     if samples < 2 || found < samples || (found - 1) % (samples - 1) != 0 {
-        let steps = samples - 1;
-        refuse!(
-            "{argument} has {found} rows, but the recording has {samples} samples; give {samples} rows, or n rows a step: \
-             n · {steps} + 1, or a table with a column time"
-        );
+        refuse!(sentence!["rows", argument, found, samples, steps = samples.wrapping_sub(1)]);
     }
     for (row, values) in series.iter().enumerate() {
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-            refuse!(
-                "{argument}[{row}] holds {value}; every value must be a finite number: fill the gap, or cut this part off"
-            );
+            refuse!(sentence!["not-finite", argument, row, value]);
         }
     }
     Ok(())

@@ -8,7 +8,7 @@ use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{Output, Parameters};
 
 use super::differences::rounding_error;
-use crate::{Refusal, Simulation, refuse};
+use crate::{Refusal, Simulation, refuse, sentence};
 
 /// Checks that poses and legs can be meant on this rig.
 ///
@@ -28,23 +28,20 @@ pub fn check(
         let neutral = rig.neutral_height;
         let height = median(pose.iter().map(|pose| pose[2]));
         if height.abs() > MAX_SIZE_RATIO * neutral {
-            refuse!("pose: z is {height:.3} m at the median, as in mm; divide x, y, z by 1000");
+            refuse!(sentence!["pose-in-mm", height]);
         }
         if height < 0.3 * neutral {
-            refuse!(
-                "pose: z is {height:.3} m at the median, but the platform's origin is {neutral:.3} m above the base at neutral; poses are in \
-                 the base frame with z up: add {neutral} to a z that counts from neutral"
-            );
+            refuse!(sentence!["pose-from-neutral", height, neutral, exact = neutral]);
         }
         for (k, name) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
             let largest = pose.iter().map(|pose| pose[3 + k].abs()).fold(0.0, f64::max);
             if largest > LARGEST_ANGLE && largest < std::f64::consts::TAU - LARGEST_ANGLE || largest > 7.0 {
-                refuse!("pose: {name} reaches {largest:.2} rad, as in degrees; multiply roll, pitch, yaw by pi/180");
+                refuse!(sentence!["pose-in-degrees", name, largest]);
             }
         }
     }
     if legs.is_some() && rig.has_cranks() {
-        refuse!("legs: the rig has cranks, whose lengths follow from the pose; give the pose in their place");
+        refuse!(sentence!["legs-of-cranks"]);
     }
     if let Some(legs) = legs {
         let all = || legs.iter().flatten().copied();
@@ -60,10 +57,7 @@ pub fn check(
         } else {
             return Ok(());
         };
-        refuse!(
-            "legs: the lengths are {least:.3} to {greatest:.3} m, {length:.3} m at the median, but an actuator has {shortest} to \
-             {longest} m from joint to joint; {remedy}"
-        );
+        refuse!(sentence!["legs-out-of-range", least, greatest, length, shortest, longest, remedy]);
     }
     Ok(())
 }
@@ -90,12 +84,7 @@ pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<String>
     const LEAST_ROUNDING: f64 = 0.02;
     let (decimals, error) = rounded_decimals(poses, samples, step)?;
     let rate = ((poses.len() - 1) / (samples - 1)) as f64 / step;
-    (error >= LEAST_ROUNDING).then(|| {
-        format!(
-            "The poses have {decimals} decimals: at {rate:.0} a second, rounding alone makes an RMS of {error:.2} m/s² of felt force. \
-             Write more decimals, or give felt forces."
-        )
-    })
+    (error >= LEAST_ROUNDING).then(|| sentence!["poses-rounded", decimals, rate, error])
 }
 
 /// Legs that are not those of the poses.
@@ -104,12 +93,8 @@ pub fn other_legs(legs: &[[f64; 6]], of_poses: &[[f64; 6]]) -> Option<String> {
     const DIFFERENT_LEGS: f64 = 1e-3;
     let pairs = legs.iter().flatten().zip(of_poses.iter().flatten());
     let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    (legs.len() == of_poses.len() && difference > DIFFERENT_LEGS).then(|| {
-        format!(
-            "The legs are not those of the poses on this rig: they differ by up to {:.0} mm. Check the rig, and the order of its legs.",
-            1000.0 * difference
-        )
-    })
+    let is_other = legs.len() == of_poses.len() && difference > DIFFERENT_LEGS;
+    is_other.then(|| sentence!["legs-of-others", difference = 1000.0 * difference])
 }
 
 /// A difference of felt forces from those of the poses.
@@ -138,12 +123,7 @@ pub fn contradiction(
     let [difference, size] = [difference, size].map(|sum: f64| (sum / samples as f64).sqrt());
     let rounding = rounded_decimals(poses, samples, step).map_or(0.0, |(_, error)| error);
     let allowed = LEAST_DIFFERENT.max(MIN_DIFFERENCE_FRACTION * size) + MOST_ROUNDING * rounding;
-    (difference > allowed).then(|| {
-        format!(
-            "The felt force is not that of the poses: they differ by an RMS of {difference:.2} m/s². Check head.height, the axes (head \
-             axes: x forward, y left, z up) and the sign of pitch (positive is nose down)."
-        )
-    })
+    (difference > allowed).then(|| sentence!["force-of-others", difference])
 }
 
 /// Suspicions about units and signs of what is felt, against what is desired.
@@ -177,17 +157,11 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
         if let Some(sentence) = may_be_late.then(|| late_force(simulation, axis, name)).flatten() {
             found.push(sentence);
         } else if correlation < OPPOSED_CORRELATION {
-            found.push(format!(
-                "{name} is felt with the wrong sign: its correlation with the desired force is {correlation:.2}. If the washout is not \
-                 to blame, its {} points the other way; axes are x forward, y left, z up, and positive pitch is nose down.",
-                ["x", "y"][axis]
-            ));
+            found.push(sentence!["force-opposite", name, correlation, axis = ["x", "y"][axis]]);
         } else if correlation > ALIKE_CORRELATION
             && (size / scale[axis] * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE
         {
-            found.push(format!(
-                "{name} is felt 9.8 times too small, as in units of g. If it is, multiply it by 9.80665."
-            ));
+            found.push(sentence!["force-in-g", name]);
         }
     }
     let rates = if has_rate { simulation.desired_rates() } else { Vec::new() };
@@ -196,13 +170,9 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<String> {
         let pairs = || samples().map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]]);
         let Some(Likeness { correlation, size }) = signal_likeness(pairs, MIN_SUSPECTED_RATE) else { continue };
         if correlation > -OPPOSED_CORRELATION && size > 10.0 {
-            found.push(format!(
-                "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
-            ));
+            found.push(sentence!["rate-in-degrees", name, size]);
         } else if axis == YAW_AXIS && correlation < -ALIKE_CORRELATION {
-            found.push(format!(
-                "{name} is felt with the wrong sign: its correlation with the desired rate is {correlation:.2}. Positive is to the left."
-            ));
+            found.push(sentence!["rate-opposite", name, correlation]);
         }
     }
     found
@@ -223,12 +193,8 @@ fn exchanged_axes(simulation: &Simulation, least_force: f64) -> Option<String> {
         let [of_x, of_y] = [correlation(0, 1)?, correlation(1, 0)?];
         let largest = correlation(0, 0)?.abs().max(correlation(1, 1)?.abs());
         let least = of_x.abs().min(of_y.abs());
-        (least >= MIN_EXCHANGED_CORRELATION && largest <= MAX_RIGHT_FRACTION * least).then(|| {
-            format!(
-                "Surge and sway are exchanged: the {name} along y goes with the desired force along x (correlation {of_x:.2}), and that \
-                 along x with the one along y ({of_y:.2}). Exchange x and y; axes are x forward, y left, z up."
-            )
-        })
+        let is_exchanged = least >= MIN_EXCHANGED_CORRELATION && largest <= MAX_RIGHT_FRACTION * least;
+        is_exchanged.then(|| sentence!["axes-exchanged", name, of_x, of_y])
     };
     let felt: fn(&Output) -> Vector3<f64> = |output| output.felt_specific_force;
     [("felt force", felt), ("platform's acceleration", |output| output.acceleration)].into_iter().find_map(exchanged)
@@ -244,11 +210,8 @@ fn late_force(simulation: &Simulation, axis: usize, name: &str) -> Option<String
     let found = |longest: f64| delay_within(longest, &desired, &felt, simulation.step);
     let longest = LONGEST_SHIFT.min(MAX_SHIFTED_FRACTION * simulation.step * desired.len() as f64);
     let delay = found(longest).filter(|delay| delay.abs() >= LONGEST_DELAY && found(LONGEST_DELAY).is_none())?;
-    Some(format!(
-        "{name} is felt {:.2} s {} than desired, and delays are measured up to {LONGEST_DELAY} s: check the times of the motion.",
-        delay.abs(),
-        if delay > 0.0 { "later" } else { "earlier" }
-    ))
+    let later = if delay > 0.0 { "later" } else { "earlier" };
+    Some(sentence!["force-late", name, delay = delay.abs(), later, longest = LONGEST_DELAY])
 }
 
 /// A wrong vertical force \[m/s2\] at the median.
@@ -261,22 +224,13 @@ fn of_vertical(vertical: f64, gravity: f64) -> Option<String> {
     if GRAVITY_RATIO_RANGE.contains(&(vertical / gravity)) {
         None
     } else if GRAVITY_RATIO_RANGE.contains(&vertical) {
-        Some(format!(
-            "The felt force is 9.8 times too small: its z is {vertical:.2} at the median, as in units of g. Multiply it by 9.80665; {rest}."
-        ))
+        Some(sentence!["vertical-in-g", vertical, rest])
     } else if vertical.abs() < WITHOUT_GRAVITY {
-        Some(format!(
-            "The felt force lacks gravity's reaction: its z is {vertical:.2} m/s² at the median, but {rest}. Add {gravity:.5} to z, and to \
-             x and y what the platform's tilt makes of it."
-        ))
+        Some(sentence!["vertical-without-gravity", vertical, rest, gravity])
     } else if GRAVITY_RATIO_RANGE.contains(&(-vertical / gravity)) || GRAVITY_RATIO_RANGE.contains(&-vertical) {
-        Some(format!(
-            "The felt force has the wrong sign: its z is {vertical:.2} m/s² at the median, but {rest} in axes x forward, y left, z up."
-        ))
+        Some(sentence!["vertical-opposite", vertical, rest])
     } else {
-        Some(format!(
-            "The felt force has a z of {vertical:.2} m/s² at the median, but {rest}. Check its unit and axes."
-        ))
+        Some(sentence!["vertical-unknown", vertical, rest])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Series with times of their own, brought to a recording's samples.
 
-use crate::Refusal;
+use crate::{Refusal, refuse, sentence};
 
 /// A series at a recording's samples, from `times` of its own, and a sentence if it was
 /// interpolated. Times that are those of the samples, or divide its steps into whole parts, keep
@@ -45,9 +45,7 @@ pub fn on_samples<const N: usize>(
     let tolerance = TIME_TOLERANCE * step + mean;
     if time(0) > tolerance || time(last) < end - tolerance {
         let (from, to) = (time(0), time(last));
-        return Err(refused(format!(
-            "covers {from} to {to} s, but the recording 0 to {end} s; compute the whole recording, on its times"
-        )));
+        refuse!(sentence!["times-too-short", argument, from, to, end]);
     }
     let parts = (step / mean).round().max(1.0) as usize;
     let part = step / parts as f64;
@@ -67,12 +65,7 @@ pub fn on_samples<const N: usize>(
         let fraction = ((wanted - time(next - 1)) / (time(next) - time(next - 1))).clamp(0.0, 1.0);
         std::array::from_fn(|i| values[next - 1][i] + fraction * (values[next][i] - values[next - 1][i]))
     };
-    let note = format!(
-        "{argument} has {:.4} samples a second, the recording {:.4}: it was interpolated linearly. Compute it at the recording's \
-         samples, or at a whole number of samples to each.",
-        1.0 / mean,
-        1.0 / step
-    );
+    let note = sentence!["interpolated", argument, rate = 1.0 / mean, recorded = 1.0 / step];
     Ok(((0..samples).map(at).collect(), Some(note)))
 }
 
