@@ -13,7 +13,8 @@
 //! - [`frequency_response`] measures the whole washout's.
 //! - [`page`] makes the report's page.
 //! - [`error`] has the reasons why an analysis has no result.
-//! - [`message`] has the remedies in errors and warnings as data, which each face words.
+//! - [`message`] has the remedies in errors and warnings as data, which each face words; [`texts`] has
+//!   the sentences.
 //!
 //! There is no command line here, no terminal and no socket: nothing is printed. The feature `clap`
 //! lets the types that options have be parsed.
@@ -36,6 +37,6 @@ pub mod random;
 pub mod recording;
 pub mod rig;
 pub mod text_table;
-mod texts;
+pub mod texts;
 pub mod tune;
 pub mod washout_fmu;

@@ -73,8 +73,8 @@ pub fn filled(name: &str, values: &[(&str, Value)]) -> Message {
     message
 }
 
-/// A sentence by its name, with values: `name = value`, or `name` for the
-/// variable that is called so.
+/// A sentence by its name, with values: `name = value`, or `name` for the variable that is called so.
+#[macro_export]
 macro_rules! text {
     (@value $key:ident) => { $key };
     (@value $key:ident $value:expr) => { $value };
@@ -82,7 +82,7 @@ macro_rules! text {
         $crate::texts::filled($name, &[$( (stringify!($key), $crate::texts::text!(@value $key $($value)?).into()) ),*])
     };
 }
-pub(crate) use text;
+pub use text;
 
 #[cfg(test)]
 mod tests {
@@ -106,7 +106,9 @@ mod tests {
 
     #[test]
     fn every_sentence_is_named_and_every_named_one_exists() {
-        let sources = sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")));
+        let folders = ["src", "../moris/src", "../python/src"];
+        let sources: Vec<String> =
+            folders.iter().flat_map(|folder| sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder))).collect();
         let calls = sources.iter().flat_map(|text| text.split(concat!("text", "![")).skip(1));
         let mut named: Vec<&str> = calls
             .filter_map(|call| call.trim_start().strip_prefix('"')?.split('"').next())

@@ -36,6 +36,7 @@ pub mod simulate;
 mod status;
 pub mod tune;
 
+use moris_analysis::texts::text;
 use moris_analysis::{learned_road, option_values};
 pub use moris_analysis::{recording, text_table, washout_fmu};
 pub use moris_command_line::{setup_options, words};

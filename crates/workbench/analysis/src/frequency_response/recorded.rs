@@ -12,6 +12,7 @@ use super::Measured;
 use crate::message::Message;
 use crate::recording::felt::{FELT_FORCE, FELT_RATE, FeltTable};
 use crate::recording::{Conventions, Recording, RecordingError};
+use crate::texts::text;
 
 impl Measured {
     /// The responses in recordings, one of each test. Each has the vehicle's motion as any
@@ -73,12 +74,8 @@ fn of_series(desired: &[[f64; CHANNEL_COUNT]], felt: &[[f64; CHANNEL_COUNT]], st
     let excitation = Sine::of(&series(desired, input, from, count), frequency, step);
     let amplitude = excitation.coefficient.norm();
     if amplitude == 0.0 || excitation.rest > MAX_IMPURITY {
-        return Err(format!(
-            "the vehicle's {} is no sine at one of the test's frequencies: at {frequency:.3} rad/s, the nearest, {:.0} % is \
-             something else; record one channel and one frequency in each file",
-            name(input),
-            100.0 * excitation.rest
-        ));
+        let (channel, percent) = (name(input), 100.0 * excitation.rest);
+        return Err(text!["no-sine", channel, frequency, percent].to_string());
     }
     let outputs = Channel::ALL.map(|output| Sine::of(&series(felt, output, from, count), frequency, step));
     // The two halves of the window show whether the motion repeats itself.

@@ -10,6 +10,7 @@ use self::vehicle::vehicle;
 use crate::message::Words;
 use crate::outcome::{Outcome, listed};
 use crate::recording::Recording;
+use crate::texts::text;
 
 /// The page of a recording with one or several sets of parameters, with as many
 /// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
@@ -70,14 +71,10 @@ fn recording_report(recording: &Recording, outcomes: &[Outcome], most: usize, wo
     let thinning = Thinning::new(first.simulation.inputs.len(), most);
     let finding = |text: String| Finding { weight: Weight::Warning, text };
     let warnings = recording.warnings.iter().map(|warning| finding(warning.worded(words)));
+    let (rig, sets) = (&first.setup.rig_name, listed(outcomes.iter().map(|one| one.setup.parameters_name.as_str())));
     Report {
         title: recording.name.clone(),
-        subtitle: format!(
-            "{:.1} s on {}, parameters: {}",
-            recording.manoeuvre.duration(),
-            first.setup.rig_name,
-            listed(outcomes.iter().map(|outcome| outcome.setup.parameters_name.as_str()))
-        ),
+        subtitle: text!["page-subtitle", duration = recording.manoeuvre.duration(), rig, sets].to_string(),
         findings: warnings.collect(),
         provenance: vec![
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", recording.name, 1.0 / recording.step())),
@@ -108,10 +105,7 @@ fn gravity_method(recording: &Recording) -> &'static str {
 fn shown_samples(outcome: &Outcome, thinning: &Thinning) -> String {
     match thinning.factor() {
         1.0 => "every sample".to_owned(),
-        factor => format!(
-            "least and greatest value of every {:.1} ms; the table of outputs has every sample",
-            2e3 * factor * outcome.simulation.step
-        ),
+        factor => text!["page-curves", milliseconds = 2e3 * factor * outcome.simulation.step].to_string(),
     }
 }
 

@@ -7,6 +7,7 @@ use moris_washout::interface::Rig;
 
 use crate::outcome::Outcome;
 use crate::recording::Recording;
+use crate::texts::text;
 
 /// True if pages can simulate.
 pub fn is_compiled() -> bool {
@@ -23,7 +24,7 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: &str) -> Option<Sim
     }
     let samples: Vec<_> = recording.inputs().iter().take(MOST_SAMPLES).map(slots_of).collect();
     let slots = samples[0].len();
-    let name = &recording.name;
+    let (name, rig_name) = (&recording.name, outcome.setup.rig_name.clone());
     Some(Simulator {
         module: SIMULATION_MODULE.to_vec(),
         step: recording.step(),
@@ -31,13 +32,11 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: &str) -> Option<Sim
         inputs: (0..slots).map(|slot| samples.iter().map(|sample| sample[slot]).collect()).collect(),
         bounds: outcome.evaluated().bounds,
         parameters: parameters(&outcome.simulation.parameters, &recording.parameters(&outcome.setup.rig_alone)),
-        heading: format!(
-            "Chosen in the report of {name} on {}, from {}",
-            outcome.setup.rig_name, outcome.setup.parameters_name
-        ),
+        heading: text!["heading-of-page", name, rig = &rig_name, parameters = &outcome.setup.parameters_name]
+            .to_string(),
         command: command.to_owned(),
         file: format!("{name}.toml"),
-        rig_name: outcome.setup.rig_name.clone(),
+        rig_name,
         actuator_diameter: outcome.setup.actuator_diameter,
     })
 }

@@ -12,6 +12,7 @@ use super::conventions::Conventions;
 use super::message::RecordingError;
 use super::read::{Sheet, source};
 use crate::message::Message;
+use crate::texts::text;
 
 /// Names of the columns of a quantity, each as this project's outputs have it, then shorter.
 pub struct Names<const N: usize> {
@@ -176,13 +177,9 @@ impl FeltTable {
     /// There is nothing to judge, or the times do not cover the recording.
     pub fn motion(&self, recording: &Recording) -> Result<(ForeignMotion, Vec<String>), String> {
         if self.motion.force.is_none() && self.motion.pose.is_none() && self.motion.legs.is_none() {
-            return Err(format!(
-                "there are no columns {}, {} or {}; there are {}",
-                FELT_FORCE.shown(),
-                PLATFORM_POSE.shown(),
-                LEG_LENGTHS.shown(),
-                self.titles.join(", ")
-            ));
+            let [force, pose, legs] = [FELT_FORCE.shown(), PLATFORM_POSE.shown(), LEG_LENGTHS.shown()];
+            let titles = self.titles.join(", ");
+            return Err(text!["no-felt-columns", force, pose, legs, titles].to_string());
         }
         let mut notes = Vec::new();
         let motion = ForeignMotion {

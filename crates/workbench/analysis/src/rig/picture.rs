@@ -7,6 +7,7 @@ use super::section::{DRAWN_CLEARANCES, SECTION_PLANES, section};
 use super::survey::{Singularities, Survey};
 use super::svg::{PANEL_SIZE, escaped};
 use super::view::view;
+use crate::texts::text;
 use moris_simulation::clearance::Approach;
 
 const SVG_STYLE: &str = "text{font:13px system-ui,sans-serif;fill:#333}.title{font-size:20px;font-weight:600}.panel{font-size:14px;\
@@ -73,10 +74,9 @@ fn verdict_line(survey: &Survey) -> String {
     let volume = survey.workspace.level;
     let collision = if survey.capabilities.clearance.collisions().next().is_some() { "; LEGS COLLIDE" } else { "" };
     let regular = match &survey.capabilities.singularities {
-        Singularities::None(found) => format!(
-            "Workspace {:.3} m³ level; free of singularities: condition number at most {:.1}",
-            volume.size, found.worst_condition
-        ),
+        Singularities::None(found) => {
+            text!["regular-workspace", size = volume.size, worst = found.worst_condition].to_string()
+        }
         Singularities::At(_) => {
             format!("Workspace {:.3} m³ level; singular inside the stroke of its legs", volume.size)
         }

@@ -10,6 +10,7 @@ use moris_washout::{ParameterError, Rig};
 
 use super::workspace::{Volume, WORKSPACE_TILT, Workspace};
 use crate::text_table::TextTable;
+use crate::texts::text;
 
 /// Properties of a rig.
 #[derive(Clone, Debug)]
@@ -50,12 +51,7 @@ impl Survey {
 /// A sentence on a platform whose joints are farther apart than the base's: few are so built.
 fn larger_platform(rig: &Rig) -> Option<String> {
     let [base, platform] = [&rig.base, &rig.platform].map(mean_radius);
-    (platform > base).then(|| {
-        format!(
-            "the platform's joints are {platform:.3} m from their middle, those of the base {base:.3} m: few platforms are \
-             the larger part; are [base] and [platform] exchanged?"
-        )
-    })
+    (platform > base).then(|| text!["larger-platform", platform, base].to_string())
 }
 
 impl fmt::Display for Survey {

@@ -158,10 +158,7 @@ impl Tuner<'_> {
                 limited.push(format!("{} for {:.2} % of its time", objective.name(), 100.0 * violated));
             }
             if excess > 0.0 {
-                limited.push(format!(
-                    "{} with a shake of {shake:.2}, a jolt of {jolt:.1} and a peak of {peak:.1} m/s²",
-                    objective.name()
-                ));
+                limited.push(text!["violating", name = objective.name(), shake, jolt, peak].to_string());
             }
         }
         Ok(if limited.is_empty() {

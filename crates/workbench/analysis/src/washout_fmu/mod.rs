@@ -16,6 +16,7 @@ use crate::message::Message;
 use crate::recording::Quantity;
 use crate::recording::Recording;
 use crate::recording::felt::{FeltTable, Kind};
+use crate::texts::text;
 pub use map::Map;
 use map::{MappedOutput, MappedVariable};
 
@@ -132,13 +133,12 @@ impl WashoutFmu {
     fn taken(&self, running: &Running) -> Result<Vec<Taken>> {
         let taken = |(quantity, variable): (&Quantity, &MappedVariable)| -> Result<Taken> {
             let declaration = running.declaration(&variable.at);
-            ensure!(
-                declaration.is_some_and(|declaration| declaration.causality == Causality::Input),
-                "[inputs] {}: {} is no input of the FMU; {}",
-                quantity.key(),
-                variable.at,
-                listed_names(running, Causality::Input)
-            );
+            let (key, name) = (quantity.key(), &variable.at);
+            if declaration.is_none_or(|declaration| declaration.causality != Causality::Input) {
+                return Err(
+                    text!["no-input-of-fmu", key, name, listed = listed_names(running, Causality::Input)].into()
+                );
+            }
             let in_si = si_factor(running, variable, Kind::Of(quantity.dimension()), Causality::Input);
             let in_si = in_si.about(|| format!("[inputs] {}", quantity.key()))?;
             let is_real = declaration.is_some_and(|declaration| declaration.element == "Real");

@@ -10,6 +10,7 @@ use moris_analysis::bench::run::Row;
 use moris_pages::report::{PageTable, tables_html};
 
 use super::table::{Figure, MEAN_HEADS, groups, means};
+use crate::text;
 use crate::text_table::or_undefined;
 
 /// Writes the page: means over all, then the errors by drive and by rig, with the bound and the
@@ -25,22 +26,15 @@ fn page_html(rows: &[Row]) -> String {
     let [drives, rigs] = [distinct_names(rows, |row| row.drive), distinct_names(rows, |row| row.rig)];
     let all = PageTable {
         title: "Means over drives and rigs".to_owned(),
-        text: "error/rest, error/bound, error/best: RMS error of surge and sway over that of a platform at rest, over the least that any \
-               controller could reach, and over the least of all rows here, drive by drive and rig by rig; geometric means. shape, \
-               size, inverted: correlation below 2 Hz, relative size, and time with the wrong sign."
-            .to_owned(),
+        text: text!["bench-means"].to_string(),
         heads: MEAN_HEADS.map(str::to_owned).to_vec(),
         rows: means(rows),
         compared: None,
     };
     let by_drive = errors_by("Errors by drive", "the rigs", rows, &drives, |row| row.drive);
     let by_rig = errors_by("Errors by rig", "the drives", rows, &rigs, |row| row.rig);
-    let subtitle = format!(
-        "{} drives on {} rigs, version {BENCH_VERSION}; bench.csv has the {} measures of each.",
-        drives.len(),
-        rigs.len(),
-        BENCH_COLUMNS.len()
-    );
+    let (drives, rigs, version) = (drives.len(), rigs.len(), u64::from(BENCH_VERSION));
+    let subtitle = text!["bench-subtitle", drives, rigs, version, measures = BENCH_COLUMNS.len()].to_string();
     tables_html("Bench of washouts", &subtitle, &[all, by_drive, by_rig])
 }
 
@@ -61,9 +55,7 @@ fn errors_by(title: &str, over: &str, rows: &[Row], names: &[&str], name: impl F
     let washouts = groups.iter().map(|(name, group)| (name.clone(), line(group, Figure::Own)));
     PageTable {
         title: title.to_owned(),
-        text: format!(
-            "RMS error of surge and sway together [m/s²], the mean over {over}: a bar beside the largest, the least of the washouts in bold."
-        ),
+        text: text!["bench-errors", over].to_string(),
         heads: names.iter().map(|name| (*name).to_owned()).collect(),
         rows: references.into_iter().chain(washouts).collect(),
         compared,

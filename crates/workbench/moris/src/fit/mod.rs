@@ -13,6 +13,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use moris_analysis::fit::{Common, Fitted, Strategy, common, fit_means, fitted};
+use moris_analysis::message::Message;
 use moris_analysis::outcome::{counted, listed};
 use moris_setup::Setup;
 use moris_simulation::fit::{Aims, Candidate, Fit};
@@ -26,6 +27,7 @@ use crate::option_values::number_in;
 use crate::recording::{ConventionOptions, Recording};
 use crate::setup_options::{SetupOptions, strategies};
 use crate::status::DOES_NOT_FIT;
+use crate::text;
 use crate::text_table::TextTable;
 use crate::words::WHICH_COMMAND;
 
@@ -147,9 +149,6 @@ fn write_files(
     common: Option<&Common>,
     strategies: &[Strategy],
 ) -> Result<Vec<PathBuf>> {
-    // Explanation of the figures in a parameter file.
-    const FIGURES_EXPLAINED: &str = "Of surge and sway below 2 Hz, simulated: shape is the least correlation of felt and desired force,\n\
-        inverted the largest part of the time in which it is felt the wrong way round, size that of the vehicle's force.";
     fs::create_dir_all(directory).with_context(|| format!("cannot make {}", directory.display()))?;
     let mut files = Vec::new();
     let mut write = |name: String, text: String| {
@@ -160,11 +159,8 @@ fn write_files(
     };
     let text = |names: &str, strategy: usize, best: &Candidate| {
         let Strategy { name, setup } = &strategies[strategy];
-        let heading = format!(
-            "Fitted by moris to {names} on {}: {name}, {}.\n{FIGURES_EXPLAINED}",
-            setup.rig_name,
-            candidate_words(best)
-        );
+        let (rig, strategy, words) = (&setup.rig_name, name, candidate_words(best));
+        let heading = text!["heading-of-fit", names, rig, strategy, words].to_string();
         Setup { parameters: best.factors.applied(&setup.parameters), ..setup.clone() }.parameter_file(&heading)
     };
     for (recording, one) in recordings.iter().zip(fitted) {
@@ -190,43 +186,30 @@ fn fit_text(fitted: &[Fitted], common: Option<&Common>, strategies: &[Strategy],
     let mut text = format!("{table}\n");
     for (index, strategy) in strategies.iter().enumerate() {
         let means = fit_means(fitted.iter().map(|one| &one.fits[index]));
-        text += &format!(
-            "{}: shape {:.2} in the mean, inverted {:.1} % in the mean and {:.1} % at worst, size {:.2}, scale {:.2}{}\n",
-            strategy.name,
-            means.shape,
-            100.0 * means.mean_inverted,
-            100.0 * means.max_inverted,
-            means.size,
-            means.scale,
-            match means.misfits {
-                0 => String::new(),
-                count => format!("; no scale fits {count} of {}", fitted.len()),
-            }
-        );
+        let misfits = match means.misfits {
+            0 => String::new(),
+            count => format!("; no scale fits {count} of {}", fitted.len()),
+        };
+        let (inverted, most) = (100.0 * means.mean_inverted, 100.0 * means.max_inverted);
+        let (name, shape, size, scale) = (&strategy.name, means.shape, means.size, means.scale);
+        text += &text!["fit-means", name, shape, inverted, most, size, scale, misfits].to_string();
     }
     text += "\n";
     for one in fitted {
         let fit = &one.fits[one.winner];
         let name = &strategies[one.winner].name;
-        let misfit = format!(
-            " No scale has a shape error of at most {:.0} % and at most {:.0} % inverted; this is the nearest.",
-            100.0 * aims.error,
-            100.0 * aims.inverted
-        );
-        text +=
-            &format!("{}: {name}, {}.{}\n", one.name, candidate_words(&fit.best), if fit.fits { "" } else { &misfit });
+        let (error, inverted) = (100.0 * aims.error, 100.0 * aims.inverted);
+        let misfit = if fit.fits { Message::default() } else { text!["fit-misfit", error, inverted] };
+        text += &format!("{}: {name}, {}.{misfit}\n", one.name, candidate_words(&fit.best));
         if let Some(faster) = &one.faster_tilt {
             text +=
                 &format!("  With a tilt of 6 °/s (tilt.rateLimit, your choice): {}.\n", candidate_words(&faster.best));
         }
     }
     if let Some(Common { strategy, worst, fitting }) = common {
-        text += &format!(
-            "One set for all, which fits {fitting} of {}: {}, {}.\n",
-            counted(fitted.len(), "recording"),
-            strategies[*strategy].name,
-            candidate_words(worst)
-        );
+        let (recordings, strategy) = (counted(fitted.len(), "recording"), &strategies[*strategy].name);
+        text +=
+            &text!["fit-for-all", fitting = *fitting, recordings, strategy, words = candidate_words(worst)].to_string();
     }
     text
 }
@@ -254,11 +237,8 @@ fn candidate_words(best: &Candidate) -> String {
     else {
         return format!("scale {:.2}: nearly no surge or sway is desired{heave}", factors.scale);
     };
-    format!(
-        "scale {:.2}{breaks}{heave}: shape {least:.2}, felt the wrong way round for {:.1} % of the time, size {size:.2}",
-        factors.scale,
-        100.0 * inverted
-    )
+    let (scale, inverted) = (factors.scale, 100.0 * inverted);
+    text!["fit-words", scale, breaks, heave, least, inverted, size].to_string()
 }
 
 fn json_of(one: &Fitted, file: &Path, strategies: &[Strategy]) -> Value {

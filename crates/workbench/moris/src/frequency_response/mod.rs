@@ -22,6 +22,7 @@ use moris_simulation::frequency_response::excitation::Amplitudes;
 
 use crate::setup_options::SetupOptions;
 use crate::status::WORSE_RESULT;
+use crate::text;
 use crate::words::option;
 
 /// Measure the frequency response of the whole washout
@@ -83,11 +84,7 @@ pub struct Options {
 /// The rig or the parameters cannot be used, an amplitude is not positive, or a
 /// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    ensure!(
-        options.washout.is_none(),
-        "--washout is for simulate alone; for the response of another washout let it compute the felt motion for recordings of \
-         one sine each, and give these with --measured FILES; docs/response.md has their columns"
-    );
+    ensure!(options.washout.is_none(), text!["response-of-others"]);
     let setup = options.setup.load_with_notes()?;
     for (name, value) in [("--force", options.force), ("--rate", options.rate)] {
         ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");

@@ -11,6 +11,7 @@ use moris_simulation::frequency_response::channel::name;
 use moris_simulation::measures::comfort::{Comfort, Excess};
 use moris_washout::platform::reach::Axis;
 
+use crate::text;
 use crate::text_table::{Column, TextTable, or_undefined};
 use crate::words::option;
 
@@ -104,10 +105,7 @@ fn summary_text(recordings: &[MeasuredRecording]) -> String {
     let mut text = format!("Geometric mean of the RMS errors of surge and sway, {count} channels: {mean:.3} m/s²\n");
     for axis in [Axis::Roll, Axis::Pitch, Axis::Yaw] {
         let [wrong, at_rest] = wrong_cues(recordings, axis).map(|fraction| 100.0 * fraction);
-        text += &format!(
-            "{}: false or missing cues for {wrong:.1} % of the time, {at_rest:.1} % on a platform at rest\n",
-            capitalised(name(axis))
-        );
+        text += &text!["measured-cues", channel = capitalised(name(axis)), wrong, at_rest].to_string();
     }
     text
 }

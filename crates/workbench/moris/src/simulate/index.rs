@@ -9,6 +9,7 @@ use moris_simulation::Weight;
 
 use super::{Outcome, counted, listed};
 use crate::recording::Recording;
+use crate::text;
 use crate::text_table::or_undefined;
 
 /// A recording with one of the parameter sets, or one that failed, in the list.
@@ -99,10 +100,7 @@ pub fn write(directory: &Path, rig: &str, parameters: &str, mut recordings: Vec<
     // A recording may be called index.
     let is_taken = rows.iter().any(|row| row.file.as_deref() == Some("index.html"));
     let file = directory.join(if is_taken { "index-of-recordings.html" } else { "index.html" });
-    let subtitle = format!(
-        "{rig}, parameters: {parameters}. Recordings that could not be used come first, then those with active limits, then \
-         those with the larger error of the sensed specific force. A tick: nothing is wrong."
-    );
+    let subtitle = text!["index-subtitle", rig, parameters].to_string();
     fs::write(&file, index_html(&title, &subtitle, &FIGURE_TITLES, &rows))
         .with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)

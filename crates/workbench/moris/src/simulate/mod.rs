@@ -35,6 +35,7 @@ use crate::recording::felt::FeltTable;
 use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
+use crate::text;
 use crate::washout_fmu::WashoutFmu;
 use crate::words;
 pub use moris_analysis::bounds::{self, AxisBound};
@@ -130,11 +131,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn.is_some());
     let recordings = table::recordings(&options.recordings, &conventions);
     if let Some(file) = options.felt.iter().find(|felt| recordings.len() > 1 && !felt.is_dir()) {
-        bail!(
-            "--felt {} is the motion for one recording, but there are {}; give a folder with a file of each one's name",
-            file.display(),
-            recordings.len()
-        );
+        bail!(text!["one-file-for-many", file = file.display().to_string(), count = recordings.len()]);
     }
     check_names(&recordings, &cases)?;
     if !simulator::is_compiled() {
@@ -359,10 +356,10 @@ fn simulated_outcomes(
 fn table_name(recording: &str, index: usize, setup: &Setup) -> String {
     match index {
         0 => format!("{recording}.outputs.csv"),
-        _ => format!(
-            "{recording}.{}.outputs.csv",
-            setup.parameters_name.replace(", ", "-").replace(" + ", "+").replace(' ', "-")
-        ),
+        _ => {
+            let set = setup.parameters_name.replace(", ", "-").replace(" + ", "+").replace(' ', "-");
+            format!("{recording}.{set}.outputs.csv")
+        }
     }
 }
 
@@ -372,28 +369,16 @@ fn table_name(recording: &str, index: usize, setup: &Setup) -> String {
 /// Two of them would be written into one file, or one over a recording.
 fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
     let mut tables = BTreeMap::new();
-    for recording in recordings {
-        let stem = source::name(recording);
+    for file in recordings {
+        let (stem, recording) = (source::name(file), file.display().to_string());
         for (index, case) in cases.iter().enumerate() {
             let name = table_name(&stem, index, &case.setup);
             if recordings.iter().any(|recording| recording.file_name().is_some_and(|file| file == name.as_str())) {
-                bail!(
-                    "{name} is both a recording and what the outputs of {} are to be written into; rename the recording",
-                    recording.display()
-                );
+                bail!(text!["recording-is-output", name, recording]);
             }
-            match tables.insert(name.clone(), recording) {
-                Some(other) if other == recording => bail!(
-                    "{} would be simulated twice, or with two --compare, --felt or --washout of the same name, and both written into {name}; name \
-                     each once, and rename one of two files of the same name",
-                    recording.display()
-                ),
-                Some(other) => bail!(
-                    "the outputs of {} and {} would both be written into {name}; rename one of them, or simulate each with a --report \
-                     of its own",
-                    other.display(),
-                    recording.display()
-                ),
+            match tables.insert(name.clone(), file) {
+                Some(other) if other == file => bail!(text!["output-twice", recording, name]),
+                Some(other) => bail!(text!["output-of-two", other = other.display().to_string(), recording, name]),
                 None => (),
             }
         }
@@ -419,11 +404,8 @@ fn write_files(
     if let Some(recommended) = outcomes[0].advice.as_ref().and_then(Advice::recommended) {
         let file = directory.join(format!("{}.advice.toml", recording.name));
         let Setup { rig_name, parameters_name, parameters, .. } = setup;
-        let heading = format!(
-            "Recommended by moris simulate for {} on {rig_name}, in place of {parameters_name}:\n{}.",
-            recording.name,
-            recommended.text()
-        );
+        let (name, changes) = (&recording.name, recommended.text());
+        let heading = text!["heading-of-advice", name, rig_name, parameters_name, changes].to_string();
         let changed = Setup { parameters: recommended.changes.applied(parameters), ..setup.clone() };
         fs::write(&file, changed.parameter_file(&heading))
             .with_context(|| format!("cannot write {}", file.display()))?;

@@ -20,6 +20,7 @@ use rayon::prelude::*;
 use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE_RESULT;
+use crate::text;
 use crate::words;
 use cost::Objective;
 use kept::Kept;
@@ -192,13 +193,8 @@ fn read_objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Resul
 /// Origin of the tuned parameters.
 fn parameter_heading(options: &Options, before: &Setup) -> String {
     let recordings: Vec<String> = options.recordings.iter().map(|recording| recording.display().to_string()).collect();
-    format!(
-        "Tuned by moris on {} for {}, from {}, seed {}",
-        recordings.join(", "),
-        before.rig_name,
-        before.parameters_name,
-        options.seed
-    )
+    let (recordings, rig, parameters) = (recordings.join(", "), &before.rig_name, &before.parameters_name);
+    text!["heading-of-tuning", recordings, rig, parameters, seed = options.seed].to_string()
 }
 
 /// Writes the summary and a report for each recording; returns the files, and the verdict of each

@@ -9,10 +9,11 @@ use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
 
 use crate::recording::message::quoted;
+use crate::texts::text;
 
 /// True where a field is a date and time or a time of day, and no number.
 pub fn is_written_out(field: &str) -> bool {
-    parse(field).is_ok()
+    seconds(field.trim()).is_some()
 }
 
 /// The time in seconds: since 1970 for a date in ISO 8601, otherwise since midnight, or since the
@@ -22,13 +23,11 @@ pub fn is_written_out(field: &str) -> bool {
 /// The field is neither.
 pub fn parse(field: &str) -> Result<f64, String> {
     let text = field.trim();
-    parse_date(text).or_else(|| parse_compact(text)).or_else(|| time_of_day(text)).or_else(|| parse_duration(text)).ok_or_else(|| {
-        format!(
-            "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z, 12:30:00.25, 20260501_123000.25, or a \
-             time of day with AM or PM behind it and a date beside it",
-            quoted(text)
-        )
-    })
+    seconds(text).ok_or_else(|| text!["no-time-of-day", text = quoted(text)].to_string())
+}
+
+fn seconds(text: &str) -> Option<f64> {
+    parse_date(text).or_else(|| parse_compact(text)).or_else(|| time_of_day(text)).or_else(|| parse_duration(text))
 }
 
 /// A date with a time, in UTC unless it states its offset, as seconds since 1970.
