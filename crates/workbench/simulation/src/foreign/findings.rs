@@ -3,7 +3,6 @@
 use crate::measures::Row;
 
 use super::Foreign;
-use super::limits::{Excess, Limit};
 use crate::findings::stroke_used;
 use crate::spans::Spans;
 use crate::{Evaluated, Finding, Weight, sentence};
@@ -26,9 +25,9 @@ impl Foreign {
             return Finding { weight: Weight::Note, text: sentence!["no-legs"] };
         }
         let spans = Spans::of(outcome.simulation, |output| output.actuator_limited);
-        if let Some(first) = spans.first() {
-            let worst = self.excesses.iter().map(excess_clause).collect::<Vec<_>>().join(", ");
-            let text = sentence!["motion-exceeds", total = spans.total, first = first[0], worst];
+        if let Some([first, _]) = spans.first() {
+            let worst = self.excesses.join(", ");
+            let text = sentence!["motion-exceeds", total = spans.total, first, worst];
             return Finding { weight: Weight::Warning, text };
         }
         let text = sentence!["motion-fits", used = stroke_used(outcome)];
@@ -46,17 +45,5 @@ impl Foreign {
         let is_unknown =
             is_of_rates && !self.has_rate || is_of_platform && (!self.has_legs || OF_THE_WASHOUT.contains(&row.name));
         if is_unknown { Row { value: None, ..row } } else { row }
-    }
-}
-
-/// An excess as a clause.
-fn excess_clause(excess: &Excess) -> String {
-    let Excess { limit, leg, value, allowed, time } = excess;
-    let leg = leg + 1;
-    match limit {
-        Limit::Shortest => format!("leg {leg} is {value:.3} m short at {time:.2} s, and must have {allowed:.3} m"),
-        Limit::Longest => format!("leg {leg} is {value:.3} m long at {time:.2} s, of at most {allowed:.3} m"),
-        Limit::Speed => format!("leg {leg} has {value:.2} m/s at {time:.2} s, of at most {allowed:.2} m/s"),
-        Limit::Acceleration => format!("leg {leg} has {value:.1} m/s² at {time:.2} s, of at most {allowed:.1} m/s²"),
     }
 }

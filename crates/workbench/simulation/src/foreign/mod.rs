@@ -21,7 +21,6 @@ use moris_washout::{Input, Output, Parameters};
 use serde::{Deserialize, Serialize};
 
 use crate::{Refusal, Simulation, refuse};
-pub use limits::{Excess, Limit};
 pub use times::on_samples;
 
 /// Motion of a platform as another washout commands it. Each series has a value for each sample of
@@ -47,7 +46,7 @@ pub struct Foreign {
     /// True if the legs are known: given, or those of poses.
     pub has_legs: bool,
     /// The greatest excess of each of the actuators' limits.
-    pub excesses: Vec<Excess>,
+    pub excesses: Vec<String>,
     /// True if a unit, a sign or an axis of what is felt seems wrong.
     pub(crate) is_doubtful: bool,
     /// Sentences about the series, such as that they were interpolated.
