@@ -1,12 +1,11 @@
 //! Washouts compared on fixed drives and rigs.
 //!
-//! - [`drives`] has the drives, and [`rigs`] the rigs.
+//! - [`drives`] has the drives.
 //! - [`columns`] are the measures, in their order.
-//! - [`run`] computes the rows of a drive on a rig.
+//! - [`run`] has the rigs, and computes the rows of a drive on a rig.
 
 pub mod columns;
 pub mod drives;
-pub mod rigs;
 pub mod run;
 
 /// Version of the bench: of its drives, rigs and columns. Rows of different

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use moris_setup::Setup;
+use moris_setup::{SHIPPED_RIGS, Setup, load_rig};
 use moris_simulation::Simulation;
 use moris_simulation::fit::{Aims, Search};
 use moris_simulation::foreign::ForeignMotion;
@@ -13,7 +13,6 @@ use moris_washout::platform::Pose;
 
 use super::columns::BENCH_COLUMNS;
 use super::drives::{Drive, RATE_FRAME};
-use super::rigs::BenchRig;
 use crate::bounds::{self, AxisBound};
 use crate::error::{About, Result};
 use crate::message::Message;
@@ -102,11 +101,11 @@ impl Foreign {
     }
 
     /// The file for a drive on a rig: that of the motion, or the FMU.
-    pub fn file(&self, rig: &BenchRig, drive: &Drive) -> Option<PathBuf> {
+    pub fn file(&self, rig: &'static str, drive: &Drive) -> Option<PathBuf> {
         let name = format!("{}.csv", drive.name);
         match &self.source {
             Source::Folder(folder) => {
-                [folder.join(rig.name).join(&name), folder.join(name)].into_iter().find(|file| file.is_file())
+                [folder.join(rig).join(&name), folder.join(name)].into_iter().find(|file| file.is_file())
             }
             Source::Fmu(fmu) => Some(fmu.file.clone()),
         }
@@ -124,12 +123,18 @@ impl Foreign {
     }
 }
 
+/// Names of the bench's rigs: every shipped one with legs, by stroke, and a desk model and a person's
+/// simulator with cranks.
+pub fn rigs() -> impl Iterator<Item = &'static str> {
+    SHIPPED_RIGS.iter().take(14).map(|(name, _)| *name)
+}
+
 /// The rows of a drive on a rig: a platform at rest, the strategies, and other washouts.
 ///
 /// # Errors
 /// A set cannot be used on the rig, or a motion cannot be judged.
 pub fn rows(
-    rig: &BenchRig,
+    rig: &'static str,
     drive: &'static Drive,
     strategies: &[StrategyKind],
     foreign: &[Foreign],
@@ -138,8 +143,8 @@ pub fn rows(
     const BOUND_INTERVAL: f64 = 0.05;
     // Measures whose least is `Row::best`.
     const ERROR_MEASURES: [&str; 3] = ["RMS error x [m/s2]", "RMS error y [m/s2]", "RMS error z [m/s2]"];
-    let of = || format!("{} on {}", drive.name, rig.name);
-    let setup = rig.setup().about(of)?;
+    let of = || format!("{} on {}", drive.name, rig);
+    let setup = load_rig(rig.as_ref()).map(|rig| Setup::unchecked(Some(rig), &[])).about(of)?;
     let recording = Recording::computed(&drive.name, drive.manoeuvre(), RATE_FRAME);
     let unscaled = recording.parameters(&with_unit_scale(&setup.parameters, StrategyKind::Classical));
     let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
@@ -200,7 +205,7 @@ fn at_rest(recording: &Recording, setup: &Setup) -> Result<Outcome> {
 }
 
 fn bench_row(
-    rig: &BenchRig,
+    rig: &'static str,
     drive: &'static Drive,
     washout: &str,
     scale: Scale,
@@ -210,5 +215,5 @@ fn bench_row(
     outcome.bounds.clone_from(bounds);
     let remarks = outcome.simulation.foreign.iter().flat_map(|foreign| foreign.remarks()).map(str::to_owned).collect();
     let values = BENCH_COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
-    Row { drive: &drive.name, rig: rig.name, washout: washout.to_owned(), scale, values, best: [None; 3], remarks }
+    Row { drive: &drive.name, rig, washout: washout.to_owned(), scale, values, best: [None; 3], remarks }
 }

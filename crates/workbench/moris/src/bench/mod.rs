@@ -14,8 +14,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use clap::builder::PossibleValuesParser;
 use moris_analysis::bench::drives::{BENCH_DRIVES, Drive};
-use moris_analysis::bench::rigs::{BENCH_RIGS, BenchRig};
-use moris_analysis::bench::run::{Foreign, Row, rows};
+use moris_analysis::bench::run::{Foreign, Row, rigs, rows};
 use moris_washout::interface::StrategyKind;
 use rayon::prelude::*;
 
@@ -40,7 +39,7 @@ pub struct Options {
     drive: Vec<String>,
 
     /// Rigs, separated by commas [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(BENCH_RIGS.map(|rig| rig.name)))]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(rigs()))]
     rig: Vec<String>,
 
     /// Strategies, separated by commas [default: all]
@@ -81,19 +80,19 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         write_drives(folder, &drives, out)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let rigs: Vec<BenchRig> = BENCH_RIGS.into_iter().filter(|rig| chosen(rig.name, &options.rig)).collect();
+    let rigs: Vec<&str> = rigs().filter(|rig| chosen(rig, &options.rig)).collect();
     let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
     let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
     let fmu = options.washout.iter().zip(&options.map).map(|(file, map)| Ok(Foreign::fmu(file, map)?));
     let foreign = options.felt.iter().map(|folder| felt_motion(folder)).chain(fmu).collect::<Result<Vec<_>>>()?;
-    let pairs: Vec<(BenchRig, &Drive)> =
+    let pairs: Vec<(&str, &Drive)> =
         rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
     if !foreign.is_empty() && !pairs.iter().any(|(rig, drive)| foreign.iter().any(|one| one.file(rig, drive).is_some()))
     {
         bail!("--felt: there is no file DRIVE.csv or RIG/DRIVE.csv, such as {}.csv", drives[0].name);
     }
     let progress = Progress::new("bench", "simulating")?;
-    let of_pair = |(rig, drive): &(BenchRig, &'static Drive)| Ok(rows(rig, drive, &strategies, &foreign)?);
+    let of_pair = |(rig, drive): &(&'static str, &'static Drive)| Ok(rows(rig, drive, &strategies, &foreign)?);
     let rows: Vec<Row> = pairs.par_iter().map(of_pair).collect::<Result<Vec<_>>>()?.concat();
     progress.finish();
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
