@@ -732,29 +732,23 @@ pub fn scale_of_rates(channels: &Channels, _: Quantity) -> Option<Message> {
     rates_in_other_unit(channels, 1.0 / size, text!["rates-and-angles", size]).or_else(of_time)
 }
 
-/// A speed that comes later or earlier than the force along x.
-pub fn delayed_speed(channels: &Channels, _: Quantity) -> Option<Message> {
-    let found = channels.changes(&channels.speeds);
-    let expected = channels.changes(&integral(channels.force(0), channels.step));
-    let delay = clear_delay(&expected, &found, MIN_SPEED_CHANGE, channels.step)?;
-    Some(delay_message(Quantity::Speed, "the force along x that changes it", delay))
-}
-
-/// A lateral force that comes later or earlier than the bends.
-pub fn delayed_bends(channels: &Channels, _: Quantity) -> Option<Message> {
-    let delay = clear_delay(&channels.turning(), &channels.lateral(), MIN_BEND_FORCE, channels.step)?;
-    Some(delay_message(Quantity::Force(1), "speed times yaw rate", delay))
-}
-
-/// An angle that comes later or earlier than its rate.
-pub fn delayed_angle(channels: &Channels, angle: Quantity) -> Option<Message> {
-    let Quantity::Angle(axis) = angle else { return None };
-    if !channels.has_body_rates() || !channels.has(angle) {
-        return None;
-    }
-    let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
-    let delay = clear_delay(&rate, &derivative, MIN_RATE, channels.step)?;
-    Some(delay_message(angle, "the angular velocity that changes it", delay))
+/// A speed, a lateral force of bends or an angle that comes later or earlier than what it follows.
+pub fn delayed(channels: &Channels, quantity: Quantity) -> Option<Message> {
+    let (expected, found, least, cause) = match quantity {
+        Quantity::Speed => {
+            let expected = channels.changes(&integral(channels.force(0), channels.step));
+            (expected, channels.changes(&channels.speeds), MIN_SPEED_CHANGE, "the force along x that changes it")
+        }
+        Quantity::Force(_) => (channels.turning(), channels.lateral(), MIN_BEND_FORCE, "speed times yaw rate"),
+        Quantity::Angle(axis) if channels.has_body_rates() && channels.has(quantity) => {
+            let (derivative, rate) = channels.derivative_and_rate(axis, TAU);
+            (rate, derivative, MIN_RATE, "the angular velocity that changes it")
+        }
+        _ => return None,
+    };
+    let delay = clear_delay(&expected, &found, least, channels.step)?;
+    let (place, remedy) = if delay > 0.0 { ("after", "earlier") } else { ("before", "later") };
+    Some(text!["delayed", name = quantity.key(), delay = delay.abs(), place, cause, remedy])
 }
 
 /// The delay of a signal behind the one that is expected, where it explains most of their
@@ -775,9 +769,4 @@ fn clear_delay(expected: &[f64], found: &[f64], least: f64, step: f64) -> Option
         Some(1.0 - correlation * correlation)
     };
     (unexplained(shift)? < MAX_UNEXPLAINED_FRACTION * unexplained(0)?).then_some(delay)
-}
-
-fn delay_message(quantity: Quantity, cause: &str, delay: f64) -> Message {
-    let (place, remedy) = if delay > 0.0 { ("after", "earlier") } else { ("before", "later") };
-    text!["delayed", name = quantity.key(), delay = delay.abs(), place, cause, remedy]
 }

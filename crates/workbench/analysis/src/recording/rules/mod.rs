@@ -105,9 +105,9 @@ const RECORDING_RULES: &[Rule] = rules! {
     "backward bends" warn [], TESTED_ONCE, agreement::backward_bends;
     "sign of rates" warn [], ALL_ANGLES, agreement::sign_of_rates;
     "scale of rates" warn [], TESTED_ONCE, agreement::scale_of_rates;
-    "delayed speed" warn [Speed], TESTED_ONCE, agreement::delayed_speed;
-    "delayed bends" warn [Speed], TESTED_ONCE, agreement::delayed_bends;
-    "delayed angle" warn [], ALL_ANGLES, agreement::delayed_angle;
+    "delayed speed" warn [Speed], &[Speed], agreement::delayed;
+    "delayed bends" warn [Speed], &[Force(1)], agreement::delayed;
+    "delayed angle" warn [], ALL_ANGLES, agreement::delayed;
 };
 
 /// The rules of the motion that is ridden.
