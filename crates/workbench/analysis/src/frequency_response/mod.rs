@@ -10,7 +10,7 @@ pub mod recorded;
 use moris_simulation::frequency_response::channel::Channel;
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use moris_simulation::frequency_response::{Response, response, response_on};
-use moris_washout::{ParameterError, Parameters, Washout};
+use moris_washout::{Output, ParameterError, Parameters, Washout};
 use rayon::prelude::*;
 
 use platform::NominalPlatform;
@@ -55,7 +55,10 @@ impl Measured {
             let measure = |&(channel, frequency): &(Channel, f64)| {
                 let amplitude = amplitudes.of(channel, frequency);
                 let measured = match platform.clone() {
-                    Some(platform) => response_on(platform, &at_rest, channel, frequency, amplitude, gravity_turns),
+                    Some(mut platform) => {
+                        let felt = |commanded: &Output, step| platform.felt(commanded, step);
+                        response_on(felt, &at_rest, channel, frequency, amplitude, gravity_turns)
+                    }
                     None => response(&at_rest, channel, frequency, amplitude, gravity_turns),
                 };
                 progress();

@@ -1,6 +1,5 @@
 //! The nominal platform with its drives, under the washout's commands.
 
-use moris_simulation::frequency_response::MovedPlatform;
 use moris_simulation::frequency_response::channel::CHANNEL_COUNT;
 use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 use moris_washout::cueing::evaluator::felt;
@@ -30,10 +29,10 @@ impl NominalPlatform {
         let platform = StewartPlatform::new(&parameters, &Input::default())?;
         Ok(NominalPlatform { platform, location: LocationFrame::new(&washout.structure, 0.0), gravity, last: None })
     }
-}
 
-impl MovedPlatform for NominalPlatform {
-    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT] {
+    /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the order of
+    /// the channels.
+    pub fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT] {
         let input = Input { length: commanded.length, angle: commanded.angle, ..Input::default() };
         let start = self.last.replace(input).unwrap_or(input);
         self.platform.step_between(&start, &input, step);

@@ -22,7 +22,7 @@ use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use moris_simulation::frequency_response::{Response, response, response_on};
 use moris_stewart_platform::Parameters as StewartParameters;
 use moris_washout::nalgebra::Complex;
-use moris_washout::{Input, Parameters, Washout, presets};
+use moris_washout::{Input, Output, Parameters, Washout, presets};
 
 const GRAVITY: f64 = 9.80665;
 const HEAD: f64 = 1.2;
@@ -235,8 +235,9 @@ fn the_platform_adds_the_lag_of_its_drives() {
     for frequency in [1.0, 6.309_573_444_801_93] {
         let amplitude = Amplitudes::default().scaled(SMALL).of(Heave, frequency);
         let commanded = response(&washout, Heave, frequency, amplitude, false).ratios[Heave as usize];
-        let platform = NominalPlatform::new(&parameters).unwrap();
-        let moved = response_on(platform, &washout, Heave, frequency, amplitude, false).ratios[Heave as usize];
+        let mut platform = NominalPlatform::new(&parameters).unwrap();
+        let felt = |commanded: &Output, step| platform.felt(commanded, step);
+        let moved = response_on(felt, &washout, Heave, frequency, amplitude, false).ratios[Heave as usize];
         let s = Complex::new(0.0, frequency / drives.bandwidth);
         let lag =
             (s * s + 2.0 * drives.damping * s + 1.0).inv() * Complex::from_polar(1.0, -frequency * drives.dead_time);

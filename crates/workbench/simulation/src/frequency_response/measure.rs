@@ -31,32 +31,16 @@ pub struct Response {
 /// input that is no matter.
 pub const SETTLED_FRACTION: f64 = 1e-2;
 
-/// Platform moved by the washout's commands, and the motion that its rider feels.
-pub trait MovedPlatform {
-    /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the
-    /// order of the channels.
-    fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT];
-}
-
-/// A platform that moves exactly as commanded.
-#[derive(Clone, Copy, Debug)]
-pub struct AsCommanded;
-
-impl MovedPlatform for AsCommanded {
-    fn felt(&mut self, commanded: &Output, _step: f64) -> [f64; CHANNEL_COUNT] {
-        felt(commanded)
-    }
-}
-
 /// Measures the response of a washout to a channel at a frequency, from where the washout is: at
 /// rest at neutral. One washout serves all tests, so that its rig is surveyed once.
 pub fn response(at_rest: &Washout, channel: Channel, frequency: f64, amplitude: f64, gravity_turns: bool) -> Response {
-    response_on(AsCommanded, at_rest, channel, frequency, amplitude, gravity_turns)
+    response_on(|commanded, _| felt(commanded), at_rest, channel, frequency, amplitude, gravity_turns)
 }
 
-/// As [`response()`], on a platform that is at rest at neutral.
+/// As [`response()`], on a platform that is at rest at neutral. `felt` moves it to the commands at
+/// the end of a step \[s\], and has what is felt there in the order of the channels.
 pub fn response_on(
-    platform: impl MovedPlatform,
+    felt: impl FnMut(&Output, f64) -> [f64; CHANNEL_COUNT],
     at_rest: &Washout,
     channel: Channel,
     frequency: f64,
@@ -75,7 +59,7 @@ pub fn response_on(
     let periods = (SHORTEST_BLOCK / period).ceil();
     let fade = periods * period;
     let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters: at_rest.parameters() };
-    let mut walk = SteadyStateRun::new(platform, at_rest, sine, periods);
+    let mut walk = SteadyStateRun::new(felt, at_rest, sine, periods);
     walk.block(); // It fades in.
     let mut last = walk.block();
     let blocks = ((LONGEST_WAIT / fade) as usize).max(FEWEST_BLOCKS);
@@ -92,8 +76,8 @@ pub fn response_on(
 }
 
 /// The washout on its way through the sine.
-struct SteadyStateRun<'a, M> {
-    platform: M,
+struct SteadyStateRun<'a, F> {
+    felt: F,
     sine: Sine<'a>,
     washout: Washout,
     /// Samples in a block, and the time between them.
@@ -103,14 +87,14 @@ struct SteadyStateRun<'a, M> {
     made: usize,
 }
 
-impl<'a, M: MovedPlatform> SteadyStateRun<'a, M> {
-    fn new(platform: M, at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
+impl<'a, F: FnMut(&Output, f64) -> [f64; CHANNEL_COUNT]> SteadyStateRun<'a, F> {
+    fn new(felt: F, at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
         // Longest time between samples [s].
         const LONGEST_STEP: f64 = 0.001;
         let block = periods * TAU / sine.frequency;
         let samples = (block / LONGEST_STEP).ceil();
         let washout = at_rest.clone().starting_with(&sine.input(0.0));
-        SteadyStateRun { platform, sine, washout, samples: samples as usize, step: block / samples, made: 0 }
+        SteadyStateRun { felt, sine, washout, samples: samples as usize, step: block / samples, made: 0 }
     }
 
     /// Goes on for a block of whole periods.
@@ -126,7 +110,7 @@ impl<'a, M: MovedPlatform> SteadyStateRun<'a, M> {
             let output = self.washout.output();
             let flags = [output.tilt_limited, output.safety_active, output.actuator_limited];
             let turn = Complex::from_polar(1.0, -self.sine.frequency * time);
-            let felt = self.platform.felt(&output, self.step);
+            let felt = (self.felt)(&output, self.step);
             block.add(turn, self.sine.value(time), felt, flags);
         }
         block

@@ -9,4 +9,4 @@ pub mod channel;
 pub mod excitation;
 mod measure;
 
-pub use measure::{AsCommanded, MovedPlatform, Response, SETTLED_FRACTION, response, response_on};
+pub use measure::{Response, SETTLED_FRACTION, response, response_on};
