@@ -6,10 +6,12 @@
 
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
+use moris_washout::nalgebra::Vector4;
 use serde::Deserialize;
 
 use super::smooth::{Change, changes, changes_integral};
 use crate::Manoeuvre;
+use crate::measures::sickness::runge_kutta;
 
 /// Time between samples \[s\].
 pub const STEP: f64 = 0.01;
@@ -124,12 +126,8 @@ impl Course {
     }
 
     fn advanced(&self, t: f64, state: State, step: f64) -> State {
-        let shifted = |by: f64, rate: &State| std::array::from_fn(|k| state[k] + by * rate[k]);
-        let (k1, _) = self.derivative(t, state);
-        let (k2, _) = self.derivative(t + 0.5 * step, shifted(0.5 * step, &k1));
-        let (k3, _) = self.derivative(t + 0.5 * step, shifted(0.5 * step, &k2));
-        let (k4, _) = self.derivative(t + step, shifted(step, &k3));
-        std::array::from_fn(|k| state[k] + step / 6.0 * (k1[k] + 2.0 * (k2[k] + k3[k]) + k4[k]))
+        let slope = |&state: &Vector4<f64>, fraction| self.derivative(t + fraction * step, state.into()).0.into();
+        runge_kutta(state.into(), step, slope).into()
     }
 
     /// The motion of the driver's head, in axes that roll with the body.

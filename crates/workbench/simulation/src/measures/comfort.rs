@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 
-use super::zero_phase::zero_phase;
+use super::zero_phase::{section, zero_phase};
 
 /// Frequency above which a felt force is shaking \[Hz\].
 pub const SHAKE_FREQUENCY: f64 = 8.0;
@@ -237,19 +237,7 @@ fn above_shake_frequency(
 /// the cutoff's angle. The filter starts as if the first value had always been there.
 fn high_pass(k: f64) -> impl FnMut(f64) -> f64 + Clone {
     // A pole pair at this angle from the negative real axis has the damping cos(angle).
-    let mut sections = [PI / 8.0, 3.0 * PI / 8.0].map(|angle| {
-        let damping = 2.0 * k * angle.cos();
-        let gain = 1.0 / (1.0 + damping + k * k);
-        let (a1, a2) = (2.0 * gain * (k * k - 1.0), gain * (1.0 - damping + k * k));
-        let (mut z1, mut z2) = (0.0, 0.0);
-        move |value: f64| {
-            let input = gain * value;
-            let output = input + z1;
-            z1 = z2 - 2.0 * input - a1 * output;
-            z2 = input - a2 * output;
-            output
-        }
-    });
+    let mut sections = [PI / 8.0, 3.0 * PI / 8.0].map(|angle| section(k, angle.cos(), 1.0, -2.0));
     let mut first = None;
     move |value| {
         let first = *first.get_or_insert(value);

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::cues::HORIZONTAL_FORCE_THRESHOLD;
 use super::statistics::{correlation, rms};
-use super::zero_phase::zero_phase;
+use super::zero_phase::{section, zero_phase};
 
 /// Frequency below which a force is a cue of the vehicle's manoeuvre \[Hz\].
 pub const CUE_FREQUENCY: f64 = 2.0;
@@ -134,17 +134,10 @@ pub fn below_cue_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
 /// Butterworth low-pass of second order by the bilinear transform, with `k` the tangent of half the
 /// cutoff's angle. The filter starts as if the first value had always been there.
 fn low_pass(k: f64) -> impl FnMut(f64) -> f64 + Clone {
-    let damping = 2.0 * k * FRAC_1_SQRT_2;
-    let gain = 1.0 / (1.0 + damping + k * k);
-    let (b, a1, a2) = (gain * k * k, 2.0 * gain * (k * k - 1.0), gain * (1.0 - damping + k * k));
-    let (mut first, mut z1, mut z2) = (None, 0.0, 0.0);
+    let (mut first, mut section) = (None, section(k, FRAC_1_SQRT_2, k, 2.0));
     move |value| {
         let first = *first.get_or_insert(value);
-        let input = b * (value - first);
-        let output = input + z1;
-        z1 = z2 + 2.0 * input - a1 * output;
-        z2 = input - a2 * output;
-        first + output
+        first + section(value - first)
     }
 }
 

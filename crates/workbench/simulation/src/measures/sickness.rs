@@ -145,7 +145,7 @@ fn block_means(series: &[[f64; 3]], step: f64) -> (Vec<Vector3<f64>>, f64) {
 }
 
 /// A step of the classical Runge-Kutta method; `slope` gets the state and the fraction of the step.
-fn runge_kutta<const R: usize, const C: usize>(
+pub fn runge_kutta<const R: usize, const C: usize>(
     state: SMatrix<f64, R, C>,
     step: f64,
     slope: impl Fn(&SMatrix<f64, R, C>, f64) -> SMatrix<f64, R, C>,

@@ -52,6 +52,23 @@ pub fn zero_phase<F: FnMut(f64) -> f64 + Clone>(
     Some(all.skip(extension).take(end))
 }
 
+/// A section of second order at rest, by the bilinear transform with `k` the tangent of half the
+/// cutoff's angle. The numerator is `scale`² (1 + `middle` z⁻¹ + z⁻²), by `k` and 2 for a low-pass,
+/// and by 1 and -2 for a high-pass.
+pub fn section(k: f64, damping: f64, scale: f64, middle: f64) -> impl FnMut(f64) -> f64 + Clone {
+    let damping = 2.0 * k * damping;
+    let gain = 1.0 / (1.0 + damping + k * k);
+    let (b, a1, a2) = (gain * scale * scale, 2.0 * gain * (k * k - 1.0), gain * (1.0 - damping + k * k));
+    let (mut z1, mut z2) = (0.0, 0.0);
+    move |value| {
+        let input = b * value;
+        let output = input + z1;
+        z1 = z2 + middle * input - a1 * output;
+        z2 = input - a2 * output;
+        output
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
