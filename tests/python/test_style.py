@@ -12,7 +12,7 @@ ONE_WORD_CONSTANTS = {
     "a size of the plan's program": "BLOCKS CONTROLS CORNERS DATA EXPERTS FEATURES FORCES ROWS TARGETS",
     "a preset of that name": "ADAPTIVE CLASSICAL OPTIMAL PAPER PREVIEW ROBUST",
     "the one step of its file": "STEP TICK",
-    "the item, list or horizon that its file is about": "AXES COMPONENTS IDENTITY KART MOTORCYCLE PLATFORM PRIOR SYSTEMS WASHOUT",
+    "the item, list or horizon that its file is about": "AXES COMPONENTS IDENTITY MOTORCYCLE PLATFORM PRIOR SYSTEMS WASHOUT",
     "a word of its standard or source": "CANALS G KVC OTOLITHS TERMINATED WF",
     "of the package": "AUTHOR COPYRIGHT LICENSE",
     "the tolerance of its file": "ROUNDING",

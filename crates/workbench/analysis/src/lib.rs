@@ -13,8 +13,8 @@
 //! - [`frequency_response`] measures the whole washout's.
 //! - [`page`] makes the report's page.
 //! - [`error`] has the reasons why an analysis has no result.
-//! - [`message`] has the remedies in errors and warnings as data, which each face words; [`texts`] has
-//!   the sentences.
+//! - [`message`] has the remedies in errors and warnings as data, which each face words;
+//!   [`texts`] has the sentences.
 //!
 //! There is no command line here, no terminal and no socket: nothing is printed. The feature `clap`
 //! lets the types that options have be parsed.

@@ -73,7 +73,8 @@ pub fn filled(name: &str, values: &[(&str, Value)]) -> Message {
     message
 }
 
-/// A sentence by its name, with values: `name = value`, or `name` for the variable that is called so.
+/// A sentence by its name, with values: `name = value`, or `name` for the variable that is called
+/// so.
 #[macro_export]
 macro_rules! text {
     (@value $key:ident) => { $key };

@@ -35,7 +35,8 @@ pub fn filled(name: &str, values: &[(&str, &dyn Display)]) -> String {
     sentence
 }
 
-/// A sentence by its name, with values: `name = value`, or `name` for the variable that is called so.
+/// A sentence by its name, with values: `name = value`, or `name` for the variable that is called
+/// so.
 macro_rules! sentence {
     (@value $key:ident) => { $key };
     (@value $key:ident $value:expr) => { $value };

@@ -123,8 +123,8 @@ impl Foreign {
     }
 }
 
-/// Names of the bench's rigs: every shipped one with legs, by stroke, and a desk model and a person's
-/// simulator with cranks.
+/// Names of the bench's rigs: every shipped one with legs, by stroke, and a desk model and a
+/// person's simulator with cranks.
 pub fn rigs() -> impl Iterator<Item = &'static str> {
     SHIPPED_RIGS.iter().take(14).map(|(name, _)| *name)
 }

@@ -30,8 +30,8 @@ impl NominalPlatform {
         Ok(NominalPlatform { platform, location: LocationFrame::new(&washout.structure, 0.0), gravity, last: None })
     }
 
-    /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the order of
-    /// the channels.
+    /// Moves to the commands at the end of a step \[s\]. Returns what is felt there, in the order
+    /// of the channels.
     pub fn felt(&mut self, commanded: &Output, step: f64) -> [f64; CHANNEL_COUNT] {
         let input = Input { length: commanded.length, angle: commanded.angle, ..Input::default() };
         let start = self.last.replace(input).unwrap_or(input);
