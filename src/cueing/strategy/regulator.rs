@@ -37,8 +37,8 @@ impl AxisModel {
     }
 }
 
-/// Weights of the quantities that a controller uses, relative to 1 for a dropped force of 1 m/s2;
-/// each of the rest at its limit.
+/// Weights of the quantities that `predictive`, `optimal`, `robust` and the automatic scale use,
+/// relative to 1 for a dropped force of 1 m/s2; each of the rest at its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weights {
     pub position: f64,

@@ -47,8 +47,8 @@ use crate::platform::stop_plan::{StopDurations, StopPlan};
 
 /// The transmission that is assumed, relative to that of a state: what is left is for the motion.
 const ASSUMED_PART: f64 = 0.8;
-/// Largest turn of an arm within a piece \[rad\]. Angles are within 2 rad from level, so from a
-/// larger one to another turn of it is more than 2 rad: none is taken for another.
+/// Largest turn of an arm within a piece \[rad\]. Angles are within 2 rad from level, so one that
+/// is off by a whole turn is at least 2 pi - 4 = 2.28 rad away.
 const LARGEST_TURN: f64 = 2.0;
 
 /// The largest cosine of an angle of transmission whose sine is not smaller than this one.

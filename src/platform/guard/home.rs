@@ -9,8 +9,8 @@
 //!
 //! Take two points of the way, a and b. A function whose second derivative is at most 2 c is no
 //! more than c (s - a)(b - s) below the line between its ends. The function stays above zero if its
-//! values at the ends add up to c (b - a)² or more. Cranks have a weaker condition, and margins of
-//! squares and transmissions (`cranks.rs`).
+//! values at the ends add up to c (b - a)² or more. Cranks have a weaker condition
+//! (`is_nowhere_negative`), and margins of squares and transmissions (`Way`), both in `cranks.rs`.
 //!
 //! The way is certified if every leg is inside its stroke by at least s times a margin. From any
 //! point of a certified way the rest of it is certified as well.

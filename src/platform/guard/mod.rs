@@ -9,8 +9,8 @@
 //!    certified, and so is the straight path to neutral from the plan's end. The plan is stored.
 //! 2. The guard follows the stored plan, which needs no check.
 //!
-//! The first candidate is the demand itself; others lie between the plan's next state and a
-//! pursuit of the demand.
+//! The first candidate is the demand itself, unless the platform is behind it; others lie between
+//! the plan's next state and a pursuit of the demand. A leg's length means a crank's arc, too.
 
 mod bounds;
 mod certificate;

@@ -17,7 +17,7 @@ named! {
     Check {
         /// braking is a backward force (ax against the change of speed)
         Braking "braking",
-        /// a left turn pushes to the right (ay against speed times wz)
+        /// ay is positive in a left turn (against speed times wz)
         LeftTurn "left turn",
         /// wx is the rate of roll
         Roll "roll",

@@ -1,5 +1,5 @@
 //! The plan's horizon: blocks over which the dropped force is linear and the tilt acceleration
-//! constant.
+//! constant after a ramp.
 
 use serde::{Deserialize, Serialize};
 

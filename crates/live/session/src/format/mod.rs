@@ -204,7 +204,7 @@ words! {
         /// Lines of numbers with semicolons, tabs or commas between them, each a sample, or pairs
         /// like `ax=1.5`. `at` is the column, from 0, its title, or the key.
         Csv "csv",
-        /// An object; `at` is the key.
+        /// An object; `at` is the path of keys.
         Json "json",
     }
 
