@@ -78,7 +78,7 @@ pub struct Options {
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     report: PathBuf,
 
-    /// Print the results as JSON
+    /// Print the results as JSON; inverted and shapeError are in %
     #[arg(long)]
     json: bool,
 
