@@ -659,7 +659,12 @@ impl Washout {
             stroke_margin: self.guard.actuator_clearance_rate(),
             plan_age: f64::from(self.strategy.plan().is_some()),
             scale_factor: self.scale.factor_rate(),
-            ..Output::default()
+            tilt_limited: false,
+            safety_active: false,
+            actuator_limited: false,
+            plan_kept: false,
+            plan_iterations: 0,
+            soft_limited: false,
         }
     }
 }

@@ -38,7 +38,7 @@ impl AxisModel {
 }
 
 /// Weights of the quantities that `predictive`, `optimal`, `robust` and the automatic scale use,
-/// relative to 1 for a dropped force of 1 m/s2; each of the rest at its limit.
+/// relative to 1 for a dropped force of 1 m/s2. Each quantity is divided by its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weights {
     pub position: f64,
@@ -80,15 +80,16 @@ impl Problem {
     /// The problem of an axis with these weights.
     pub fn new(model: &AxisModel, weights: &Weights) -> Self {
         let (a, b) = dynamics(model, weights);
+        let Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole: _, fast_pole: _ } = *weights;
         let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = *model;
         let scale = State::new(position_limit, velocity_limit, angle_limit, rate_limit, 1.0, 1.0);
         let input_scale = SVector::<f64, 2>::new(1.0, acceleration_limit);
         let a = SMatrix::from_fn(|i, j| a[(i, j)] * scale[j] / scale[i]);
         let b: SMatrix<f64, 6, 2> = SMatrix::from_fn(|i, j| b[(i, j)] * input_scale[j] / scale[i]);
         let tilt = TILT_WEIGHT * angle_limit * angle_limit;
-        let state_weights = State::new(weights.position, weights.velocity, tilt, weights.tilt_rate, 0.0, 0.0);
+        let state_weights = State::new(position, velocity, tilt, tilt_rate, 0.0, 0.0);
         let q = SMatrix::from_diagonal(&state_weights.add_scalar(STATE_WEIGHT));
-        let to_input = SMatrix::from_fn(|i, j| b[(j, i)] / if i == 0 { 1.0 } else { weights.tilt_acceleration });
+        let to_input = SMatrix::from_fn(|i, j| b[(j, i)] / if i == 0 { 1.0 } else { tilt_acceleration });
         Problem { a, b, q, to_input, scale, input_scale }
     }
 

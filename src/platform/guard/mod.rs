@@ -59,7 +59,7 @@ struct Deviation {
     /// Accelerations of the legs over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
     /// Time for which the input has been at rest meanwhile \[s\].
-    time_at_rest: f64,
+    rest_while_limited: f64,
     /// The fraction of its speed with which the platform goes straight home, if it does.
     homing_fraction: Option<f64>,
 }
@@ -121,9 +121,9 @@ impl ActuatorGuard {
             return;
         }
         let before = self.commanded.legs;
-        let (time_at_rest, homing_fraction) = self.rest_time(is_at_rest, step);
+        let (rest_while_limited, homing_fraction) = self.rest_time(is_at_rest, step);
         // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
-        let stops = time_at_rest > REST_BEFORE_RETURN && homing_fraction.is_none();
+        let stops = rest_while_limited > REST_BEFORE_RETURN && homing_fraction.is_none();
         let found = if stops { None } else { self.nearest(demand, &held_plan, homing_fraction, safety, step) };
         let homing_fraction = homing_fraction.map(|fraction| {
             if found.is_some() { min(RETURN_SPEED_INCREASE * fraction, 1.0) } else { RETURN_SPEED_DECREASE * fraction }
@@ -133,7 +133,7 @@ impl ActuatorGuard {
         self.deviation = Some(Deviation {
             demand: demand.coordinates,
             leg_accelerations: core::array::from_fn(|i| (next.legs.velocity[i] - before.velocity[i]) / step),
-            time_at_rest,
+            rest_while_limited,
             homing_fraction,
         });
     }
@@ -154,7 +154,7 @@ impl ActuatorGuard {
     /// and the fraction of its speed is given. The way ends where the platform joins its
     /// demand or the input moves.
     fn rest_time(&self, is_at_rest: bool, step: f64) -> (f64, Option<f64>) {
-        let Some(Deviation { time_at_rest: before, homing_fraction, .. }) = self.deviation.filter(|_| is_at_rest)
+        let Some(Deviation { rest_while_limited: before, homing_fraction, .. }) = self.deviation.filter(|_| is_at_rest)
         else {
             return (0.0, None);
         };

@@ -176,11 +176,13 @@ impl Program {
 /// The weights over a horizon. Travel is dear because something unforeseen may need it. Over the
 /// far horizon the force is known, and travel is cheap.
 fn over_horizon(weights: &Weights, horizon: Horizon) -> Weights {
-    let [position, velocity] = match horizon {
+    let [of_position, of_velocity] = match horizon {
         Horizon::Near => [1.0; 2],
         Horizon::Far => FAR_WEIGHTS,
     };
-    Weights { position: position * weights.position, velocity: velocity * weights.velocity, ..*weights }
+    let Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole } = *weights;
+    let (position, velocity) = (of_position * position, of_velocity * velocity);
+    Weights { position, velocity, tilt_rate, tilt_acceleration, slow_pole, fast_pole }
 }
 
 /// One axis of the program.

@@ -113,7 +113,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, SafetyParameters)> {
     guard.deviation = Some(Deviation {
         demand: PlatformCoordinates::default(),
         leg_accelerations: [0.0; 6],
-        time_at_rest: 0.0,
+        rest_while_limited: 0.0,
         homing_fraction: None,
     });
     (neutral - shortest > 0.017 && guard.certifier.has_way_home(&rest)).then_some((guard, safety))

@@ -49,7 +49,7 @@ pub struct Format {
     /// Vehicle of the program.
     #[serde(default)]
     pub vehicle: Vehicle,
-    /// Port to which the program sends by default.
+    /// Port to which the program sends by default, for the reader of the table.
     pub port: Option<u16>,
     /// Lengths that a packet may have \[bytes\]; any if empty.
     #[serde(default)]
