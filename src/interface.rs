@@ -359,7 +359,7 @@ interface! {
         /// Largest angle of tilt coordination.
         "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.257, usual(0.1 ..= 0.38), heading("Tilt limits"), importance_rank(8);
         /// Law by which the classical strategy's tilt follows its target.
-        "tilt.tracking" tracking: TiltTracking = TiltTracking::Smooth;
+        "tilt.tracking" tracking: TiltTracking = TiltTracking::Smooth, used_if("strategy", &["classical"]);
     }
 }
 
