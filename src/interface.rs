@@ -379,7 +379,7 @@ interface! {
 interface! {
     /// The soft limits, in front of the safety units and the actuator guard.
     pub struct SoftLimitParameters: Parameter, Tunable {
-        /// Rate of approach to a limit: the speed is at most this rate times the remaining distance; 0 is off.
+        /// Rate of approach to a limit: the speed is at most this rate times the distance to the margin; 0 is off.
         "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 9.0 } = 5.0;
         /// Margin kept at either end of an axis and of an actuator's stroke: at most half the distance from neutral, in proportion to a stroke below 0.3 m.
         "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;

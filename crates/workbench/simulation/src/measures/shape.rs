@@ -23,9 +23,9 @@ pub struct AxisShape {
     pub shape: f64,
     /// RMS of felt over RMS of desired.
     pub size: f64,
-    /// Fraction of the time in which the felt force is above the threshold and has the
-    /// opposite sign of the desired one. Verdict, findings, `fit` and the last check of
-    /// `tune` take the larger of surge's and sway's ([`Shape::most_inverted_axis`]), the
+    /// Fraction of the time in which the felt force is above [`HORIZONTAL_FORCE_THRESHOLD`] and has
+    /// the opposite sign of the desired one, both below 2 Hz. Verdict, findings, `fit` and the last
+    /// check of `tune` take the larger of surge's and sway's ([`Shape::most_inverted_axis`]), the
     /// search and the bench the mean.
     pub inverted: f64,
 }
