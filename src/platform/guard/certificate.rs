@@ -141,7 +141,8 @@ impl Certifier {
         step: f64,
     ) -> Option<StopPlan> {
         let cranks = self.geometry.cranks.as_ref();
-        // Bounds cost least and certify nearly every candidate of legs. Of cranks they certify the fewest: last.
+        // Bounds cost least and certify nearly every candidate of legs. With cranks they are left
+        // for what neither ends nor cells certify.
         let by_bounds = || {
             let duration = self.certify_by_bounds(from, to, safety, step)?;
             Some(StopPlan::new(&to.coordinates, StopDurations::common(duration)))
