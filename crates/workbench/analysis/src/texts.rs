@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+use moris_simulation::sentences::pieces;
+
 use crate::message::{Message, Remedy, given, named};
 
 /// Sentences by name. `{ratio:.1}` is a value with one decimal, `{--gravity removed}` an option.
@@ -51,11 +53,9 @@ written! { &String usize u64 }
 /// Never: a test looks up each sentence that is named.
 pub fn filled(name: &str, values: &[(&str, Value)]) -> Message {
     let mut message = Message::default();
-    let mut left = TEXTS[name].as_str();
-    while let Some((before, behind)) = left.split_once('{') {
-        let (place, behind) = behind.split_once('}').unwrap_or((behind, ""));
-        message.push(before);
-        left = behind;
+    for (text, place) in pieces(&TEXTS[name]) {
+        message.push(text);
+        let Some(place) = place else { continue };
         if let Some(option) = place.strip_prefix("--") {
             message.push(option.split_once(' ').map_or_else(|| named(option), |(option, value)| given(option, value)));
             continue;
@@ -69,7 +69,6 @@ pub fn filled(name: &str, values: &[(&str, Value)]) -> Message {
             None => message.push(format!("{{{place}}}")),
         }
     }
-    message.push(left);
     message
 }
 
@@ -86,35 +85,20 @@ macro_rules! text {
 pub use text;
 
 #[cfg(test)]
+#[path = "../../../../tests/cases/calls.rs"]
+mod calls;
+
+#[cfg(test)]
 mod tests {
-    use std::fs;
-    use std::path::Path;
-
+    use super::calls::calls;
     use super::*;
-
-    fn sources(folder: &Path) -> Vec<String> {
-        let of = |path: &Path| match path.is_dir() {
-            true => sources(path),
-            false => path
-                .extension()
-                .is_some_and(|end| end == "rs")
-                .then(|| fs::read_to_string(path).unwrap())
-                .into_iter()
-                .collect(),
-        };
-        fs::read_dir(folder).unwrap().flat_map(|entry| of(&entry.unwrap().path())).collect()
-    }
 
     #[test]
     fn every_sentence_is_named_and_every_named_one_exists() {
-        let folders = ["src", "../moris/src", "../python/src"];
-        let sources: Vec<String> =
-            folders.iter().flat_map(|folder| sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder))).collect();
-        let calls = sources.iter().flat_map(|text| text.split(concat!("text", "![")).skip(1));
-        let mut named: Vec<&str> = calls
-            .filter_map(|call| call.trim_start().strip_prefix('"')?.split('"').next())
-            .chain(["text-of-a-test"])
-            .collect();
+        let root = env!("CARGO_MANIFEST_DIR");
+        let calls = ["src", "../moris/src", "../python/src"].map(|folder| calls("text", format!("{root}/{folder}")));
+        let mut named: Vec<&str> =
+            calls.iter().flatten().map(|(name, _)| name.as_str()).chain(["text-of-a-test"]).collect();
         named.sort_unstable();
         named.dedup();
         assert_eq!(named, TEXTS.keys().collect::<Vec<_>>());

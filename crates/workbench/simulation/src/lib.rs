@@ -36,7 +36,7 @@ pub mod measures;
 pub mod preview;
 mod refusal;
 pub mod replay;
-mod sentences;
+pub mod sentences;
 mod simulation;
 mod spans;
 mod tilt_limits;

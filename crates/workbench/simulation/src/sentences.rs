@@ -16,21 +16,24 @@ static SENTENCES: LazyLock<Vec<(&str, String)>> = LazyLock::new(|| {
     sentences
 });
 
+/// The pieces of a sentence in its order: text, and what stands in braces behind it for a value.
+pub fn pieces(sentence: &str) -> impl Iterator<Item = (&str, Option<&str>)> {
+    sentence.split('}').map(|part| part.split_once('{').map_or((part, None), |(text, place)| (text, Some(place))))
+}
+
 /// A sentence with its values: `{ratio:.1}` is one with a decimal.
 ///
 /// # Panics
 /// Never: a test looks up each sentence that is named.
 pub fn filled(name: &str, values: &[(&str, &dyn Display)]) -> String {
     let (_, text) = SENTENCES.iter().find(|(other, _)| *other == name).expect("a test looks up each sentence");
-    let text = text.replace("\\n", "\n");
-    let mut parts = text.split('{');
-    let mut sentence = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let (place, behind) = part.split_once('}').unwrap_or((part, ""));
+    let mut sentence = String::new();
+    for (text, place) in pieces(text) {
+        sentence += &text.replace("\\n", "\n");
+        let Some(place) = place else { continue };
         let (key, decimals) = place.split_once(":.").unwrap_or((place, ""));
         let value = values.iter().find(|(other, _)| *other == key).map_or(&place as &dyn Display, |(_, value)| *value);
         sentence += &decimals.parse().map_or_else(|_| value.to_string(), |count: usize| format!("{value:.count$}"));
-        sentence += behind;
     }
     sentence
 }
@@ -49,41 +52,25 @@ macro_rules! sentence {
 pub(crate) use sentence;
 
 #[cfg(test)]
+#[path = "../../../../tests/cases/calls.rs"]
+mod calls;
+
+#[cfg(test)]
 mod tests {
-    use std::fs;
-    use std::path::Path;
-
+    use super::calls::calls;
     use super::*;
-
-    fn sources(folder: &Path) -> Vec<String> {
-        let of = |path: &Path| match path.is_dir() {
-            true => sources(path),
-            false => path
-                .extension()
-                .is_some_and(|end| end == "rs")
-                .then(|| fs::read_to_string(path).unwrap())
-                .into_iter()
-                .collect(),
-        };
-        fs::read_dir(folder).unwrap().flat_map(|entry| of(&entry.unwrap().path())).collect()
-    }
 
     #[test]
     fn every_sentence_is_named_with_its_values_and_every_named_one_exists() {
-        let sources = sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src")));
-        let calls = sources.iter().flat_map(|text| text.split(concat!("sentence", "![")).skip(1));
-        let mut named: Vec<&str> = Vec::new();
-        for call in calls {
-            let Some((name, given)) = call.trim_start().strip_prefix('"').and_then(|call| call.split_once('"')) else {
-                continue;
-            };
-            let (_, text) = SENTENCES.iter().find(|(other, _)| *other == name).unwrap_or_else(|| panic!("{name}"));
-            for place in text.split('{').skip(1) {
-                let key = place.split([':', '}']).next().unwrap();
+        let calls = calls("sentence", concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
+        for (name, given) in &calls {
+            let (_, text) = SENTENCES.iter().find(|(other, _)| other == name).unwrap_or_else(|| panic!("{name}"));
+            for place in pieces(text).filter_map(|(_, place)| place) {
+                let key = place.split(':').next().unwrap();
                 assert!(given.split(']').next().unwrap().contains(key), "{name} has no value {key}");
             }
-            named.push(name);
         }
+        let mut named: Vec<&str> = calls.iter().map(|(name, _)| name.as_str()).collect();
         named.sort_unstable();
         named.dedup();
         let mut written: Vec<&str> = SENTENCES.iter().map(|(name, _)| *name).collect();
