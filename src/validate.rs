@@ -9,7 +9,7 @@ use moris_interface::{
 use nalgebra::Vector2;
 
 use crate::interface::{GravityRemoval, Input, Parameters, Rig, RollPitchYaw, STANDARD_GRAVITY};
-use crate::platform::reach::{Axis, single_axis_range, stroke_clearance};
+use crate::platform::reach::{Axis, pace_within_stroke, single_axis_range, stroke_clearance};
 use crate::platform::{Cranks, Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, step_margin};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
@@ -87,13 +87,13 @@ fn near_an_end(rig: &Rig) -> Option<String> {
 
 fn soft_limit_warning(Parameters { rig, soft_limit, .. }: &Parameters) -> Option<String> {
     let Rig { velocity_limit, acceleration_limit, .. } = *rig;
-    let (needed, fastest) = (soft_limit.pace * velocity_limit, acceleration_limit / soft_limit.pace);
+    let pace = pace_within_stroke(soft_limit.pace, rig);
+    let (needed, fastest) = (pace * velocity_limit, acceleration_limit / pace);
     (acceleration_limit < needed * (1.0 - 1e-9)).then(|| {
         format!(
             "actuator.accelerationLimit is {acceleration_limit} m/s2, but braking from {velocity_limit} m/s at the \
-             softLimit.pace of {} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; if the limit is in g, \
+             pace of {pace} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; if the limit is in g, \
              give {:.1} m/s2, else reduce softLimit.pace for more",
-            soft_limit.pace,
             STANDARD_GRAVITY * acceleration_limit
         )
     })

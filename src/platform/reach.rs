@@ -121,6 +121,13 @@ pub fn short_stroke_factor(rig: &Rig) -> f64 {
     (rig.stroke_length() / FULL_MARGIN_STROKE).min(1.0)
 }
 
+/// The soft limits' pace on this rig: from a stroke of 0.1 m on as asked for, and down to
+/// half of it for shorter ones, where limits of several legs begin to act within
+/// milliseconds of each other.
+pub fn pace_within_stroke(pace: f64, rig: &Rig) -> f64 {
+    pace * (0.5 + 1.5 * short_stroke_factor(rig)).min(1.0)
+}
+
 /// Smaller of the two reaches of surge and of sway, as [`single_axis_range`] but in
 /// closed form for legs.
 ///
@@ -201,11 +208,13 @@ mod tests {
     }
 
     #[test]
-    fn short_strokes_have_smaller_margins() {
-        let stroke =
-            |stroke: f64| short_stroke_factor(&Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() });
+    fn short_strokes_have_smaller_margins_and_a_slower_pace() {
+        let rig = |stroke: f64| Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() };
+        let stroke = |stroke: f64| short_stroke_factor(&rig(stroke));
         assert!((stroke(0.1) - 1.0 / 3.0).abs() < 1e-12 && (stroke(0.15) - 0.5).abs() < 1e-12);
         assert_eq!([0.31, 0.6, 1.5].map(stroke), [1.0; 3]);
+        assert!((pace_within_stroke(5.0, &rig(0.06)) - 4.0).abs() < 1e-12);
+        assert_eq!([0.1001, 0.6].map(|stroke| pace_within_stroke(5.0, &rig(stroke))), [5.0; 2]);
     }
 
     /// Straight up, a leg whose joints are `d` apart in plan has the length sqrt(d^2 + z^2).

@@ -34,7 +34,7 @@ use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::motion::square_root::square_root;
-use crate::platform::reach::{clear_stroke, neutral_lengths, short_stroke_factor};
+use crate::platform::reach::{clear_stroke, neutral_lengths, pace_within_stroke, short_stroke_factor};
 use crate::platform::{Geometry, PlatformCoordinates, PlatformMotion, PlatformState, accelerations_with_jacobian};
 
 /// The soft limits with their state.
@@ -188,7 +188,7 @@ impl SoftLimits {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
         let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
         let SoftLimitParameters { pace, margin } = *soft_limit;
-        let margin = margin * short_stroke_factor(rig);
+        let (margin, pace) = (margin * short_stroke_factor(rig), pace_within_stroke(pace, rig));
         let farthest = |k: usize| if k == 2 { min(position_limit[k], heave) } else { position_limit[k] };
         let geometry = Geometry::from(rig);
         let axes = [0, 1, 2].map(|k: usize| {

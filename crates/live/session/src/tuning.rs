@@ -5,6 +5,7 @@
 
 use moris_interface::{Group as _, Reader, refuse};
 use moris_washout::interface::{SafetyParameters, TiltParameters};
+use moris_washout::platform::reach::pace_within_stroke;
 use moris_washout::{ParameterError, Parameters, Washout};
 
 use crate::log::name_of;
@@ -92,7 +93,7 @@ fn safety_in_motion(parameters: &Parameters, washout: &Washout) -> SafetyParamet
     let (before, mut safety) = (&washout.parameters().safety, parameters.safety);
     let motion = washout.motion();
     let neutral = washout.parameters().rig.neutral_height;
-    let pace = parameters.soft_limit.pace.max(MIN_PACE);
+    let pace = pace_within_stroke(parameters.soft_limit.pace, &parameters.rig).max(MIN_PACE);
     for k in 0..3 {
         let far = (motion.position[k] - if k == 2 { neutral } else { 0.0 }).abs();
         let [speed, change] = [motion.velocity[k].abs(), motion.acceleration[k].abs()];
