@@ -4,6 +4,8 @@
 //! them within a tenth of a second. The chain before therefore goes on beside it, and the motion
 //! fades from one to the other over [`FADE_TIME`], without a jump up to the acceleration.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -68,7 +70,7 @@ pub struct CrossfadedChains {
 }
 
 /// Time in which the motion fades to that of other coefficients \[s\].
-const FADE_TIME: f64 = 1.8;
+const FADE_TIME: f64 = 1.98;
 
 impl CrossfadedChains {
     /// Chains at rest whose motion is a position and a velocity, ready for steps of `max_step`
@@ -151,11 +153,12 @@ impl CrossfadedChains {
         after: &Motion<Vector3<f64>>,
     ) -> Motion<Vector3<f64>> {
         let before = of(&self.before, self.input);
-        let t = self.fraction;
-        // The smoothest step from 0 to 1 of fifth order, with its derivatives.
-        let weight = t * t * t * (10.0 + t * (6.0 * t - 15.0));
-        let slope = 30.0 * t * t * (1.0 - t) * (1.0 - t) / FADE_TIME;
-        let bend = 60.0 * t * (1.0 - t) * (1.0 - 2.0 * t) / (FADE_TIME * FADE_TIME);
+        // A cycloid: its third derivative, which times a distance of positions is felt as a jolt, is as large at
+        // the ends as in the middle.
+        let (sin, cos) = libm::sincos(TAU * self.fraction);
+        let weight = self.fraction - sin / TAU;
+        let slope = (1.0 - cos) / FADE_TIME;
+        let bend = TAU * sin / (FADE_TIME * FADE_TIME);
         let position = after.position - before.position;
         let velocity = after.velocity - before.velocity;
         let acceleration = after.acceleration - before.acceleration;
