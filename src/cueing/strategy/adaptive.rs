@@ -122,7 +122,15 @@ impl Adaptive {
         let weight_scale = 1.0 + LARGEST_INCREASE * near_end * near_end;
         let parameters = if self.glide.is_over() { self.parameters } else { self.gliding(step) };
         [0, 1].map(|k: usize| {
-            self.axes[k].decide(&self.models[k], &parameters, &states[k], references[k], weight_scale, step)
+            let state = &states[k];
+            let mut decision =
+                self.axes[k].decide(&self.models[k], &parameters, state, references[k], weight_scale, step);
+            // The adaptation sees frequency and damping glide. Travel returns with those set: what
+            // that changes at once is a correction of the dropped force.
+            if !self.glide.is_over() {
+                decision.dropped_force += return_force(&self.parameters, state) - return_force(&parameters, state);
+            }
+            decision
         })
     }
 
@@ -134,12 +142,11 @@ impl Adaptive {
     }
 }
 
-// What frequency and damping change at once is a correction of the dropped force.
 glide_by_logarithms!(AdaptiveParameters,
     AdaptiveParameters {
         gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2,
-        omega: _, zeta: _,
-    } => [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2]
+        omega, zeta,
+    } => [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2, omega, zeta]
 );
 
 impl Adaptation {
