@@ -110,7 +110,7 @@ fn angles_are_those_of_the_closed_form_and_lead_back_to_the_pose() {
     let mut random = Random::new(1);
     for rig in rigs() {
         let (geometry, neutral) = (Geometry::from(&rig), Pose::neutral(&rig));
-        for _ in 0..crate::cases::cases(8000, 800) {
+        for _ in 0..crate::cases::cases(4000, 800) {
             let pose = pose_within(&rig, &mut random);
             let arcs = leg_lengths(&geometry, &pose);
             for (i, arc) in arcs.into_iter().enumerate() {
@@ -359,7 +359,7 @@ fn survive(parameters: &Parameters, seed: u64, count: usize, step: f64) -> (f64,
 fn limits_of_cranks_hold_whatever_the_input_and_the_platform_comes_home() {
     let strategies = StrategyKind::ALL;
     let (mut moved, mut extremes) = (0, Extremes::NONE);
-    for seed in 0..crate::cases::cases(150, 12) {
+    for seed in 0..crate::cases::cases(75, 12) {
         let rig = match seed % 6 {
             0 => person(),
             1 => hobby(),

@@ -130,7 +130,7 @@ fn limits_hold_at_1_khz() {
 }
 
 proptest! {
-    #![proptest_config(cases(200))]
+    #![proptest_config(cases(100))]
 
     #[test]
     fn limits_hold_for_any_steps(

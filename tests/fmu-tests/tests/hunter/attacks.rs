@@ -207,7 +207,7 @@ fn a_small_machine_that_was_driven_to_its_ends_comes_home() {
         leg < 1e-3 && sway < 1e-3
     };
     let (mut at_both_ends, mut longest) = (0, 0.0);
-    for seed in 0..crate::cases::cases(40, 8) {
+    for seed in 0..crate::cases::cases(20, 8) {
         let mut attacker = Attacker { seed, ..attacker(Aim::Room, 6, 20.0) };
         attacker.amplitudes.remove(SWAY);
         let drive = Episode {

@@ -17,7 +17,7 @@ fn calls(counts: &CallCounts) -> u64 {
 
 /// Makes so many calls for each seed, always the same; returns how they ended.
 fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> CallCounts {
-    let each = searches(80_000, 10_000) as u64;
+    let each = searches(40_000, 10_000) as u64;
     let mut total = CallCounts::new();
     for seed in seeds {
         let counts = run(functions, Choices::Seed(seed), each);
