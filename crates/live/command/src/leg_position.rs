@@ -262,7 +262,7 @@ mod tests {
         // Neither a word of long ago nor another one is the first of two.
         assert!(!place.give(Legs::Settled, 30.0, 0.248) && !place.give(Legs::Settled, 60.0, 0.248));
         assert!(place.give(Legs::Slow, 61.0, 0.248) && !place.give(Legs::Settled, 62.0, 0.248));
-        assert!(place.give(Legs::Settled, 90.0, 0.01));
+        assert!(place.give(Legs::Settled, 90.0, 0.019) && !place.give(Legs::Settled, 91.0, 0.021));
         // A controller that reports knows better than the operator.
         let mut place = of("csv", false, None);
         place.give(Legs::Settled, 0.0, 0.0);
