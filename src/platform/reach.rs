@@ -121,9 +121,8 @@ pub fn short_stroke_factor(rig: &Rig) -> f64 {
     (rig.stroke_length() / FULL_MARGIN_STROKE).min(1.0)
 }
 
-/// The soft limits' pace on this rig: from a stroke of 0.1 m on as asked for, and down to
-/// half of it for shorter ones, where limits of several legs begin to act within
-/// milliseconds of each other.
+/// The soft limits' pace on this rig: less below a stroke of 0.1 m, down to half. There limits of
+/// several legs begin to act within milliseconds of each other.
 pub fn pace_within_stroke(pace: f64, rig: &Rig) -> f64 {
     pace * (0.5 + 1.5 * short_stroke_factor(rig)).min(1.0)
 }
