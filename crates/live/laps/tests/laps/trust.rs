@@ -54,7 +54,7 @@ fn assert_no_worse(name: &str, samples: &[Sample], parameters: &Parameters, from
 #[test]
 fn wrong_passes_cost_nothing_on_a_smooth_ride() {
     let parameters = presets::parameters(presets::PREVIEW);
-    for (name, samples) in wrong::all(&laps(3.0, 1.0), LAP).into_iter().step_by(cases(2, 4)) {
+    for (name, samples) in wrong::all(&laps(3.0, 1.0), LAP).into_iter().step_by(cases(1, 4)) {
         assert_no_worse(name, &samples, &parameters, 90.0);
     }
 }
@@ -62,7 +62,7 @@ fn wrong_passes_cost_nothing_on_a_smooth_ride() {
 #[test]
 fn wrong_passes_cost_nothing_on_a_busy_ride() {
     let parameters = presets::parameters(presets::PREVIEW);
-    for (name, samples) in wrong::all(&busy_laps(3.0), LAP).into_iter().skip(1).step_by(cases(2, 4)) {
+    for (name, samples) in wrong::all(&busy_laps(3.0), LAP).into_iter().skip(cases(0, 1)).step_by(cases(1, 4)) {
         assert_no_worse(name, &samples, &parameters, 90.0);
     }
 }

@@ -102,7 +102,18 @@ fn on_rig(rig: &str, set: &str) -> Setup {
 #[test]
 fn following_a_verdict_makes_what_it_names_better_and_nothing_else_worse() {
     let drives = cases(
-        &["paper-b", "lane-change", "emergency-stop", "roundabout", "kart-lap", "flight"][..],
+        &[
+            "paper-a",
+            "paper-b",
+            "paper-c",
+            "lane-change",
+            "slalom",
+            "emergency-stop",
+            "roundabout",
+            "motorway",
+            "kart-lap",
+            "flight",
+        ][..],
         &["paper-b", "lane-change"],
     );
     let rigs = cases(&["hobby100", "default", "flight091"][..], &["hobby200", "default"]);
