@@ -22,9 +22,9 @@ use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::platform::inverse::leg_motion;
 
-/// Number of cases of a search of `all` cases: a half, and by default a fiftieth.
+/// Number of cases of a search: by default a twenty-fifth of all.
 fn case_count(all: u32) -> u32 {
-    crate::cases::cases(all / 2, all / 50)
+    crate::cases::cases(all, all / 25)
 }
 
 fn search(cases: u32) -> TestRunner {
@@ -71,7 +71,7 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
         .prop_map(|(a, b, c, d)| [a, b, c, d].map(|exponent| 10.0_f64.powf(exponent)));
     let pieces = speeds.prop_flat_map(|[v, w, s, e]| (moving(0.4, v, s), moving(0.8, w, e)));
     let closest = [const { Cell::new(0.0_f64) }; 3];
-    search(case_count(1_000_000))
+    search(case_count(500_000))
         .run(&(pieces, 0..6_usize), |((linear, angles), i)| {
             let start = PlatformCoordinates { linear, angles };
             let geometry = crate::platform::Geometry::from(&rig);
@@ -132,7 +132,7 @@ fn no_crank_exceeds_the_bounds_on_its_derivatives() {
     let pieces = speeds.prop_flat_map(|[v, w, s, e]| (moving(0.15, v, s), moving(0.15, w, e)));
     let closest = [const { Cell::new(0.0_f64) }; 4];
     let checked = Cell::new(0);
-    search(case_count(400_000))
+    search(case_count(200_000))
         .run(&(pieces, 0..6_usize), |((linear, angles), i)| {
             let start = PlatformCoordinates { linear, angles };
             let h = 1e-4;
@@ -207,7 +207,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
         (Just(certifier), Just(safety), state, -4.0..-1.3_f64, 0.01..1.0_f64)
     });
     let [certified, refused] = [const { Cell::new(0) }; 2];
-    search(case_count(200_000))
+    search(case_count(100_000))
         .run(&states, |(certifier, safety, (linear, angles), step, size)| {
             let step = 10.0_f64.powf(step).min(certifier.limits.max_step);
             let scaled = |motions: &Motion<Vector3<f64>>| Motion {
@@ -249,7 +249,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
         })
         .unwrap();
     let (certified, refused) = (certified.get(), refused.get());
-    assert!(certified.min(refused) > case_count(200_000) / 20, "{certified} certified, {refused} refused");
+    assert!(certified.min(refused) > case_count(100_000) / 20, "{certified} certified, {refused} refused");
 }
 
 /// Cranks whose stops and ways home are certified, by bounds or by points: their limits are kept at
@@ -275,7 +275,7 @@ fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
     });
     let [by_bounds, by_ends, by_points, refused] = [const { Cell::new(0) }; 4];
     let count = |cell: &Cell<u32>| cell.set(cell.get() + 1);
-    search(case_count(200_000))
+    search(case_count(100_000))
         .run(&states, |(certifier, (linear, angles))| {
             let (step, safety) = (2e-3, SafetyParameters::default());
             let cranks = certifier.geometry.cranks.expect("the rig has cranks");
@@ -325,7 +325,7 @@ fn certified_ways_of_cranks_keep_every_limit_between_the_points_looked_at() {
         })
         .unwrap();
     let counts = [by_bounds, by_ends, by_points, refused].map(|cell| cell.get());
-    assert!(counts.iter().all(|count| *count > case_count(200_000) / 50), "{counts:?}");
+    assert!(counts.iter().all(|count| *count > case_count(100_000) / 50), "{counts:?}");
 }
 
 /// Squares of transmissions on the straight way home lie beneath their chords by no more than the
@@ -336,7 +336,7 @@ fn squares_of_transmissions_keep_near_their_chords() {
     let cranks = certifier.geometry.cranks.expect("the rig has cranks");
     let closest = Cell::new(0.0_f64);
     let risen = Cell::new(0);
-    search(case_count(200_000))
+    search(case_count(100_000))
         .run(&(vector(0.3), vector(0.3), -4.0..0.0_f64), |(position, angles, exponent)| {
             let angles = 10.0_f64.powf(exponent) * angles;
             let arms = |s: f64| {

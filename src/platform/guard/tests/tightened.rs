@@ -87,7 +87,7 @@ fn a_tightened_limit_of_velocity_is_kept_no_later_than_on_the_plan_held() {
     let [tightened, sooner] = [const { Cell::new(0) }; 2];
     let factors = prop_oneof![0.2..0.99_f64, 0.0005..0.01_f64];
     let changes = prop::collection::vec((1..12_usize, 0..5_usize, factors), 1..5);
-    search(case_count(2_500))
+    search(case_count(1_250))
         .run(&(rides(), 20..400_usize, changes), |(mut ride, before, changes)| {
             let mut safety = SafetyParameters::default();
             for k in 0..before {
@@ -136,7 +136,7 @@ fn a_tightened_limit_of_velocity_is_kept_no_later_than_on_the_plan_held() {
         })
         .unwrap();
     let (tightened, sooner) = (tightened.get(), sooner.get());
-    let all = case_count(2_500) as usize;
+    let all = case_count(1_250) as usize;
     assert!(
         tightened > all / 5 && sooner > all / 25,
         "{tightened} tightened in motion, {sooner} kept sooner than planned"
