@@ -92,7 +92,7 @@ fn soft_limit_warning(Parameters { rig, soft_limit, .. }: &Parameters) -> Option
     (acceleration_limit < needed * (1.0 - 1e-9)).then(|| {
         format!(
             "actuator.accelerationLimit is {acceleration_limit} m/s2, but braking from {velocity_limit} m/s at the \
-             pace of {pace} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; if the limit is in g, \
+             pace of {pace:.2} rad/s takes {needed:.1} m/s2: only {fastest:.2} m/s are used; if the limit is in g, \
              give {:.1} m/s2, else reduce softLimit.pace for more",
             STANDARD_GRAVITY * acceleration_limit
         )

@@ -153,8 +153,8 @@ impl CrossfadedChains {
         after: &Motion<Vector3<f64>>,
     ) -> Motion<Vector3<f64>> {
         let before = of(&self.before, self.input);
-        // A cycloid: its third derivative, which times a distance of positions is felt as a jolt, is as large at
-        // the ends as in the middle.
+        // A cycloid: its third derivative, which times a distance of positions is felt as a jolt, is as
+        // large at the ends as in the middle.
         let (sin, cos) = libm::sincos(TAU * self.fraction);
         let weight = self.fraction - sin / TAU;
         let slope = (1.0 - cos) / FADE_TIME;

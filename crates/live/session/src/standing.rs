@@ -128,13 +128,13 @@ mod tests {
             });
             assert_from_to(&times, 10.5, 19.99);
         }
-        // A vehicle moves from 0.1 m/s and from 0.02 rad/s on, and at rest not.
+        // A vehicle moves from 0.1 m/s and from 0.02 rad/s on; at rest it does not.
         let still = |k: usize, value: f64| {
             let mut sample = Sample::default();
             sample.motion.0[k] = value;
             paused(|_| sample).len()
         };
-        assert_eq!([still(9, 0.09), still(9, -0.09), still(5, 0.019), still(0, 3.0)], [0; 4]);
+        assert_eq!([still(9, 0.09), still(9, -0.09), still(5, 0.019), still(0, 3.0), still(0, 0.0)], [0; 5]);
         assert!([still(9, 0.11), still(9, -0.11), still(5, -0.021)].iter().all(|count| *count > 2900));
         // Nor does one that sends each sample ten times, as a slow simulation.
         assert!(paused(|t| car((10.0 * t).floor() / 10.0, 100.0)).is_empty());
