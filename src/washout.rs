@@ -517,7 +517,7 @@ impl Washout {
             self.last_input.cue.force.xy() == Vector2::zeros() && self.last_input.cue.rates == Vector3::zeros();
         let mut scale = self.scale;
         scale.retune(parameters, nothing_cued)?;
-        self.strategy.retune(parameters, &self.guard.commanded().coordinates.linear)?;
+        self.strategy.retune(parameters)?;
         // From here on nothing fails.
         self.scale = scale;
         let spurious_before = self.spurious();

@@ -21,9 +21,9 @@ pub struct GlidingOffset<const N: usize> {
     glides: bool,
 }
 
-/// Break frequency of each lag \[rad/s\]: 1 % of a correction is left after 2 s, and its slope is
-/// at most 1.1 times the correction a second.
-const GLIDE_PACE: f64 = 5.0;
+/// Break frequency of each lag \[rad/s\]: 2 % of a correction is left after 2 s, and its slope is
+/// at most 1.01 times the correction a second.
+const GLIDE_PACE: f64 = 4.5;
 /// Corrections below this become zero.
 const GLIDE_END: f64 = 1e-12;
 
@@ -51,15 +51,6 @@ impl<const N: usize> GlidingOffset<N> {
         self.glides = true;
     }
 
-    /// Adds corrections that begin with these slopes \[1/s\].
-    pub fn add_with_slopes(&mut self, values: &SVector<f64, N>, slopes: &SVector<f64, N>) {
-        // The last lag's slope is pace times its input less its output, and its input has that slope, too.
-        for (lag, lead) in self.lags.iter_mut().zip([2.0, 2.0, 1.0, 0.0]) {
-            *lag += values + slopes * (lead / GLIDE_PACE);
-        }
-        self.glides = true;
-    }
-
     /// Advances by `step` seconds.
     pub fn advance(&mut self, step: f64) {
         if self.is_over() {
@@ -76,6 +67,17 @@ impl<const N: usize> GlidingOffset<N> {
             *self = Self::default();
         }
     }
+}
+
+/// A gain of either sign as it glides: by its ratio where it is large, and evenly below `scale`.
+/// From weak feedback to strong, each fraction of the way has its own pace of return.
+pub fn compressed(gain: f64, scale: f64) -> f64 {
+    libm::asinh(gain / scale)
+}
+
+/// The gain that [`compressed`] has made this of.
+pub fn expanded(value: f64, scale: f64) -> f64 {
+    scale * libm::sinh(value)
 }
 
 /// Makes the functions of a struct whose numbers glide by their logarithms. The pattern names all
@@ -159,19 +161,19 @@ mod tests {
             let [one, two] = offset.values().into();
             assert!((one - form(time) - second).abs() < 1e-12 && (two + 2.0 * form(time)).abs() < 1e-12, "at {time}");
         }
-        assert!((form(2.0) - 0.0103).abs() < 1e-4);
+        assert!((form(2.0) - 0.0212).abs() < 1e-4);
         offset.advance(10.0);
         assert!(offset.is_over());
     }
 
     #[test]
-    fn an_offset_begins_with_its_slope() {
-        let mut offset = GlidingOffset::<1>::default();
-        offset.add_with_slopes(&SVector::from([1.0]), &SVector::from([3.0]));
-        let before = offset.values()[0];
-        offset.advance(1e-4);
-        let slope = (offset.values()[0] - before) / 1e-4;
-        assert!(before == 1.0 && (slope - 3.0).abs() < 1e-3, "{before}, {slope}");
+    fn gains_of_either_sign_are_compressed_and_expanded() {
+        for gain in [-400.0, -0.1, 0.0, 1e-3, 7.0] {
+            assert!((expanded(compressed(gain, 0.3), 0.3) - gain).abs() <= 1e-12 * gain.abs());
+        }
+        let way = |from: f64, to: f64| compressed(to, 0.3) - compressed(from, 0.3);
+        assert!((way(100.0, 200.0) - 2.0_f64.ln()).abs() < 1e-5, "by ratios");
+        assert!((way(-1e-3, 1e-3) - 2e-3 / 0.3).abs() < 1e-7, "evenly");
     }
 
     #[test]

@@ -122,6 +122,7 @@ pub fn is_known(courses: &[PreviewedCue; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cueing::strategy::regulator::control;
     use crate::cueing::strategy::regulator::tests::MODEL;
 
     #[test]
@@ -137,7 +138,7 @@ mod tests {
         }
         let moved = Moved::new(0.1, -0.2, 0.05, 0.01);
         let state = crate::cueing::strategy::regulator::State::new(0.1, -0.2, 0.05, 0.01, 0.0, 0.0);
-        let [expected, found] = [regulator.control(&state), tracker.control(&moved, [0.0; 2], 0.3)];
+        let [expected, found] = [control(&regulator.gains, &state), tracker.control(&moved, [0.0; 2], 0.3)];
         assert!((0..2).all(|i| (expected[i] - found[i]).abs() < 1e-12));
     }
 

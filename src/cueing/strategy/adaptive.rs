@@ -19,10 +19,12 @@ use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Decision, Jump, Law, LawInput, StepContext, Unsolvable};
+use super::law::{AxisState, Decision, Law, LawInput, StepContext, Unsolvable};
 use super::regulator::AxisModel;
-use crate::filter::bumpless::{GlidingOffset, glide_by_logarithms};
+use crate::filter::bumpless::{GlidingOffset, compressed, expanded, glide_by_logarithms};
 use crate::interface::{AdaptiveParameters, Parameters};
+use crate::motion::min_max::max;
+use crate::motion::square_root::square_root;
 
 /// The strategy with its state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +34,8 @@ pub struct Adaptive {
     axes: [Adaptation; 2],
     /// Logarithms of the adaptation's numbers in force less those set.
     glide: GlidingOffset<GLIDING_COUNT>,
+    /// Stiffness, compressed, and damping of travel's return in force less those set.
+    return_glide: GlidingOffset<2>,
 }
 
 /// The gains of one axis, and the sensitivities to them.
@@ -59,6 +63,9 @@ const NEAR_END: f64 = 0.1;
 const NEAR_END_STROKE: f64 = 0.6;
 /// ... by up to this many times their value, at its end.
 const LARGEST_INCREASE: f64 = 10.0;
+/// Up to this a stiffness glides evenly \[1/s2\]. Above it the damping, which glides evenly always,
+/// is ahead: travel that creeps back is felt less than travel that swings.
+const EVEN_STIFFNESS: f64 = 11.0;
 /// Time of a stroke at the legs' full speed up to which velocity has its own weight \[s\]: that of
 /// the default rig.
 const STROKE_TIME: f64 = 0.6;
@@ -68,21 +75,16 @@ impl Law for Adaptive {
         Ok(Adaptive::new(models, &on_rig(parameters)))
     }
 
-    fn set_parameters(
-        &mut self,
-        models: &[AxisModel; 2],
-        parameters: &Parameters,
-        states: &[AxisState; 2],
-    ) -> Result<[Jump; 2], Unsolvable> {
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
         let before = self.parameters;
         // The gains continue from where they are.
         (self.models, self.parameters) = (*models, on_rig(parameters));
         let in_motion = self.axes.iter().any(|axis| axis.to_travel_gain != [0.0; 2]);
         if in_motion && before != self.parameters {
             self.glide.add(&(logarithms(&before) - logarithms(&self.parameters)));
+            self.return_glide.add(&(gliding_return(&before) - gliding_return(&self.parameters)));
         }
-        let less = |state: &AxisState| return_force(&before, state) - return_force(&self.parameters, state);
-        Ok(states.map(|state| Jump { force: less(&state), slope: less(&state.coasting()) }))
+        Ok(())
     }
 
     fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
@@ -106,7 +108,13 @@ impl Adaptive {
     pub fn new(models: &[AxisModel; 2], parameters: &AdaptiveParameters) -> Self {
         let gains = [parameters.nominal1, parameters.nominal2];
         let axis = Adaptation { gains, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: [0.0; 2] };
-        Adaptive { models: *models, parameters: *parameters, axes: [axis; 2], glide: GlidingOffset::default() }
+        Adaptive {
+            models: *models,
+            parameters: *parameters,
+            axes: [axis; 2],
+            glide: GlidingOffset::default(),
+            return_glide: GlidingOffset::default(),
+        }
     }
 
     /// Decision for a step of `step` seconds. The step begins in these states and has these
@@ -120,17 +128,10 @@ impl Adaptive {
     ) -> [Decision; 2] {
         let near_end = (1.0 - scaled_clearance / NEAR_END).max(0.0);
         let weight_scale = 1.0 + LARGEST_INCREASE * near_end * near_end;
-        let parameters = if self.glide.is_over() { self.parameters } else { self.gliding(step) };
+        let is_set = self.glide.is_over() && self.return_glide.is_over();
+        let parameters = if is_set { self.parameters } else { self.gliding(step) };
         [0, 1].map(|k: usize| {
-            let state = &states[k];
-            let mut decision =
-                self.axes[k].decide(&self.models[k], &parameters, state, references[k], weight_scale, step);
-            // The adaptation sees frequency and damping glide. Travel returns with those set: what
-            // that changes at once is a correction of the dropped force.
-            if !self.glide.is_over() {
-                decision.dropped_force += return_force(&self.parameters, state) - return_force(&parameters, state);
-            }
-            decision
+            self.axes[k].decide(&self.models[k], &parameters, &states[k], references[k], weight_scale, step)
         })
     }
 
@@ -138,15 +139,18 @@ impl Adaptive {
     #[cold]
     fn gliding(&mut self, step: f64) -> AdaptiveParameters {
         self.glide.advance(step);
-        in_force(&self.parameters, &self.glide)
+        self.return_glide.advance(step);
+        let [stiffness, damping] = (gliding_return(&self.parameters) + self.return_glide.values()).into();
+        let omega = square_root(max(expanded(stiffness, EVEN_STIFFNESS), f64::MIN_POSITIVE));
+        AdaptiveParameters { omega, zeta: damping / (2.0 * omega), ..in_force(&self.parameters, &self.glide) }
     }
 }
 
 glide_by_logarithms!(AdaptiveParameters,
     AdaptiveParameters {
         gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2,
-        omega, zeta,
-    } => [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2, omega, zeta]
+        omega: _, zeta: _,
+    } => [gain1, gain2, nominal1, nominal2, weight_position, weight_velocity, weight_tilt_rate, pull1, pull2]
 );
 
 impl Adaptation {
@@ -171,7 +175,7 @@ impl Adaptation {
         let AdaptiveParameters { nominal1, nominal2, .. } = *parameters;
         let [stiffness, damping] = stiffness_and_damping(parameters);
         // H alpha is not dropped: whatever its gain, travel makes up for the kick of a tilt that begins.
-        let dropped = (travel_gain - 1.0) * left + return_force(parameters, state);
+        let dropped = (travel_gain - 1.0) * left + (-damping * velocity - stiffness * position);
 
         let limited = alpha != demanded || rate != tilt_gain * left || tilt.abs() >= model.angle_limit;
         let gravity = model.gravity * cos;
@@ -216,10 +220,10 @@ fn stiffness_and_damping(parameters: &AdaptiveParameters) -> [f64; 2] {
     [omega * omega, 2.0 * zeta * omega]
 }
 
-/// The part of the dropped force that returns travel \[m/s2\].
-fn return_force(parameters: &AdaptiveParameters, state: &AxisState) -> f64 {
+/// Stiffness and damping as they glide.
+fn gliding_return(parameters: &AdaptiveParameters) -> SVector<f64, 2> {
     let [stiffness, damping] = stiffness_and_damping(parameters);
-    -damping * state.velocity - stiffness * state.position
+    SVector::from([compressed(stiffness, EVEN_STIFFNESS), damping])
 }
 
 /// A sensitivity of position and velocity after a step.
@@ -447,8 +451,8 @@ mod tests {
         let axes = adaptive.axes;
         let model = AxisModel { gravity: 9.0, ..FREE };
         let parameters = Parameters { adaptive: fixed([0.4, 0.2]), ..Parameters::default() };
-        adaptive.set_parameters(&[model; 2], &parameters, &[AxisState::default(); 2]).unwrap();
+        adaptive.set_parameters(&[model; 2], &parameters).unwrap();
         let parameters = on_rig(&parameters);
-        assert_eq!(adaptive, Adaptive { models: [model; 2], parameters, axes, glide: GlidingOffset::default() });
+        assert_eq!(adaptive, Adaptive { axes, ..Adaptive::new(&[model; 2], &parameters) });
     }
 }

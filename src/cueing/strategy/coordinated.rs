@@ -18,12 +18,11 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Decision, Jump, LawInput, StepContext, Unsolvable};
+use super::law::{AxisState, Decision, LawInput, StepContext, Unsolvable};
 use super::laws::AnyLaw;
 use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
 use crate::cueing::compensation::{centripetal, tangential};
-use crate::filter::bumpless::GlidingOffset;
 use crate::interface::{Parameters, SafetyParameters, TiltParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
@@ -41,8 +40,6 @@ pub struct Coordinated {
     /// True if a limit stops either tilt.
     pub limited: bool,
     dropped_force: [f64; 2],
-    /// Correction to the dropped forces, after a change of the law's parameters.
-    offset: GlidingOffset<2>,
     /// Weight of the law in force, with the engagement; the rest of the motion returns to neutral.
     law_weight: f64,
     /// Weight of the law's decisions: 1 while it decides, falling to 0 where it has none, as after
@@ -75,24 +72,17 @@ impl Coordinated {
             tilt: [Motion::default(); 2],
             limited: false,
             dropped_force: [0.0; 2],
-            offset: GlidingOffset::default(),
             law_weight: 1.0,
             decision_weight: 1.0,
         }))
     }
 
-    /// Takes other parameters, where this is the platform's motion. The dropped forces fade to
-    /// those of the new parameters.
+    /// Takes other parameters.
     ///
     /// # Errors
     /// The strategy's weights cannot be used. Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters, linear: &Motion<Vector3<f64>>) -> Result<(), Unsolvable> {
-        let states = self.states(linear);
-        let jumps = self.law.set_parameters(&models(parameters), parameters, &states)?;
-        if jumps != [Jump::default(); 2] {
-            self.offset.add_with_slopes(&jumps.map(|jump| jump.force).into(), &jumps.map(|jump| jump.slope).into());
-        }
-        Ok(())
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
+        self.law.set_parameters(&models(parameters), parameters)
     }
 
     /// States of surge and sway.
@@ -125,7 +115,6 @@ impl Coordinated {
         let law_weight = self.decision_weight * engagement;
         let decisions = decisions
             .unwrap_or(self.dropped_force.map(|dropped_force| Decision { dropped_force, tilt_acceleration: 0.0 }));
-        self.offset.advance(step);
         let TiltParameters { angle_limit, rate_limit, acceleration_limit, tracking: _ } = parameters.tilt;
         let max_step = parameters.structure.max_step;
         let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, max_step);
@@ -160,9 +149,8 @@ impl Coordinated {
         // acceleration is compensated all the same: it may jump.
         let returning = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
         let alone = Vector3::new(returning.x, returning.y, heave.acceleration + parameters.structure.gravity);
-        let offset = self.offset.values();
         let needed = [0, 1].map(|k: usize| {
-            let cued = force[k] + self.dropped_force[k] + offset[k];
+            let cued = force[k] + self.dropped_force[k];
             self.law_weight * cued + (1.0 - self.law_weight) * axes[k].dot(&alone) - axes[k].dot(&other_acceleration)
         });
         let determinant = axes[0].x * axes[1].y - axes[0].y * axes[1].x;

@@ -25,14 +25,6 @@ pub struct AxisState {
     pub tilt_acceleration: f64,
 }
 
-impl AxisState {
-    /// The state's slope while travel goes on evenly. The tilt follows the reference, so that the
-    /// effects of both on a law nearly cancel, and are left out.
-    pub fn coasting(&self) -> Self {
-        AxisState { position: self.velocity, ..AxisState::default() }
-    }
-}
-
 /// A law's decision for one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
@@ -40,13 +32,6 @@ pub struct Decision {
     pub dropped_force: f64,
     /// Acceleration of the tilt \[rad/s2\].
     pub tilt_acceleration: f64,
-}
-
-/// Jump of a dropped force to smaller values \[m/s2\], and of its slope \[m/s3\].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Jump {
-    pub force: f64,
-    pub slope: f64,
 }
 
 /// State at a step's beginning, and the known part of its end.
@@ -86,18 +71,11 @@ pub trait Law {
     where
         Self: Sized;
 
-    /// Takes other parameters, and continues from its state. Returns the jump of each
-    /// dropped force, old less new, where the axes are in these states \[m/s2\], and the
-    /// jump's slope \[m/s3\].
+    /// Takes other parameters, and continues from its state: no decision jumps.
     ///
     /// # Errors
     /// The weights cannot be used. Nothing has changed then.
-    fn set_parameters(
-        &mut self,
-        models: &[AxisModel; 2],
-        parameters: &Parameters,
-        states: &[AxisState; 2],
-    ) -> Result<[Jump; 2], Unsolvable>;
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable>;
 
     /// Decisions for a step of `step` seconds on surge and sway. None if there is nothing to decide
     /// by: the platform then returns to neutral.

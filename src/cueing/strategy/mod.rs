@@ -37,6 +37,7 @@ use crate::motion::Motion;
 use crate::motion::orientation::RotationalMotion;
 
 /// The strategy in use, with its state.
+#[allow(clippy::large_enum_variant)] // a washout has one, and steps it a thousand times a second
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Strategy {
     Classical(Classical),
@@ -56,19 +57,19 @@ impl Strategy {
         }
     }
 
-    /// Takes other parameters, where this is the platform's motion.
+    /// Takes other parameters.
     ///
     /// # Errors
     /// Its weights cannot be used. Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters, linear: &Motion<Vector3<f64>>) -> Result<(), ParameterError> {
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         match self {
             Strategy::Classical(classical) => {
                 classical.retune(parameters);
                 Ok(())
             }
-            Strategy::Coordinated(coordinated) => coordinated
-                .retune(parameters, linear)
-                .map_err(|reason| reason.of_strategy(parameters.structure.strategy)),
+            Strategy::Coordinated(coordinated) => {
+                coordinated.retune(parameters).map_err(|reason| reason.of_strategy(parameters.structure.strategy))
+            }
         }
     }
 

@@ -5,24 +5,35 @@
 //! (NASA/CR-2005-213747), with the dropped force in place of the vestibular error. As feedback of
 //! the motion that the limits leave, it needs no measure against wind-up.
 
+use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Decision, Jump, Law, LawInput, Unsolvable};
+use super::law::{AxisState, Decision, Law, LawInput, Unsolvable};
 use super::minimax::Disturbance;
-use super::regulator::{AxisModel, Regulator, State, Weights};
+use super::regulator::{AxisModel, Gains, Regulator, State, Weights, control};
+use crate::filter::bumpless::{GlidingOffset, compressed, expanded};
 use crate::interface::{OptimalParameters, Parameters};
 
 /// The strategy with its state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Optimal {
     models: [AxisModel; 2],
-    regulators: [Regulator; 2],
+    gains: [Gains; 2],
     tuning: Tuning,
     /// Low-pass of each axis's reference, and the rest of it \[m/s2\].
     slow: [f64; 2],
     fast: [f64; 2],
+    /// Gains in force less those, compressed.
+    glides: [GlidingOffset<GAIN_COUNT>; 2],
+    /// True if the last decision was to move.
+    moves: bool,
 }
+
+/// Count of an axis's gains.
+const GAIN_COUNT: usize = 12;
+/// Up to these, gains to the dropped force and to the tilt's acceleration glide evenly.
+const EVEN_GAINS: [f64; 2] = [0.3, 0.03];
 
 /// The tunable parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,13 +62,8 @@ impl Law for Optimal {
         Optimal::new(models, &(&parameters.optimal).into())
     }
 
-    fn set_parameters(
-        &mut self,
-        models: &[AxisModel; 2],
-        parameters: &Parameters,
-        states: &[AxisState; 2],
-    ) -> Result<[Jump; 2], Unsolvable> {
-        self.retune(models, &(&parameters.optimal).into(), states)
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        self.retune(models, &(&parameters.optimal).into())
     }
 
     fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
@@ -91,54 +97,71 @@ impl Optimal {
             None => Regulator::new(&weighed(&models[axis]), &tuning.weights),
             Some(disturbance) => disturbance.regulator(&weighed(&models[axis]), &tuning.weights),
         };
-        let regulators = [regulator(0)?, regulator(1)?];
-        Ok(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2], fast: [0.0; 2] })
+        Ok(Optimal {
+            models: *models,
+            gains: [regulator(0)?.gains, regulator(1)?.gains],
+            tuning: *tuning,
+            slow: [0.0; 2],
+            fast: [0.0; 2],
+            glides: [GlidingOffset::default(); 2],
+            moves: false,
+        })
     }
 
-    /// Takes other parameters. Returns by how much less the dropped forces are for them in these
-    /// states.
+    /// Takes other parameters. In motion, the gains glide to theirs.
     ///
     /// # Errors
     /// The weights cannot be used. Nothing has changed then.
-    pub fn retune(
-        &mut self,
-        models: &[AxisModel; 2],
-        tuning: &Tuning,
-        states: &[AxisState; 2],
-    ) -> Result<[Jump; 2], Unsolvable> {
+    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> Result<(), Unsolvable> {
         if (models, tuning) == (&self.models, &self.tuning) {
-            return Ok([Jump::default(); 2]);
+            return Ok(());
         }
-        let before = *self;
-        *self = Optimal { slow: self.slow, fast: self.fast, ..Optimal::new(models, tuning)? };
-        let at_rest = |law: &Optimal| Optimal { slow: [0.0; 2], fast: [0.0; 2], ..*law };
-        let less = |before: &Optimal, after: &Optimal, k: usize, state: &AxisState| {
-            before.control(k, state).dropped_force - after.control(k, state).dropped_force
-        };
-        Ok([0, 1].map(|k: usize| Jump {
-            force: less(&before, self, k, &states[k]),
-            slope: less(&at_rest(&before), &at_rest(self), k, &states[k].coasting()),
-        }))
+        let Optimal { models, gains, tuning, .. } = Optimal::new(models, tuning)?;
+        if self.moves {
+            for (glide, (before, after)) in self.glides.iter_mut().zip(self.gains.iter().zip(&gains)) {
+                glide.add(&(gliding_gains(before) - gliding_gains(after)));
+            }
+        }
+        *self = Optimal { models, gains, tuning, ..*self };
+        Ok(())
     }
 
     /// Decision for a step of `step` seconds that begins in these states, with these
     /// references at its end.
     pub fn decide(&mut self, states: &[AxisState; 2], references: [f64; 2], step: f64) -> [Decision; 2] {
         let fraction = 1.0 - libm::exp(-step / self.tuning.split_time);
-        [0, 1].map(|k: usize| {
+        let decisions = [0, 1].map(|k: usize| {
+            self.glides[k].advance(step);
             self.slow[k] = at_rest_if_tiny(self.slow[k] + fraction * (references[k] - self.slow[k]));
             self.fast[k] = references[k] - self.slow[k];
             self.control(k, &states[k])
-        })
+        });
+        self.moves = decisions != [Decision::default(); 2];
+        decisions
     }
 
     /// The decision in this state of an axis.
     fn control(&self, axis: usize, state: &AxisState) -> Decision {
         let AxisState { position, velocity, tilt, tilt_rate, .. } = *state;
         let state = State::new(position, velocity, tilt, tilt_rate, self.slow[axis], self.fast[axis]);
-        let [dropped_force, tilt_acceleration] = self.regulators[axis].control(&state);
+        let (gains, glide) = (&self.gains[axis], &self.glides[axis]);
+        let [dropped_force, tilt_acceleration] =
+            if glide.is_over() { control(gains, &state) } else { control(&gains_in_force(gains, glide), &state) };
         Decision { dropped_force, tilt_acceleration }
     }
+}
+
+/// Gains as they glide.
+fn gliding_gains(gains: &Gains) -> SVector<f64, GAIN_COUNT> {
+    let gliding = gains.map_with_location(|row, _, gain| compressed(gain, EVEN_GAINS[row]));
+    SVector::from_column_slice(gliding.as_slice())
+}
+
+/// The gains in force on the way to these.
+#[cold]
+fn gains_in_force(gains: &Gains, glide: &GlidingOffset<GAIN_COUNT>) -> Gains {
+    let gliding = gliding_gains(gains) + glide.values();
+    Gains::from_column_slice(gliding.as_slice()).map_with_location(|row, _, gain| expanded(gain, EVEN_GAINS[row]))
 }
 
 #[cfg(test)]
@@ -197,26 +220,45 @@ mod tests {
     fn retuning_keeps_the_slow_part_and_without_a_regulator_everything() {
         let mut optimal = after(6, [1.5, -0.7]);
         let before = optimal;
-        let states = [AxisState { position: 0.1, velocity: 0.2, tilt: 0.05, ..AxisState::default() }; 2];
-        optimal.retune(&[MODEL; 2], &tuning(), &states).unwrap();
+        optimal.retune(&[MODEL; 2], &tuning()).unwrap();
         assert_eq!(optimal, before);
         let other = Tuning { weights: Weights { position: 2.0, ..tuning().weights }, ..tuning() };
-        let jumps = optimal.retune(&[MODEL; 2], &other, &states).unwrap();
-        let made = Optimal::new(&[MODEL; 2], &other).unwrap();
-        assert_eq!(optimal, Optimal { slow: before.slow, fast: before.fast, ..made });
-        for k in 0..2 {
-            let state = State::new(0.1, 0.2, 0.05, 0.0, before.slow[k], before.fast[k]);
-            let [old, new] = [&before, &made].map(|law| law.regulators[k].control(&state)[0]);
-            let found = jumps[k].force;
-            assert!((found - (old - new)).abs() < 1e-12 && found.abs() > 1e-3, "{found}");
-            let gain = |law: &Optimal| law.regulators[k].gains[(0, 0)];
-            assert!((jumps[k].slope - 0.2 * (gain(&made) - gain(&before))).abs() < 1e-12, "{jumps:?}");
-        }
+        optimal.retune(&[MODEL; 2], &other).unwrap();
+        assert_eq!(optimal.slow, before.slow);
         assert_ne!(optimal.slow, [0.0; 2]);
         let kept = optimal;
         let unusable = Weights { position: f64::NAN, ..other.weights };
-        let refused = optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other }, &states);
+        let refused = optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other });
         assert_eq!(refused, Err(Unsolvable::RiccatiEquation));
         assert_eq!(optimal, kept);
+    }
+
+    #[test]
+    fn in_motion_the_gains_glide_from_the_old_to_the_new_and_at_rest_they_do_not() {
+        let other = Tuning { weights: Weights { position: 200.0, ..tuning().weights }, ..tuning() };
+        let made = Optimal::new(&[MODEL; 2], &other).unwrap();
+        let mut resting = after(6, [0.0; 2]);
+        resting.retune(&[MODEL; 2], &other).unwrap();
+        assert_eq!(resting, made);
+
+        let mut moving = after(6, [1.5, -0.7]);
+        let state = AxisState { position: 0.1, velocity: 0.2, tilt: 0.05, ..AxisState::default() };
+        let before = moving.control(0, &state);
+        moving.retune(&[MODEL; 2], &other).unwrap();
+        let difference = |a: Decision, b: Decision| {
+            (a.dropped_force - b.dropped_force).abs() + (a.tilt_acceleration - b.tilt_acceleration).abs()
+        };
+        assert!(difference(moving.control(0, &state), before) < 1e-9);
+        let farthest = difference(Optimal { slow: moving.slow, fast: moving.fast, ..made }.control(0, &state), before);
+        assert!(farthest > 1.0, "{farthest}");
+        let mut last = before;
+        for _ in 0..600 {
+            moving.decide(&[state; 2], [1.5, -0.7], STEP);
+            let now = moving.control(0, &state);
+            assert!(difference(now, last) < 0.05 * farthest, "{now:?} after {last:?}");
+            last = now;
+        }
+        let all = Optimal { slow: moving.slow, fast: moving.fast, ..made }.control(0, &state);
+        assert!(difference(last, all) < 1e-3 * farthest, "{last:?} beside {all:?}");
     }
 }

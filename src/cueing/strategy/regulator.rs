@@ -127,11 +127,11 @@ impl Regulator {
     pub fn new(model: &AxisModel, weights: &Weights) -> Result<Self, Unsolvable> {
         Problem::new(model, weights).regulator(&SMatrix::zeros())
     }
+}
 
-    /// Dropped force \[m/s2\] and tilt acceleration \[rad/s2\] in a state.
-    pub fn control(&self, state: &State) -> [f64; 2] {
-        (-(self.gains * state)).into()
-    }
+/// Dropped force \[m/s2\] and tilt acceleration \[rad/s2\] in a state.
+pub fn control(gains: &Gains, state: &State) -> [f64; 2] {
+    (-(gains * state)).into()
 }
 
 /// x' = A x + B u: a = slow + fast - g q + e + H alpha, where the parts of the reference fade.

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::law::{AxisState, Decision, Jump, Law, LawInput, Unsolvable};
+use super::law::{Decision, Law, LawInput, Unsolvable};
 use super::minimax::Disturbance;
 use super::optimal::{Optimal, Tuning};
 use super::regulator::{AxisModel, Weights};
@@ -21,13 +21,8 @@ impl Law for Robust {
         Optimal::new(models, &(&parameters.robust).into()).map(Robust)
     }
 
-    fn set_parameters(
-        &mut self,
-        models: &[AxisModel; 2],
-        parameters: &Parameters,
-        states: &[AxisState; 2],
-    ) -> Result<[Jump; 2], Unsolvable> {
-        self.0.retune(models, &(&parameters.robust).into(), states)
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        self.0.retune(models, &(&parameters.robust).into())
     }
 
     fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {

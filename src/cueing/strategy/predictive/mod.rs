@@ -34,7 +34,7 @@ use self::preview::{PreviewedCue, TIME_ROUNDING};
 use self::program::{
     AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, PlanLimits, PlanRows, Programs, ROWS, TILT_RAMP_TIME,
 };
-use super::law::{AxisState, Decision, Jump, Law, LawInput, PlanStatus, Previewing, Unsolvable};
+use super::law::{AxisState, Decision, Law, LawInput, PlanStatus, Previewing, Unsolvable};
 use super::regulator::{AxisModel, Weights};
 use crate::filter::bumpless::{GlidingOffset, glide_by_logarithms};
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
@@ -125,14 +125,9 @@ impl Law for Box<Predictive> {
         Predictive::new(models, &(&parameters.predictive).into()).map(Box::new)
     }
 
-    fn set_parameters(
-        &mut self,
-        models: &[AxisModel; 2],
-        parameters: &Parameters,
-        _states: &[AxisState; 2],
-    ) -> Result<[Jump; 2], Unsolvable> {
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
         // The dropped forces go on from where they are.
-        self.retune(models, &(&parameters.predictive).into()).map(|()| [Jump::default(); 2])
+        self.retune(models, &(&parameters.predictive).into())
     }
 
     fn decisions(&mut self, law_input: &LawInput, step: f64) -> Option<[Decision; 2]> {
