@@ -69,8 +69,8 @@ impl<const N: usize> GlidingOffset<N> {
     }
 }
 
-/// A gain of either sign as it glides: by its ratio where it is large, and evenly below `scale`.
-/// From weak feedback to strong, each fraction of the way has its own pace of return.
+/// A gain of either sign as it glides: by its ratio where it is large, and evenly below `scale`. A
+/// weak feedback thus becomes a strong one through all paces of return between them.
 pub fn compressed(gain: f64, scale: f64) -> f64 {
     libm::asinh(gain / scale)
 }
