@@ -227,6 +227,21 @@ fn an_error_while_sending_costs_a_frame_and_fails_the_session() {
 }
 
 #[test]
+fn a_sender_that_fails_on_and_on_ends_after_its_tenth_error() {
+    let (mut ring, messages) = RingBuffer::new(16);
+    let (orders, _) = RingBuffer::new(4);
+    for _ in 0..15 {
+        let values = Values::default();
+        ring.push(Sending { message: Message::Start, values, arrival: None, made: loop_clock::now() }).unwrap();
+    }
+    let (sink, shared) = (Sink::Panicking(std::cell::Cell::new(1000)), Shared::default());
+    let actuators = Actuators { speed: 1.0, acceleration: 15.0, stroke: [1.0, 1.6] };
+    let sent = Sender::new(messages, csv(), sink, orders, (0.01, actuators), &shared).run();
+    assert!(shared.failed.has(Part::Frames));
+    assert_eq!((sent.sent, ring.slots()), (0, 1 + 10), "messages left in the ring");
+}
+
+#[test]
 fn a_controller_that_is_gone_is_reported_once() {
     let gone = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let sink = Sink::open(&format!("udp:{gone}")).unwrap();
