@@ -115,3 +115,14 @@ def test_the_python_package_as_tested_takes_each_library_as_the_tests_in_rust_ha
     assert len(package) > 100
     anew = {one for one in package - everything if not one.startswith("moris-python ")}
     assert not anew, "add these features to tests/fmu-tests/Cargo.toml"
+
+
+def test_packages_with_unsafe_code_keep_debug_assertions():
+    """They check what `unsafe` code promises. The functions that a macro exports are compiled where it is called."""
+    profiles = tomllib.loads((ROOT / "Cargo.toml").read_text())["profile"]["dev"]["package"]
+    kept = {short(name) for name, profile in profiles.items() if profile.get("debug-assertions")}
+    folders = {name: ROOT / folder for name, (folder, _) in packages().items() if folder != "./"}
+    files = {name: [*folder.glob("**/*.rs")] for name, folder in folders.items()}
+    unsafe = re.compile(r"\bunsafe (\{|extern|fn|impl)|export_fmi[23]!")
+    needed = {name for name in files if any(unsafe.search(file.read_text()) for file in files[name])}
+    assert {"fmi", "fmu-host", "board"} <= needed <= kept, f"{needed - kept}: debug-assertions = true in Cargo.toml's profile"

@@ -33,7 +33,7 @@ impl TextTable {
 
     /// Adds a row, which has as many cells as the header.
     pub fn push(&mut self, row: Vec<String>) {
-        debug_assert_eq!(row.len(), self.rows[0].len());
+        assert_eq!(row.len(), self.rows[0].len());
         self.rows.push(row);
     }
 
